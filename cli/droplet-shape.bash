@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Completion of droplet-shape for bash.
+
+_droplet_shape()
+{
+    local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}
+    # bash takes the '=' of --option=value for a word of its own.
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $previous == = ]]; then
+        previous=${COMP_WORDS[COMP_CWORD-2]}
+    fi
+
+    local choices=
+    case $previous in
+        --channel) choices='auto alpha luma' ;;
+        --fill) choices='each total' ;;
+        --liquid) choices='water ethanol glycerol mercury honey' ;;
+        --material) choices='water ink mercury honey plain' ;;
+        --format) choices='glb gltf obj ply stl' ;;
+        --progress) choices='auto none json' ;;
+        --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
+            --surface-tension | --density | --gravity | --triangles | --edge | --threads | -j)
+            COMPREPLY=()
+            return
+            ;;
+        --json | --config) ;;
+        *)
+            if [[ $word == -* ]]; then
+                choices='--width --pixel-size --channel --threshold --invert --speck-size
+                    --contact-angle --volume --height --fill
+                    --liquid --surface-tension --density --gravity
+                    --triangles --edge --open --material --format
+                    --json --no-clobber --threads --quiet --verbose --progress --config --help --version'
+            fi
+            ;;
+    esac
+    if [[ -n $choices ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")
+    else
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+    fi
+}
+complete -o filenames -F _droplet_shape droplet-shape

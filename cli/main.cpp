@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "droplet/error.h"
+#include "shape_command.h"
+#include "terminal.h"
+
+namespace {
+
+/// The exit codes of the manual page.
+enum class ExitCode { InternalError = 1, Usage = 2, BadInput = 3, BadOutput = 4, NoSuchDroplet = 5 };
+
+ExitCode exitCodeOf(droplet::ErrorCode code)
+{
+    switch (code) {
+        case droplet::ErrorCode::InvalidArgument:
+            return ExitCode::Usage;
+        case droplet::ErrorCode::InvalidInput:
+            return ExitCode::BadInput;
+        case droplet::ErrorCode::OutputFailed:
+            return ExitCode::BadOutput;
+        case droplet::ErrorCode::NoSuchDroplet:
+            return ExitCode::NoSuchDroplet;
+    }
+    return ExitCode::InternalError;
+}
+
+int fail(std::string_view message, ExitCode code)
+{
+    std::cerr << cli::paint("droplet-shape: ", cli::Colour::Red) << cli::oneLine(message) << std::endl;
+    return static_cast<int>(code);
+}
+
+/// Takes the numbers of closed standard streams, so that no file of ours gets them and the words meant for them: for
+/// reading where one writes and for writing where one reads, so that using them still fails.
+void occupyStandardStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) == -1) {
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    // A reader that went away is then a failed write like any other, found and named where it happens.
+    std::signal(SIGPIPE, SIG_IGN);
+    occupyStandardStreams();
+    try {
+        return cli::runShape(argc, argv);
+    } catch (const droplet::Error& error) {
+        return fail(error.what(), exitCodeOf(error.code()));
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory; fewer --triangles or a smaller picture need less", ExitCode::InternalError);
+    } catch (const std::exception& error) {
+        return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
+    }
+}

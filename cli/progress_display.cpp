@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "progress_display.h"
+
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <system_error>
+
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+constexpr std::chrono::seconds kPatience{1};        // a run shorter than this needs no bar
+constexpr std::chrono::milliseconds kRefresh{100};  // as fast as a tenth of a second can be read
+constexpr std::size_t kStages = static_cast<std::size_t>(droplet::Stage::Write) + 1;
+constexpr std::size_t kCellsPerStage = 4;
+constexpr const char* kEraseLine = "\r\033[K";
+
+std::string seconds(double value, int decimals)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+std::string bar(droplet::Stage stage, double elapsed)
+{
+    const std::size_t full = kCellsPerStage * static_cast<std::size_t>(stage);
+    const std::size_t cells = kCellsPerStage * kStages;
+    return "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " + name(stage) + " " +
+           seconds(elapsed, 1) + " s";
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(ProgressMode mode) : mode_(mode)
+{
+    if (mode_ == ProgressMode::Auto && errorIsTerminal()) {
+        try {
+            drawer_ = std::thread([this] { drawUntilStopped(); });
+        } catch (const std::system_error&) {
+            // No thread to be had: the job is worth more than its bar.
+        }
+    }
+}
+
+ProgressDisplay::~ProgressDisplay()
+{
+    stop();
+}
+
+void ProgressDisplay::begin(droplet::Stage stage)
+{
+    const std::lock_guard lock(mutex_);
+    // Stages may take turns, droplet by droplet; what is told only moves forward.
+    if (stage_ && stage <= *stage_) {
+        return;
+    }
+    stage_ = stage;
+    if (mode_ == ProgressMode::Json) {
+        writeLine(stage, false);
+    }
+}
+
+void ProgressDisplay::finish()
+{
+    stop();
+    if (mode_ == ProgressMode::Json && stage_) {
+        writeLine(*stage_, true);
+    }
+}
+
+double ProgressDisplay::elapsed() const
+{
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
+{
+    std::cerr << R"({"stage":")" << name(stage) << R"(","done":)" << (done ? "true" : "false") << R"(,"elapsed_s":)"
+              << seconds(elapsed(), 3) << "}" << std::endl;
+}
+
+void ProgressDisplay::drawUntilStopped()
+{
+    std::unique_lock lock(mutex_);
+    bool drawn = false;
+    for (auto next = start_ + kPatience; !stopping_.wait_until(lock, next, [this] { return stopped_; });
+         next = Clock::now() + kRefresh) {
+        if (stage_) {
+            std::cerr << kEraseLine << bar(*stage_, elapsed()) << std::flush;
+            drawn = true;
+        }
+    }
+    if (drawn) {
+        std::cerr << kEraseLine << std::flush;
+    }
+}
+
+void ProgressDisplay::stop()
+{
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+    }
+    stopping_.notify_all();
+    if (drawer_.joinable()) {
+        drawer_.join();
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace cli {
+namespace {
+
+std::string_view environment(const char* variable)
+{
+    const char* const value = std::getenv(variable);
+    return value == nullptr ? std::string_view{} : std::string_view{value};
+}
+
+}  // namespace
+
+bool errorIsTerminal()
+{
+    return isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb";
+}
+
+std::string paint(std::string_view text, Colour colour)
+{
+    std::string plain(text);
+    if (!errorIsTerminal() || !environment("NO_COLOR").empty()) {
+        return plain;
+    }
+    const char* const code = colour == Colour::Red ? "31" : colour == Colour::Yellow ? "33" : "1";
+    return std::string("\033[") + code + "m" + plain + "\033[0m";
+}
+
+std::string oneLine(std::string_view text)
+{
+    std::string line;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        line += byte < 0x20 || byte == 0x7f ? '?' : c;
+    }
+    return line;
+}
+
+}  // namespace cli

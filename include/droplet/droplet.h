@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/domain.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/footprint/outline.h"
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/mesh/triangulate.h"
+#include "droplet/progress.h"
+#include "droplet/shape/figures.h"
+#include "droplet/shape/solve.h"
+#include "droplet/surface/loft.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Every stage's options on the way from a mask to a surface.
+struct DropletOptions {
+    TraceOptions trace;
+    TriangulateOptions mesh;
+    SolveOptions solve;
+    bool open = false;  ///< leave out the base
+};
+
+/// Everything the river carried, stage by stage.
+struct Droplet {
+    Outline outline;
+    Domain domain;
+    std::vector<PlanarMesh> meshes;     ///< one per droplet
+    Solution solution;
+    std::vector<ShapeFigures> figures;  ///< one per droplet
+    ShapeFigures total;
+    Surface surface;
+    std::vector<std::string> warnings;  ///< one line each; empty when all is well
+};
+
+/// The river in one call: trace, split, triangulate, solve, measure, loft.
+/// @param mask      valid
+/// @param options   of every stage
+/// @param progress  told of every stage; may be empty
+/// @throws Error    InvalidInput: no liquid; InvalidArgument: options; NoSuchDroplet: the solver failed
+Droplet makeDroplet(const Mask& mask, const DropletOptions& options = {}, const Progress& progress = {});
+
+}  // namespace droplet

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace droplet {
+
+/// Which part of an image's pixels says where the liquid is.
+enum class Channel {
+    Auto,   ///< alpha if the image uses it, else luma against the colour of the image's border
+    Alpha,  ///< opaque is liquid, as it stands: no stretching of levels
+    Luma,   ///< bright is liquid, as it stands: no look at the border, no stretching of levels
+};
+
+/// How the pixels of an image become coverage by liquid.
+struct MaskOptions {
+    Channel channel = Channel::Auto;
+    bool invert = false;                            ///< exchange liquid and dry, after all other decisions
+    std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
+};
+
+/// How much of every pixel liquid covers, and how that was decided.
+/// Invariant: `coverage.size() == width * height`, width and height ≥ 1.
+struct Mask {
+    int width = 0;                        ///< [px]
+    int height = 0;                       ///< [px]
+    std::vector<std::uint16_t> coverage;  ///< row by row from the top left; 0 dry, 65535 liquid
+
+    Channel channel = Channel::Luma;  ///< the channel that was used; never Auto
+    bool inverted = false;            ///< true if dark (or transparent) pixels are the liquid
+    double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
+    double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
+
+    [[nodiscard]] std::uint16_t at(int x, int y) const
+    {
+        return coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+
+    /// Guarantees: returns only when the invariant holds.
+    /// @throws Error InvalidInput
+    void validate() const;
+};
+
+/// Reads a mask from an encoded image: PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM; 1 to 16 bits;
+/// grey, palette, RGB, CMYK, with or without alpha; turned upright if its EXIF data say so.
+///
+/// The size in the file's header is checked before any pixel is decoded or memory for it taken. Levels are those
+/// stored: 8-bit v is 257 v of 65535, luma is ITU-R BT.601 of the image in front of black, so that transparent
+/// pixels are dark.
+///
+/// With Channel::Auto, an image with at least one pixel less than half opaque is read by its alpha, liquid being
+/// its most opaque level if that is a quarter or more, else full opacity. Any other is read by luma, dry being the
+/// level of the border (its median) and liquid the level farthest from it that is not a stray: more than 1 % of
+/// all pixels clear of dry lie at it or up to an eighth nearer to dry. Clear of dry means apart by a quarter of the
+/// range; if no pixel is, levels stay unstretched and no coverage reaches half. Levels on the other side of dry
+/// are dry. An image of one level is all liquid if brighter than half, all dry otherwise.
+/// @param encoded  the file's bytes
+/// @param options  which channel, whether to invert, largest size
+/// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, no alpha where alpha was asked
+Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
+
+/// Reads a mask from a file, as decodeMask does.
+/// @throws Error InvalidInput: missing, unreadable, a directory, empty, or as decodeMask
+Mask readMask(const std::filesystem::path& path, const MaskOptions& options = {});
+
+}  // namespace droplet

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <string_view>
+
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// How a droplet looks in a viewer.
+enum class Material { Water, Ink, Mercury, Honey, Plain };
+
+/// The material of that name: water, ink, mercury, honey, plain.
+/// @throws Error InvalidArgument
+Material materialNamed(std::string_view name);
+
+/// What a glTF file holds beside the surface.
+struct GltfOptions {
+    bool binary = true;  ///< GLB; otherwise JSON with the buffer embedded as base64
+    Material material = Material::Water;
+    bool closed = true;  ///< an open surface gets no volume: viewers would refract at a missing base
+};
+
+/// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
+/// and TEXCOORD_0, 32-bit indices where needed. No extension is required to show it; transmission, ior and volume
+/// are used where known. Colour by depth is given at the mean height; an open surface has it as plain tint.
+///
+/// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
+/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or the file would reach 2 GiB
+void writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
+
+}  // namespace droplet

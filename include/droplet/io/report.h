@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/mask.h"
+#include "droplet/io/output.h"
+#include "droplet/progress.h"
+#include "droplet/shape/figures.h"
+#include "droplet/shape/solve.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet
+{
+
+/// How many stages the river has.
+inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Write) + 1;
+
+/// The picture and how it was read.
+struct InputReport {
+    std::string path;  ///< as given
+    int width_px = 0;
+    int height_px = 0;
+    double pixel_size = 0.0;  ///< [m]
+    Channel channel = Channel::Luma;
+    bool inverted = false;
+    double threshold = 0.5;
+    double level_dry = 0.0;     ///< as in Mask
+    double level_liquid = 1.0;  ///< as in Mask
+    bool anti_aliased = false;
+    std::size_t specks_dropped = 0;
+    double largest_speck_px = 0.0;  ///< [px²]
+};
+
+/// The file that was written.
+struct OutputReport {
+    std::string path;  ///< as given
+    Format format = Format::Glb;
+    std::uint64_t bytes = 0;
+    std::size_t vertices = 0;  ///< as the format counts them: distinct places, or more where normals need copies
+    std::size_t triangles = 0;
+    Topology topology;
+};
+
+/// The footprint's triangulation, all droplets together.
+struct MeshReport {
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    double min_angle = 0.0;  ///< [rad]
+    std::size_t holes = 0;
+};
+
+/// One droplet of the table.
+struct DropletReport {
+    ShapeFigures figures;
+    std::size_t holes = 0;
+    double pressure = 0.0;  ///< [Pa]
+};
+
+/// What a run did and what came of it, in SI units and radians.
+struct Report {
+    InputReport input;
+    OutputReport output;
+    SolveOptions physics;
+    SolveReport solve;
+    MeshReport mesh;
+    ShapeFigures total;
+    std::optional<double> pressure;       ///< [Pa]; empty when droplets have pressures of their own
+    std::vector<DropletReport> droplets;  ///< in the order of the meshes
+    std::vector<std::string> warnings;
+    std::array<double, kStageCount> time{};  ///< indexed by Stage [s]
+    double time_total = 0.0;                 ///< [s]
+    std::uint64_t peak_memory = 0;           ///< [bytes]
+};
+
+/// Writes a report as JSON, schema `droplet-shape.report/1`: every key always present, in a fixed order, numbers with
+/// all their digits, angles in degrees, the rest in SI units. Bytes of a path that are not UTF-8 become U+FFFD.
+///
+/// The stream is left failed if it did not take everything.
+/// @throws Error NoSuchDroplet if a number is not finite, naming its key; nothing is written then
+void writeReport(std::ostream& out, const Report& report);
+
+}  // namespace droplet

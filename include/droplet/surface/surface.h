@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// The droplets' surface in space, ready to be written.
+///
+/// Invariants: arrays of vertices have one length; triangles wind outward; normals have unit length. Where a crisp
+/// edge needs two normals (the rim), the position stands twice and `weld` maps both copies to the first.
+struct Surface {
+    std::vector<Vec3> positions;  ///< [m], z up, base at z = 0
+    std::vector<Vec3> normals;    ///< unit, outward
+    std::vector<Vec2> uvs;        ///< mask coordinates: (0,0) top left of the image, (1,1) bottom right
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> weld;  ///< smallest index of a vertex at the same place; weld[i] ≤ i
+    double mean_height = 0.0;         ///< volume over footprint area [m], ≥ 0
+
+    /// Guarantees: returns only when the invariants hold that can be checked without topology: there is a triangle,
+    /// the arrays fit together, indices are in range, numbers finite, normals unit to 1e-6, welded copies at one place.
+    /// @throws Error InvalidArgument
+    void validate() const;
+};
+
+/// What a surface is, topologically, with copies of a vertex welded. Only a manifold is counted: otherwise all is 0.
+struct Topology {
+    bool manifold = false;  ///< every edge in at most two triangles, consistently wound, every vertex one fan
+    bool closed = false;    ///< manifold and no boundary edge
+    long euler = 0;         ///< V − E + F over all components
+    std::size_t components = 0;
+    std::size_t boundary_loops = 0;
+};
+
+/// Examines a surface with half-edges.
+/// @throws Error InvalidArgument for an invalid surface
+Topology topology(const Surface& surface);
+
+/// Whether a surface is a manifold without boundary: topology(surface).closed, at a tenth of the work.
+/// @throws Error InvalidArgument for an invalid surface
+bool isClosed(const Surface& surface);
+
+/// Volume enclosed by a closed surface, by the divergence theorem on z [m³]; of an open one, the volume between it and
+/// z = 0, where a base at z = 0 adds nothing.
+double enclosedVolume(const Surface& surface);
+
+}  // namespace droplet

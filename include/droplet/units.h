@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace droplet
+{
+
+/// The physical kinds a written quantity can have.
+enum class Dimension { Length, Volume, Angle, SurfaceTension, Density, Acceleration };
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  ///< [rad]
+inline constexpr double kMillimetre = 1e-3;                  ///< [m]
+inline constexpr double kMicrolitre = 1e-9;                  ///< [m³]
+
+/// Reads a quantity written with its unit, such as `30uL`, `4 mm`, `45deg`, `72.8mN/m`.
+///
+/// A bare number is refused: which unit was meant would be a guess.
+/// @param text       number directly followed by, or one space before, a unit; the number must be finite
+/// @param dimension  which units are admitted: Length nm um mm cm m in; Volume nL uL mL L mm3 cm3 m3;
+///                   Angle deg rad; SurfaceTension mN/m N/m dyn/cm; Density kg/m3 g/cm3 g/mL;
+///                   Acceleration m/s2 mm/s2 g (kStandardGravity). `µ` is read as `u`, `³`/`²` as `3`/`2`,
+///                   `°` as `deg`.
+/// @return           the value in SI units (m, m³, rad, N/m, kg/m³, m/s²), finite
+/// @throws Error     InvalidArgument, naming the text, the admitted units and an example
+double parseQuantity(std::string_view text, Dimension dimension);
+
+/// The units admitted for a dimension, as people read them: `nL, uL, mL, L, mm3, cm3 or m3`.
+std::string unitsOf(Dimension dimension);
+
+}  // namespace droplet

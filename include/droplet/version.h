@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace droplet {
+
+inline constexpr const char* kVersion = "0.1.0";
+
+}  // namespace droplet

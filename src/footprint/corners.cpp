@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Corners of a traced rim. P. Selinger, "Potrace: a polygon-based tracing algorithm" (2003), section 2.3, decides by
+// how far a corner stands out from the smooth curve; here both sides are extended and the corner is kept if it turns
+// enough and separates the same pixel centres as the mask.
+
+#include "footprint/corners.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace droplet
+{
+namespace
+{
+
+/// A turn is compared between chords of this length either side, this far from the turn [px]. The fairing rounds a
+/// corner over about ±1 px; much longer chords would take the next corner of a 3 px stroke for this one.
+constexpr double kChord = 3.0;
+constexpr double kGap = 1.0;
+
+/// Least turn between the chords for a corner to be tried. A circle turns by (kChord + 2 kGap)/R between them, so radii
+/// above 8 px are never tried.
+constexpr double kTryTurn = 35.0 * std::numbers::pi / 180.0;
+
+/// Least turn between the extended sides for a corner to be kept. In a hard mask small discs are octagons, which turn
+/// by up to 53° at their corners; grey levels tell the two apart.
+constexpr double kKeepTurn = 25.0 * std::numbers::pi / 180.0;
+constexpr double kKeepTurnHard = 56.0 * std::numbers::pi / 180.0;
+
+/// Most turn at a corner: a sharper tip than 20° is narrower than a pixel for longer than a side.
+constexpr double kMostTurn = 160.0 * std::numbers::pi / 180.0;
+
+/// A side is extended along the line through its last stretch of this length [px].
+constexpr double kSide = 3.5;
+
+/// The farthest a corner may stand from the ends of its sides [px]: the tip of an angle of 30° whose last liquid
+/// pixel centre is as far back as it can be, (1/2)/sin 15°, and a pixel of gap.
+constexpr double kReach = 3.0;
+
+/// Walks along the loop from a slot, forward or backward.
+class Walker
+{
+public:
+    Walker(const SlotLoop& loop, std::size_t start, bool forward) : loop_(loop), index_(start), forward_(forward) {}
+
+    void step() { index_ = forward_ ? (index_ + 1) % loop_.size() : (index_ + loop_.size() - 1) % loop_.size(); }
+    [[nodiscard]] Vec2 point() const { return loop_[index_].point(); }
+    [[nodiscard]] std::size_t index() const { return index_; }
+
+private:
+    const SlotLoop& loop_;
+    std::size_t index_;
+    bool forward_;
+};
+
+/// The point a given way along the loop from a slot.
+Vec2 pointAlong(const SlotLoop& loop, std::size_t start, bool forward, double way)
+{
+    Walker walker(loop, start, forward);
+    Vec2 here = walker.point();
+    for (std::size_t count = 0; count < loop.size(); ++count) {
+        walker.step();
+        const Vec2 next = walker.point();
+        const double piece = length(next - here);
+        if (piece >= way) {
+            return here + (way / piece) * (next - here);
+        }
+        way -= piece;
+        here = next;
+    }
+    return here;
+}
+
+double angleBetween(Vec2 from, Vec2 to)
+{
+    return std::atan2(cross(from, to), dot(from, to));
+}
+
+/// A straight line; the direction is a unit vector.
+struct Line {
+    Vec2 through;
+    Vec2 direction;
+};
+
+/// The line with least squared distance to some points, directed toward `ahead` from `behind`.
+Line fitLine(const std::vector<Vec2>& points, Vec2 behind, Vec2 ahead)
+{
+    Vec2 mean{};
+    for (const Vec2 p : points) {
+        mean = mean + p;
+    }
+    mean = (1.0 / static_cast<double>(points.size())) * mean;
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (const Vec2 p : points) {
+        const Vec2 d = p - mean;
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    const Vec2 direction{std::cos(angle), std::sin(angle)};
+    return {mean, (dot(direction, ahead - behind) < 0 ? -1.0 : 1.0) * direction};
+}
+
+std::optional<Vec2> meet(const Line& a, const Line& b)
+{
+    const double determinant = cross(a.direction, b.direction);
+    if (std::abs(determinant) < 1e-3) {
+        return std::nullopt;
+    }
+    return a.through + (cross(b.through - a.through, b.direction) / determinant) * a.direction;
+}
+
+/// A side of a corner, as far as it is extended.
+struct Side {
+    Vec2 end;   ///< its last vertex before the corner
+    Line line;  ///< through its last stretch, toward the corner
+};
+
+/// Fits a line to the last stretch of a side, up to the next break.
+Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std::size_t end, bool forward)
+{
+    std::vector<Vec2> points;
+    Walker walker(loop, end, forward);
+    double way = 0.0;
+    while (true) {
+        points.push_back(walker.point());
+        const std::size_t gap = forward ? walker.index() : (walker.index() + loop.size() - 1) % loop.size();
+        if (breaks[gap] != 0 || points.size() >= loop.size()) {
+            break;
+        }
+        walker.step();
+        way += length(walker.point() - points.back());
+        if (way > kSide && points.size() >= 3) {
+            break;
+        }
+    }
+    return {points.front(), fitLine(points, points.back(), points.front())};
+}
+
+/// The line through the chord before or after a turn, with what lies between the chord and the turn left out.
+Line fitChord(const SlotLoop& loop, std::size_t start, bool forward)
+{
+    std::vector<Vec2> points;
+    for (double way = kGap; way <= kGap + kChord; way += 0.5) {
+        points.push_back(pointAlong(loop, start, forward, way));
+    }
+    return fitLine(points, points.back(), points.front());
+}
+
+/// How badly a line fits a slot, at most 1 [px].
+double misfit(const Slot& slot, const Line& line)
+{
+    const double slope = cross(slot.toward, line.direction);
+    if (std::abs(slope) < 1e-3) {
+        return 1.0;
+    }
+    const double t = -cross(slot.liquid - line.through, line.direction) / slope;
+    return std::min(1.0, slot.measured ? std::abs(t - *slot.measured) : std::max({0.0, -t, t - 1.0}));
+}
+
+/// Whether slots between the ends of a turn may give way: all lead into the same dry pixel, or come out of the same
+/// liquid one, which the corner then covers in part.
+std::optional<Vec2> sharedPixel(const SlotLoop& loop, const Turn& turn)
+{
+    const std::size_t n = loop.size();
+    const Slot& first = loop[(turn.first + 1) % n];
+    bool same_liquid = true;
+    bool same_dry = true;
+    for (std::size_t i = (turn.first + 1) % n; i != turn.last; i = (i + 1) % n) {
+        same_liquid = same_liquid && loop[i].liquid == first.liquid;
+        same_dry = same_dry && loop[i].liquid + loop[i].toward == first.liquid + first.toward;
+    }
+    if (same_dry) {
+        return first.liquid + first.toward;
+    }
+    return same_liquid ? std::optional(first.liquid) : std::nullopt;
+}
+
+/// The turn near a gap at which the slots change best from the line before it to the line after it.
+Turn locate(const SlotLoop& loop, std::size_t near)
+{
+    const std::size_t n = loop.size();
+    const Turn fallback{near, (near + 1) % n};
+    const Line before = fitChord(loop, near, false);
+    const Line after = fitChord(loop, (near + 1) % n, true);
+    const std::optional<Vec2> tip = meet(before, after);
+    constexpr std::size_t kSlots = 5;  // 3 to 4 px: further off, the chords themselves lie
+    if (!tip || n < 4 * kSlots) {
+        return fallback;
+    }
+    // Costs of the first k slots of the window on the line before, and of the rest on the line after.
+    std::array<double, 2 * kSlots + 1> on_before{};
+    std::array<double, 2 * kSlots + 1> on_after{};
+    const auto slotAt = [&](std::size_t j) { return (near + n + j + 1 - kSlots) % n; };
+    for (std::size_t j = 0; j < 2 * kSlots; ++j) {
+        on_before[j + 1] = on_before[j] + misfit(loop[slotAt(j)], before);
+        on_after[j + 1] = on_after[j] + misfit(loop[slotAt(j)], after);
+    }
+    Turn best = fallback;
+    double best_cost = std::numeric_limits<double>::infinity();
+    // Giving up a slot must be worth more than a poor fit in it.
+    constexpr double kDropCost = 0.25;
+    constexpr std::size_t kMostDropped = 2;
+    for (std::size_t first = 0; first + 1 < 2 * kSlots; ++first) {
+        for (std::size_t dropped = 0; dropped <= kMostDropped && first + dropped + 1 < 2 * kSlots; ++dropped) {
+            const Turn turn{slotAt(first), slotAt(first + dropped + 1)};
+            if (dropped > 0 && (!loop[slotAt(first + 1)].measured || !sharedPixel(loop, turn))) {
+                continue;
+            }
+            const Vec2 middle = 0.5 * (loop[turn.first].point() + loop[turn.last].point());
+            // Among equals, the turn nearest to where the lines meet.
+            const double cost = on_before[first + 1] + on_after[2 * kSlots] - on_after[first + dropped + 1] +
+                                kDropCost * static_cast<double>(dropped) + 0.05 * length(middle - *tip);
+            if (cost < best_cost) {
+                best_cost = cost;
+                best = turn;
+            }
+        }
+    }
+    return best;
+}
+
+bool contains(Vec2 a, Vec2 b, Vec2 c, Vec2 p)
+{
+    const double u = cross(b - a, p - a);
+    const double v = cross(c - b, p - b);
+    const double w = cross(a - c, p - c);
+    return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+/// Whether cutting a corner at the tip would put a pixel centre, other than the excepted one, on the other side.
+bool coversPixelCentre(Vec2 a, Vec2 tip, Vec2 b, const std::optional<Vec2>& excepted)
+{
+    const int left = static_cast<int>(std::floor(std::min({a.x, tip.x, b.x}) - 0.5));
+    const int right = static_cast<int>(std::ceil(std::max({a.x, tip.x, b.x}) - 0.5));
+    const int top = static_cast<int>(std::floor(std::min({a.y, tip.y, b.y}) - 0.5));
+    const int bottom = static_cast<int>(std::ceil(std::max({a.y, tip.y, b.y}) - 0.5));
+    for (int y = top; y <= bottom; ++y) {
+        for (int x = left; x <= right; ++x) {
+            const Vec2 centre{x + 0.5, y + 0.5};
+            if (!(excepted && *excepted == centre) && contains(a, tip, b, centre)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// The square between four pixel centres.
+struct Cell {
+    int x = 0;
+    int y = 0;
+
+    friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+Cell cellOf(Vec2 p) { return {static_cast<int>(std::floor(p.x - 0.5)), static_cast<int>(std::floor(p.y - 0.5))}; }
+
+/// An end of a piece of rim: which one it is counts, for two corners may stand at the same point.
+struct End {
+    Vec2 at;
+    std::size_t loop = 0;
+    std::size_t slot = 0;  ///< the vertex's slot, or the one before a tip
+    bool is_tip = false;
+
+    [[nodiscard]] bool same(const End& other) const
+    {
+        return loop == other.loop && slot == other.slot && is_tip == other.is_tip;
+    }
+};
+
+/// A straight piece of rim.
+struct Piece {
+    End from;
+    End to;
+};
+
+double distance(Vec2 p, const Piece& piece)
+{
+    const Vec2 along = piece.to.at - piece.from.at;
+    const double squared = dot(along, along);
+    const double t = squared > 0 ? std::clamp(dot(p - piece.from.at, along) / squared, 0.0, 1.0) : 0.0;
+    return length(p - (piece.from.at + t * along));
+}
+
+/// Whether two pieces cross or come nearer than round-off, other than by a common end.
+bool touch(const Piece& p, const Piece& q)
+{
+    if (p.from.same(q.from) || p.from.same(q.to) || p.to.same(q.from) || p.to.same(q.to)) {
+        return false;
+    }
+    constexpr double kNear = 1e-3;  // px; slots' vertices keep kSlotMargin from one another
+    const Vec2 u = p.to.at - p.from.at;
+    const Vec2 v = q.to.at - q.from.at;
+    const bool crossing = cross(u, q.from.at - p.from.at) * cross(u, q.to.at - p.from.at) < 0 &&
+                          cross(v, p.from.at - q.from.at) * cross(v, p.to.at - q.from.at) < 0;
+    return crossing || std::min({distance(p.from.at, q), distance(p.to.at, q), distance(q.from.at, p),
+                                 distance(q.to.at, p)}) < kNear;
+}
+
+/// The two pieces of rim that make a corner between slots.
+std::array<Piece, 2> piecesOf(const SlotLoop& slots, std::size_t loop, const Corner& corner)
+{
+    const End first{slots[corner.turn.first].point(), loop, corner.turn.first, false};
+    const End tip{corner.tip, loop, corner.turn.first, true};
+    const End last{slots[corner.turn.last].point(), loop, corner.turn.last, false};
+    return {Piece{first, tip}, Piece{tip, last}};
+}
+
+bool standsBetween(const Corner& corner) { return !corner.replaces_first && !corner.replaces_last; }
+
+/// All cells a piece can touch.
+std::vector<Cell> cellsAround(const Piece& piece)
+{
+    constexpr double kSlack = 0.01;  // a piece along a cell's border belongs to both sides
+    const Vec2 a = piece.from.at;
+    const Vec2 b = piece.to.at;
+    const Cell low = cellOf({std::min(a.x, b.x) - kSlack, std::min(a.y, b.y) - kSlack});
+    const Cell high = cellOf({std::max(a.x, b.x) + kSlack, std::max(a.y, b.y) + kSlack});
+    std::vector<Cell> cells;
+    for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+            cells.push_back({x, y});
+        }
+    }
+    return cells;
+}
+
+/// The pieces of rim in those cells in which corners stand.
+class PiecesByCell {
+public:
+    explicit PiecesByCell(const std::vector<CorneredLoop>& loops)
+    {
+        for (std::size_t k = 0; k < loops.size(); ++k) {
+            for (const Corner& corner : loops[k].corners) {
+                if (standsBetween(corner)) {
+                    for (const Piece& piece : piecesOf(loops[k].slots, k, corner)) {
+                        for (const Cell& cell : cellsAround(piece)) {
+                            pieces_[cell].push_back(piece);
+                        }
+                    }
+                }
+            }
+        }
+        for (std::size_t k = 0; k < loops.size(); ++k) {
+            addSlotPieces(loops[k], k);
+        }
+    }
+
+    [[nodiscard]] bool touched(const Piece& piece) const
+    {
+        for (const Cell& cell : cellsAround(piece)) {
+            for (const Piece& other : pieces_.at(cell)) {
+                if (touch(piece, other)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    /// Adds the pieces between slots, but those that corners replace, where there are corners to touch.
+    void addSlotPieces(const CorneredLoop& loop, std::size_t id)
+    {
+        const std::size_t n = loop.slots.size();
+        std::vector<std::uint8_t> replaced(n, 0);
+        for (const Corner& corner : loop.corners) {
+            for (std::size_t k = corner.turn.first; standsBetween(corner) && k != corner.turn.last; k = (k + 1) % n) {
+                replaced[k] = 1;
+            }
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t next = (k + 1) % n;
+            const Piece piece{{loop.slots[k].point(), id, k, false}, {loop.slots[next].point(), id, next, false}};
+            const auto there = pieces_.find(cellOf(0.5 * (piece.from.at + piece.to.at)));
+            if (replaced[k] == 0 && there != pieces_.end()) {
+                there->second.push_back(piece);
+            }
+        }
+    }
+
+    std::map<Cell, std::vector<Piece>> pieces_;
+};
+
+}  // namespace
+
+std::vector<Turn> sharpTurns(const SlotLoop& loop)
+{
+    const std::size_t n = loop.size();
+    double perimeter = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        perimeter += length(loop[(i + 1) % n].point() - loop[i].point());
+    }
+    if (perimeter < 4.0 * (kChord + kGap)) {
+        return {};
+    }
+    std::vector<double> sharpness(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = (i + 1) % n;
+        const Vec2 before = pointAlong(loop, i, false, kGap) - pointAlong(loop, i, false, kGap + kChord);
+        const Vec2 after = pointAlong(loop, j, true, kGap + kChord) - pointAlong(loop, j, true, kGap);
+        sharpness[i] = std::abs(angleBetween(before, after));
+    }
+    std::vector<Turn> turns;
+    std::vector<std::uint8_t> taken(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (sharpness[i] < kTryTurn) {
+            continue;
+        }
+        // The sharpest of its neighbourhood; of equals, the first.
+        bool sharpest = true;
+        for (const bool forward : {false, true}) {
+            std::size_t j = i;
+            double way = 0.0;
+            while (sharpest) {
+                const std::size_t next = forward ? (j + 1) % n : (j + n - 1) % n;
+                way += length(loop[next].point() - loop[j].point());
+                if (way > kGap + 1.0 || next == i) {
+                    break;
+                }
+                j = next;
+                sharpest = forward ? sharpness[i] >= sharpness[j] : sharpness[i] > sharpness[j];
+            }
+        }
+        if (!sharpest) {
+            continue;
+        }
+        const Turn turn = locate(loop, i);
+        bool free = true;
+        for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % n) {
+            free = free && taken[k] == 0;
+        }
+        if (free) {
+            for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % n) {
+                taken[k] = 1;
+            }
+            turns.push_back(turn);
+        }
+    }
+    return turns;
+}
+
+std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots)
+{
+    std::vector<std::uint8_t> breaks(slots, 0);
+    for (const Turn& turn : turns) {
+        for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % slots) {
+            breaks[k] = 1;
+        }
+    }
+    return breaks;
+}
+
+std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn)
+{
+    const std::size_t n = loop.size();
+    const Side before = fitSide(loop, breaks, turn.first, false);
+    const Side after = fitSide(loop, breaks, turn.last, true);
+    const std::optional<Vec2> tip = meet(before.line, after.line);
+    const double least_turn = loop[turn.first].measured ? kKeepTurn : kKeepTurnHard;
+    if (!tip) {
+        return std::nullopt;
+    }
+    const double turning = std::abs(angleBetween(before.line.direction, -1.0 * after.line.direction));
+    if (turning < least_turn || turning > kMostTurn) {
+        return std::nullopt;
+    }
+    const bool drops = (turn.first + 1) % n != turn.last;
+    const double ahead_before = dot(*tip - before.end, before.line.direction);
+    const double ahead_after = dot(*tip - after.end, after.line.direction);
+    // A tip at the end of a side is that end; one further behind would fold the rim back.
+    constexpr double kBehind = 0.35;
+    constexpr double kAt = 0.05;
+    if (std::min(ahead_before, ahead_after) < -kBehind || std::max(ahead_before, ahead_after) > kReach) {
+        return std::nullopt;
+    }
+    if (!drops && std::min(ahead_before, ahead_after) < kAt) {
+        const bool first_is_nearer = length(*tip - before.end) <= length(*tip - after.end);
+        return Corner{turn, first_is_nearer ? before.end : after.end, first_is_nearer, !first_is_nearer};
+    }
+    const std::optional<Vec2> pixel = drops ? sharedPixel(loop, turn) : std::nullopt;
+    if (std::min(ahead_before, ahead_after) < kAt || coversPixelCentre(before.end, *tip, after.end, pixel)) {
+        return std::nullopt;
+    }
+    return Corner{turn, *tip, false, false};
+}
+
+void removeTouchingCorners(std::vector<CorneredLoop>& loops)
+{
+    // Taking one back restores the pieces it replaced, which another corner may touch.
+    for (bool changed = true; changed;) {
+        changed = false;
+        const PiecesByCell pieces(loops);
+        for (std::size_t k = 0; k < loops.size(); ++k) {
+            const auto touching = [&](const Corner& corner) {
+                const std::array<Piece, 2> own = piecesOf(loops[k].slots, k, corner);
+                return standsBetween(corner) && (pieces.touched(own[0]) || pieces.touched(own[1]));
+            };
+            changed = std::erase_if(loops[k].corners, touching) > 0 || changed;
+        }
+    }
+}
+
+}  // namespace droplet

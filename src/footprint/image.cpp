@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Luma after ITU-R BT.601-7, section 2.5.1; orientation after EXIF 2.32, tag 0112.
+#include "footprint/image.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "footprint/image_codecs.h"
+#include "footprint/image_header.h"
+
+namespace droplet {
+
+namespace {
+
+template <class Sample>
+constexpr std::uint32_t kScale = 65535U / static_cast<Sample>(~Sample{0});
+
+template <class Sample>
+std::uint16_t level(Sample sample)
+{
+    return static_cast<std::uint16_t>(sample * kScale<Sample>);
+}
+
+/// The weights add up to 1000, so that grey comes out as it went in.
+template <class Sample>
+std::uint16_t luma(const Sample* rgb)
+{
+    return static_cast<std::uint16_t>((kScale<Sample> * (299U * rgb[0] + 587U * rgb[1] + 114U * rgb[2]) + 500U) /
+                                      1000U);
+}
+
+/// Where a turned image finds its pixels: (x, y) lies at origin + x right + y down in the stored one.
+struct Turn {
+    bool swaps_sides = false;
+    std::ptrdiff_t origin = 0;
+    std::ptrdiff_t right = 0;
+    std::ptrdiff_t down = 0;
+};
+
+Turn turnOf(int orientation, std::ptrdiff_t width, std::ptrdiff_t height)
+{
+    const std::ptrdiff_t last_column = width - 1;
+    const std::ptrdiff_t last_row = (height - 1) * width;
+    switch (orientation) {
+        case 2:
+            return {false, last_column, -1, width};
+        case 3:
+            return {false, last_row + last_column, -1, -width};
+        case 4:
+            return {false, last_row, 1, -width};
+        case 5:
+            return {true, 0, width, 1};
+        case 6:
+            return {true, last_row, -width, 1};
+        case 7:
+            return {true, last_row + last_column, -width, -1};
+        case 8:
+            return {true, last_column, width, -1};
+        default:
+            return {false, 0, 1, width};
+    }
+}
+
+void turnPlane(std::vector<std::uint16_t>& plane, const Turn& turn, int width, int height)
+{
+    // A tile of both images stays in the first-level cache: 2 × 8 KiB.
+    constexpr int kTile = 64;
+    std::vector<std::uint16_t> turned(plane.size());
+    for (int y0 = 0; y0 < height; y0 += kTile) {
+        for (int x0 = 0; x0 < width; x0 += kTile) {
+            for (int y = y0; y < std::min(y0 + kTile, height); ++y) {
+                for (int x = x0; x < std::min(x0 + kTile, width); ++x) {
+                    const auto to = static_cast<std::ptrdiff_t>(y) * width + x;
+                    const auto from = turn.origin + x * turn.right + y * turn.down;
+                    turned[static_cast<std::size_t>(to)] = plane[static_cast<std::size_t>(from)];
+                }
+            }
+        }
+    }
+    plane = std::move(turned);
+}
+
+Image decodeAsStored(std::span<const std::byte> encoded, const ImageHeader& header)
+{
+    switch (header.format) {
+        case ImageFormat::Png:
+            return decodePng(encoded, header);
+        case ImageFormat::Jpeg:
+            return decodeJpeg(encoded, header);
+        case ImageFormat::Bmp:
+            return decodeBmp(encoded, header);
+        case ImageFormat::Tiff:
+            return decodeTiff(encoded, header);
+        case ImageFormat::Webp:
+            return decodeWebp(encoded, header);
+        case ImageFormat::Pnm:
+            break;
+    }
+    return decodePnm(encoded, header);
+}
+
+}  // namespace
+
+Image blankImage(int width, int height, bool with_alpha)
+{
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    Image image;
+    image.width = width;
+    image.height = height;
+    image.luma.resize(pixels);
+    if (with_alpha) {
+        image.alpha.resize(pixels);
+    }
+    return image;
+}
+
+template <class Sample>
+void putPixels(Image& image, const PixelRun& run, std::span<const Sample> samples)
+{
+    const auto channels = static_cast<std::size_t>(run.channels);
+    const std::size_t count = samples.size() / channels;
+    const Sample* from = samples.data();
+    std::uint16_t* to = image.luma.data() + run.first;
+    if (run.channels < 3) {
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i * run.step] = level(from[i * channels]);
+        }
+    } else {
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i * run.step] = luma(from + i * channels);
+        }
+    }
+    if (run.channels % 2 == 0) {
+        to = image.alpha.data() + run.first;
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i * run.step] = level(from[i * channels + channels - 1]);
+        }
+    }
+}
+
+template void putPixels<std::uint8_t>(Image&, const PixelRun&, std::span<const std::uint8_t>);
+template void putPixels<std::uint16_t>(Image&, const PixelRun&, std::span<const std::uint16_t>);
+
+Image upright(Image image, int orientation)
+{
+    if (orientation <= 1 || orientation > 8) {
+        return image;
+    }
+    const Turn turn = turnOf(orientation, image.width, image.height);
+    if (turn.swaps_sides) {
+        std::swap(image.width, image.height);
+    }
+    turnPlane(image.luma, turn, image.width, image.height);
+    if (!image.alpha.empty()) {
+        turnPlane(image.alpha, turn, image.width, image.height);
+    }
+    return image;
+}
+
+Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels)
+{
+    const ImageHeader header = readImageHeader(encoded, max_pixels);
+    return upright(decodeAsStored(encoded, header), header.orientation);
+}
+
+}  // namespace droplet

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which levels of a picture are liquid. Everything is decided on histograms of 65536 levels and applied through
+// one table, in place: two passes over the pixels and no memory beyond the plane that becomes the coverage.
+#include "droplet/footprint/mask.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "footprint/image.h"
+
+namespace droplet {
+
+namespace {
+
+constexpr std::int64_t kWhite = std::numeric_limits<std::uint16_t>::max();
+
+/// How many pixels have each level.
+using Histogram = std::vector<std::uint64_t>;
+
+Histogram emptyHistogram()
+{
+    return Histogram(static_cast<std::size_t>(kWhite) + 1);
+}
+
+Histogram histogramOf(const std::vector<std::uint16_t>& plane)
+{
+    Histogram histogram = emptyHistogram();
+    for (const std::uint16_t level : plane) {
+        ++histogram[level];
+    }
+    return histogram;
+}
+
+std::uint64_t pixelsAt(const Histogram& histogram, std::int64_t level)
+{
+    return level < 0 || level > kWhite ? 0 : histogram[static_cast<std::size_t>(level)];
+}
+
+/// The levels that become coverage 0 and 1.
+struct Range {
+    std::int64_t dry = 0;
+    std::int64_t liquid = kWhite;
+};
+
+/// Whether two levels this far apart are told apart: a quarter of the range.
+bool isClear(std::int64_t distance)
+{
+    return 4 * distance >= kWhite;
+}
+
+/// The level that half the border's pixels do not exceed (the darker of two if exactly half).
+std::int64_t borderLevel(const std::vector<std::uint16_t>& plane, int width, int height)
+{
+    const auto columns = static_cast<std::size_t>(width);
+    const auto rows = static_cast<std::size_t>(height);
+    Histogram border = emptyHistogram();
+    std::uint64_t count = 0;
+    const auto add = [&](std::size_t x, std::size_t y) {
+        ++border[plane[y * columns + x]];
+        ++count;
+    };
+    for (std::size_t x = 0; x < columns; ++x) {
+        add(x, 0);
+        if (rows > 1) {
+            add(x, rows - 1);
+        }
+    }
+    for (std::size_t y = 1; y + 1 < rows; ++y) {
+        add(0, y);
+        if (columns > 1) {
+            add(columns - 1, y);
+        }
+    }
+    std::int64_t level = 0;
+    for (std::uint64_t seen = pixelsAt(border, 0); 2 * seen < count; seen += pixelsAt(border, level)) {
+        ++level;
+    }
+    return level;
+}
+
+/// Distance from `dry` of the farthest level towards `sign` that is not a stray: more than a hundredth of all
+/// marked pixels lie at it or up to an eighth nearer. None if no pixel that way is clear of `dry`.
+///
+/// The farthest level alone would hang on one hot pixel, a quantile would cut the top off a soft mark. So strays
+/// are told by their loneliness, and counted against the marked pixels, not the image: a mark of under a hundred
+/// pixels keeps its level in an image of any size. An eighth, because a mark's own noise may reach so far: then
+/// the stretched level of its body is still above 7/8, and its half level off by less than 1/16 of the step.
+std::int64_t farthest(const Histogram& histogram, std::int64_t dry, int sign, std::uint64_t marked)
+{
+    const std::int64_t reach = sign > 0 ? kWhite - dry : dry;
+    std::int64_t inner = reach;  // pixels at distances inner … outer are counted
+    std::uint64_t counted = pixelsAt(histogram, dry + sign * reach);
+    for (std::int64_t outer = reach; isClear(outer); --outer) {
+        while (8 * (inner - 1) >= 7 * outer) {
+            --inner;
+            counted += pixelsAt(histogram, dry + sign * inner);
+        }
+        const std::uint64_t here = pixelsAt(histogram, dry + sign * outer);
+        if (here > 0 && 100 * counted > marked) {
+            return outer;
+        }
+        counted -= here;
+    }
+    return 0;
+}
+
+/// The levels of a picture of liquid on a dry ground that reaches the border.
+Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, int height)
+{
+    const Histogram histogram = histogramOf(plane);
+    const std::int64_t first = plane.front();
+    if (pixelsAt(histogram, first) == plane.size()) {
+        return 2 * first > kWhite ? Range{0, first} : Range{first, kWhite};
+    }
+    const std::int64_t dry = borderLevel(plane, width, height);
+    std::uint64_t marked = 0;
+    for (std::int64_t level = 0; level <= kWhite; ++level) {
+        marked += isClear(std::abs(level - dry)) ? pixelsAt(histogram, level) : 0;
+    }
+    const std::int64_t darker = farthest(histogram, dry, -1, marked);
+    const std::int64_t brighter = farthest(histogram, dry, +1, marked);
+    if (std::max(darker, brighter) > 0) {
+        return {dry, brighter >= darker ? dry + brighter : dry - darker};
+    }
+    // Nothing stands out. Unstretched, towards the farther end of the range, no pixel reaches half.
+    return {dry, 2 * dry > kWhite ? 0 : kWhite};
+}
+
+/// Whether a picture says with its alpha where it is: some pixel is less than half opaque.
+bool usesAlpha(const std::vector<std::uint16_t>& alpha)
+{
+    return std::any_of(alpha.begin(), alpha.end(), [](std::int64_t level) { return 2 * level < kWhite; });
+}
+
+/// The levels of an alpha channel. Drawn, not photographed, it has no strays.
+Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
+{
+    const std::int64_t most = *std::max_element(alpha.begin(), alpha.end());
+    return {0, isClear(most) ? most : kWhite};
+}
+
+/// What is seen of an image in front of black.
+std::vector<std::uint16_t> lumaOverBlack(Image image)
+{
+    if (!image.premultiplied) {
+        for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+            const std::uint32_t product = std::uint32_t{image.luma[i]} * image.alpha[i];
+            image.luma[i] = static_cast<std::uint16_t>((product + 32767U) / 65535U);
+        }
+    }
+    return std::move(image.luma);
+}
+
+void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool invert)
+{
+    const std::int64_t distance = std::abs(range.liquid - range.dry);
+    const std::int64_t sign = range.liquid < range.dry ? -1 : 1;
+    std::vector<std::uint16_t> table(static_cast<std::size_t>(kWhite) + 1);
+    for (std::int64_t level = 0; level <= kWhite; ++level) {
+        const std::int64_t covered = std::clamp<std::int64_t>(sign * (level - range.dry), 0, distance);
+        const std::int64_t coverage = (covered * kWhite + distance / 2) / distance;
+        table[static_cast<std::size_t>(level)] = static_cast<std::uint16_t>(invert ? kWhite - coverage : coverage);
+    }
+    for (std::uint16_t& level : plane) {
+        level = table[level];
+    }
+}
+
+}  // namespace
+
+Mask maskFromImage(Image image, const MaskOptions& options)
+{
+    Mask mask;
+    mask.width = image.width;
+    mask.height = image.height;
+    mask.channel = options.channel;
+    if (options.channel == Channel::Auto) {
+        mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
+    } else if (options.channel == Channel::Alpha && image.alpha.empty()) {
+        throw Error(ErrorCode::InvalidInput, "channel alpha was asked for, but the image has none");
+    }
+    mask.coverage = mask.channel == Channel::Alpha ? std::move(image.alpha) : lumaOverBlack(std::move(image));
+    image = {};
+
+    Range range;
+    if (options.channel == Channel::Auto) {
+        range = mask.channel == Channel::Alpha ? levelsOfAlpha(mask.coverage)
+                                               : levelsAgainstBorder(mask.coverage, mask.width, mask.height);
+    }
+    applyRange(mask.coverage, range, options.invert);
+    if (options.invert) {
+        std::swap(range.dry, range.liquid);
+    }
+    mask.inverted = range.liquid < range.dry;
+    mask.level_dry = static_cast<double>(range.dry) / static_cast<double>(kWhite);
+    mask.level_liquid = static_cast<double>(range.liquid) / static_cast<double>(kWhite);
+    return mask;
+}
+
+void Mask::validate() const
+{
+    if (width < 1 || height < 1) {
+        throw Error(ErrorCode::InvalidInput,
+                    "mask size " + std::to_string(width) + " x " + std::to_string(height) + " must be at least 1 x 1");
+    }
+    const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    if (coverage.size() != pixels) {
+        throw Error(ErrorCode::InvalidInput, "mask coverage holds " + std::to_string(coverage.size()) +
+                                                 " values, must be width * height = " + std::to_string(pixels));
+    }
+}
+
+}  // namespace droplet

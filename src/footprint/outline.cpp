@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tracing: border following after S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by
+// border following" (1985), as OpenCV's findContours has it, refined to the crossings of marching squares.
+// Sub-pixel place: the height function of volume-of-fluid methods (S. J. Cummins, M. M. Francois and D. B. Kothe,
+// "Estimating curvature from volume fractions", 2005): the coverage summed across the rim is its mean place, exact for
+// straight edges, where interpolating single pixels is up to 0.09 px off.
+
+#include "droplet/footprint/outline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "droplet/error.h"
+#include "footprint/corners.h"
+#include "footprint/fairing.h"
+#include "footprint/slot.h"
+
+namespace droplet
+{
+namespace
+{
+
+constexpr double kFull = std::numeric_limits<std::uint16_t>::max();
+
+/// Coverage this close to 0 or 1 is dry or liquid: JPEG ringing at good quality, 8-bit rounding many times over.
+constexpr double kSaturated = 0.04;
+
+/// Share of rim crossings beside an intermediate pixel from which a mask counts as anti-aliased. Anti-aliased type has
+/// above 0.5 even where stems fall on pixel borders, hard masks 0.
+constexpr double kAntiAliasedShare = 0.15;
+
+/// Pixels looked at on either side for the rim to become full liquid and full dry: an edge at 45° needs 2, a
+/// blur of 1.5 px another 2.
+constexpr int kReach = 4;
+
+/// Standard deviations of a measured place [px], from discs, squares and type rendered exactly and blurred: the height
+/// function; interpolation between two pixels; a pixel beside a corner, where neither holds; the image's border.
+constexpr double kHeightSpread = 0.02;
+constexpr double kInterpolatedSpread = 0.1;
+constexpr double kCornerSpread = 0.4;
+constexpr double kBorderSpread = 0.002;
+
+/// Crossings this near to a corner see both its sides in their pixels [px].
+constexpr double kCornerNeighbourhood = 1.5;
+
+/// Fairness of the curve in which corners are looked for: smooths single pixels (waves under 6 px), keeps turns.
+constexpr double kDetectionFairness = 10.0;
+
+/// A corner must lower the cost of the curve around it by this much, a log-likelihood. In anti-aliased masks arcs of 3
+/// px and more gain up to 110 and right angles thousands; in hard ones a right angle between sides of 8 px gains 8.
+constexpr double kCornerGain = 250.0;
+constexpr double kCornerGainHard = 4.0;
+
+struct Step {
+    int x = 0;
+    int y = 0;
+};
+
+/// East, north, west, south; y down. Facing direction k + 1, the right hand points in direction k.
+constexpr std::array<Step, 4> kSteps{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
+
+/// A crossing from a liquid pixel into a dry neighbour.
+struct Crossing {
+    int x = 0;
+    int y = 0;
+    int direction = 0;
+
+    bool operator==(const Crossing&) const = default;
+};
+
+/// The mask with a dry frame around it, thresholded or as coverage.
+class Field
+{
+public:
+    Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold), level_(threshold * kFull) {}
+
+    [[nodiscard]] bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < mask_.width && y < mask_.height; }
+    [[nodiscard]] bool liquid(int x, int y) const { return inside(x, y) && mask_.at(x, y) >= level_; }
+    [[nodiscard]] double coverage(int x, int y) const { return inside(x, y) ? mask_.at(x, y) / kFull : 0.0; }
+    [[nodiscard]] bool grey(int x, int y) const
+    {
+        const double c = coverage(x, y);
+        return c > kSaturated && c < 1.0 - kSaturated;
+    }
+    [[nodiscard]] int width() const { return mask_.width; }
+    [[nodiscard]] int height() const { return mask_.height; }
+    [[nodiscard]] double threshold() const { return threshold_; }
+
+private:
+    const Mask& mask_;
+    double threshold_;
+    double level_;
+};
+
+Crossing next(const Field& field, const Crossing& at)
+{
+    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const int facing = (at.direction + 1) % 4;
+    const Step f = kSteps[static_cast<std::size_t>(facing)];
+    const bool ahead = field.liquid(at.x + f.x, at.y + f.y);
+    // Liquid is 8-connected: at a saddle it joins.
+    if (field.liquid(at.x + d.x + f.x, at.y + d.y + f.y)) {
+        return {at.x + d.x + f.x, at.y + d.y + f.y, (facing + 2) % 4};
+    }
+    return ahead ? Crossing{at.x + f.x, at.y + f.y, at.direction} : Crossing{at.x, at.y, facing};
+}
+
+/// Coverage summed from a pixel on, excluding it, in steps of `out` until it reaches `end` (0 or 1), counted as what is
+/// left to `end`; none if it does not get there monotonically.
+std::optional<double> tail(const Field& field, int x, int y, Step out, double end)
+{
+    // Full pixels count as far as they differ from full: down to half a step of 8 bits.
+    constexpr double kExact = 0.002;
+    double sum = 0.0;
+    double last = std::abs(field.coverage(x, y) - end);
+    for (int k = 1; last > kExact; ++k) {
+        const double c = std::abs(field.coverage(x + k * out.x, y + k * out.y) - end);
+        if (k > kReach || c > last + kExact) {
+            return last <= kSaturated ? std::optional(sum) : std::nullopt;
+        }
+        sum += c;
+        last = c;
+    }
+    return sum;
+}
+
+/// Place of the rim along a line of pixels through (x, y), from that pixel's centre in the direction of `out`, by the
+/// height function; none if the line does not run from full liquid to full dry.
+std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
+{
+    const std::optional<double> missing = tail(field, x, y, {-out.x, -out.y}, 1.0);
+    const std::optional<double> ahead = tail(field, x, y, out, 0.0);
+    if (!missing || !ahead) {
+        return std::nullopt;
+    }
+    return -0.5 + field.coverage(x, y) - *missing + *ahead;
+}
+
+/// The step across the slot, toward the drier side, if the rim runs more along the slot than across it.
+std::optional<Step> sidestep(const Field& field, const Crossing& at)
+{
+    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const Step f{-d.y, d.x};
+    const auto pair = [&](int k) {
+        return field.coverage(at.x + k * f.x, at.y + k * f.y) +
+               field.coverage(at.x + d.x + k * f.x, at.y + d.y + k * f.y);
+    };
+    double along = 0.0;
+    for (int k = -1; k <= 1; ++k) {
+        along +=
+            field.coverage(at.x + k * f.x, at.y + k * f.y) - field.coverage(at.x + d.x + k * f.x, at.y + d.y + k * f.y);
+    }
+    const double across = 0.5 * (pair(-1) - pair(1));
+    // Sums over three rows against two half-differences over two columns: both are three times the mean gradient.
+    if (std::abs(across) * 1.5 <= std::abs(along)) {
+        return std::nullopt;
+    }
+    return across > 0 ? f : Step{-f.x, -f.y};
+}
+
+/// Reads the place of a crossing off the grey levels around it.
+void measure(const Field& field, const Crossing& at, Slot& slot)
+{
+    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const double liquid = field.coverage(at.x, at.y);
+    const double dry = field.coverage(at.x + d.x, at.y + d.y);
+    slot.measured = (liquid - field.threshold()) / std::max(liquid - dry, 1e-9);
+    slot.spread = kInterpolatedSpread;
+    // Areas speak of the level at half coverage only; another threshold is a level set of the greys.
+    if (field.threshold() == 0.5) {
+        std::optional<double> place;
+        if (const std::optional<Step> side = sidestep(field, at)) {
+            const std::optional<double> here = heightAlong(field, at.x, at.y, *side);
+            const std::optional<double> there = heightAlong(field, at.x + d.x, at.y + d.y, *side);
+            if (here && there && *here > *there + 1e-6) {
+                place = *here / (*here - *there);
+            }
+        } else {
+            place = heightAlong(field, at.x, at.y, d);
+        }
+        if (place && *place > -0.25 && *place < 1.25) {
+            slot.measured = *place;
+            slot.spread = kHeightSpread;
+        }
+    }
+    slot.measured = std::clamp(*slot.measured, kSlotMargin, 1.0 - kSlotMargin);
+    slot.t = std::clamp(*slot.measured, 2.0 * kSlotMargin, 1.0 - 2.0 * kSlotMargin);
+}
+
+std::vector<Crossing> follow(const Field& field, const Crossing& start)
+{
+    std::vector<Crossing> loop;
+    Crossing at = start;
+    do {
+        loop.push_back(at);
+        at = next(field, at);
+    } while (!(at == start));
+    return loop;
+}
+
+/// All loops: OpenCV finds the border of every component and hole, from the first pixel of which the crossings follow.
+std::vector<std::vector<Crossing>> followAll(const Field& field)
+{
+    std::vector<std::vector<cv::Point>> borders;
+    std::vector<cv::Vec4i> hierarchy;
+    {
+        cv::Mat liquid(field.height(), field.width(), CV_8UC1);
+        for (int y = 0; y < field.height(); ++y) {
+            for (int x = 0; x < field.width(); ++x) {
+                liquid.at<std::uint8_t>(y, x) = field.liquid(x, y) ? 255 : 0;
+            }
+        }
+        cv::findContours(liquid, borders, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+    }
+    std::vector<std::vector<Crossing>> loops;
+    loops.reserve(borders.size());
+    for (std::size_t k = 0; k < borders.size(); ++k) {
+        // Found in raster order: a component by its first pixel, with dry to the west of it; a hole by the liquid pixel
+        // to the west of its first.
+        const bool is_hole = hierarchy[k][3] >= 0;
+        const cv::Point first = borders[k].front();
+        loops.push_back(follow(field, {first.x, first.y, is_hole ? 0 : 2}));
+    }
+    // In reading order of their first pixels, which is what people expect of droplets in a list.
+    std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.front().y, a.front().x, a.front().direction) <
+               std::tie(b.front().y, b.front().x, b.front().direction);
+    });
+    return loops;
+}
+
+bool looksAntiAliased(const Field& field, const std::vector<std::vector<Crossing>>& loops)
+{
+    std::size_t grey = 0;
+    std::size_t all = 0;
+    for (const auto& loop : loops) {
+        all += loop.size();
+        for (const Crossing& at : loop) {
+            const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+            grey += field.grey(at.x, at.y) || field.grey(at.x + d.x, at.y + d.y) ? 1 : 0;
+        }
+    }
+    return static_cast<double>(grey) > kAntiAliasedShare * static_cast<double>(all);
+}
+
+SlotLoop placeSlots(const Field& field, const std::vector<Crossing>& crossings, bool anti_aliased)
+{
+    SlotLoop loop;
+    loop.reserve(crossings.size());
+    for (const Crossing& at : crossings) {
+        const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+        Slot slot{{at.x + 0.5, at.y + 0.5}, {static_cast<double>(d.x), static_cast<double>(d.y)}, 0.5, {}, 0.0};
+        if (anti_aliased) {
+            measure(field, at, slot);
+        } else if (!field.inside(at.x + d.x, at.y + d.y)) {
+            // Liquid that reaches the image's border is cut off by it, not somewhere beyond.
+            slot.measured = 0.5;
+            slot.spread = kBorderSpread;
+        }
+        loop.push_back(slot);
+    }
+    return loop;
+}
+
+/// Twice the area enclosed, positive for liquid inside when y points down and the loop is as traced [px²].
+double enclosedArea(const SlotLoop& loop)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        sum += cross(loop[i].point(), loop[(i + 1) % loop.size()].point());
+    }
+    return -0.5 * sum;
+}
+
+/// Frees the places of crossings near a break: their pixels see both sides of the corner.
+void loosenAt(SlotLoop& loop, const std::vector<std::uint8_t>& breaks)
+{
+    const std::size_t n = loop.size();
+    const auto loosen = [&](std::size_t i) {
+        Slot& slot = loop[i];
+        if (slot.measured && slot.spread > kBorderSpread) {
+            slot.spread = kCornerSpread;
+        }
+    };
+    for (std::size_t gap = 0; gap < n; ++gap) {
+        if (breaks[gap] == 0) {
+            continue;
+        }
+        const Vec2 centre = 0.5 * (loop[gap].point() + loop[(gap + 1) % n].point());
+        for (std::size_t i = gap, count = 0; count < n && length(loop[i].point() - centre) < kCornerNeighbourhood;
+             i = (i + n - 1) % n, ++count) {
+            loosen(i);
+        }
+        for (std::size_t i = (gap + 1) % n, count = 0;
+             count < n && length(loop[i].point() - centre) < kCornerNeighbourhood; i = (i + 1) % n, ++count) {
+            loosen(i);
+        }
+    }
+}
+
+/// The faired points of a loop, corners put in; pixels.
+struct PixelLoop {
+    std::vector<Vec2> points;
+    std::vector<std::uint8_t> corner;
+};
+
+/// Cost of a curve within a few pixels of a turn.
+double costAround(const SlotLoop& loop, const std::vector<double>& strains, const Turn& turn)
+{
+    constexpr double kWindow = 5.0;  // the reach of the fairing around a break, in px
+    const std::size_t n = loop.size();
+    double cost = 0.0;
+    double way = 0.0;
+    for (std::size_t i = turn.first, count = 0; count < n && way < kWindow; i = (i + n - 1) % n, ++count) {
+        cost += strains[i];
+        way += length(loop[i].point() - loop[(i + n - 1) % n].point());
+    }
+    way = 0.0;
+    for (std::size_t i = (turn.first + 1) % n, count = 0; count < n && way < kWindow; i = (i + 1) % n, ++count) {
+        cost += strains[i];
+        way += length(loop[i].point() - loop[(i + 1) % n].point());
+    }
+    return cost;
+}
+
+/// The points of a faired loop with its corners.
+PixelLoop withCorners(const CorneredLoop& cornered)
+{
+    const SlotLoop& loop = cornered.slots;
+    PixelLoop result;
+    std::vector<std::uint8_t> is_dropped(loop.size(), 0);
+    std::vector<std::uint8_t> is_corner(loop.size(), 0);
+    std::vector<std::optional<Vec2>> tip_after(loop.size());
+    for (const Corner& corner : cornered.corners) {
+        const Turn& turn = corner.turn;
+        if (corner.replaces_first || corner.replaces_last) {
+            is_corner[corner.replaces_first ? turn.first : turn.last] = 1;
+            continue;
+        }
+        tip_after[turn.first] = corner.tip;
+        for (std::size_t k = (turn.first + 1) % loop.size(); k != turn.last; k = (k + 1) % loop.size()) {
+            is_dropped[k] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (is_dropped[i] == 0) {
+            result.points.push_back(loop[i].point());
+            result.corner.push_back(is_corner[i]);
+        }
+        if (tip_after[i]) {
+            result.points.push_back(*tip_after[i]);
+            result.corner.push_back(1);
+        }
+    }
+    return result;
+}
+
+/// Fairs a loop smooth everywhere.
+CorneredLoop fairWhole(const SlotLoop& measured)
+{
+    CorneredLoop result{measured, {}};
+    fair(result.slots);
+    return result;
+}
+
+/// Fairs a loop smooth everywhere, then with corners wherever they explain the mask better by far.
+CorneredLoop fairWithCorners(const SlotLoop& measured)
+{
+    CorneredLoop smooth = fairWhole(measured);
+    SlotLoop rough = measured;
+    fair(rough, {.breaks = {}, .fairness = kDetectionFairness});
+    std::vector<Turn> turns = sharpTurns(rough);
+    const std::vector<double> smooth_strain = strain(smooth.slots);
+    const double least_gain = measured.front().measured ? kCornerGain : kCornerGainHard;
+    // First with every turn tried, then with those that proved sharp, until all tried do.
+    while (!turns.empty()) {
+        const std::vector<std::uint8_t> breaks = breaksAt(turns, measured.size());
+        CorneredLoop result{measured, {}};
+        loosenAt(result.slots, breaks);
+        fair(result.slots, {.breaks = breaks});
+        const std::vector<double> broken_strain = strain(result.slots, {.breaks = breaks});
+        std::vector<Turn> kept;
+        for (const Turn& turn : turns) {
+            const double gain =
+                costAround(smooth.slots, smooth_strain, turn) - costAround(result.slots, broken_strain, turn);
+            const std::optional<Corner> corner =
+                gain > least_gain ? findCorner(result.slots, breaks, turn) : std::nullopt;
+            if (corner) {
+                result.corners.push_back(*corner);
+                kept.push_back(turn);
+            }
+        }
+        if (kept.size() == turns.size()) {
+            return result;
+        }
+        turns = std::move(kept);
+    }
+    return smooth;
+}
+
+}  // namespace
+
+void TraceOptions::validate() const
+{
+    const auto fail = [](const std::string& message) { throw Error(ErrorCode::InvalidArgument, message); };
+    if (!(threshold > 0.0 && threshold < 1.0)) {
+        fail("threshold " + std::to_string(threshold) + " must lie between 0 and 1");
+    }
+    if (!(width > 0.0 && std::isfinite(width))) {
+        fail("width " + std::to_string(width) + " m must be positive");
+    }
+    if (pixel_size && !(*pixel_size > 0.0 && std::isfinite(*pixel_size))) {
+        fail("pixel_size " + std::to_string(*pixel_size) + " m must be positive");
+    }
+    if (!(speck_size >= 0.0 && std::isfinite(speck_size))) {
+        fail("speck_size " + std::to_string(speck_size) + " px² must not be negative");
+    }
+}
+
+double signedArea(const Loop& loop)
+{
+    // About the first point: far from the origin, products of coordinates would cancel.
+    double sum = 0.0;
+    for (std::size_t i = 1; i + 1 < loop.points.size(); ++i) {
+        sum += cross(loop.points[i] - loop.points[0], loop.points[i + 1] - loop.points[0]);
+    }
+    return 0.5 * sum;
+}
+
+Outline trace(const Mask& mask, const TraceOptions& options)
+{
+    mask.validate();
+    options.validate();
+    const Field field(mask, options.threshold);
+    const std::vector<std::vector<Crossing>> crossings = followAll(field);
+    if (crossings.empty()) {
+        throw Error(ErrorCode::InvalidInput,
+                    "no liquid in the mask: no pixel reaches threshold " + std::to_string(options.threshold));
+    }
+
+    Outline outline;
+    outline.pixel_size = options.pixel_size.value_or(options.width / mask.width);
+    outline.extent = {mask.width * outline.pixel_size, mask.height * outline.pixel_size};
+    outline.anti_aliased = looksAntiAliased(field, crossings);
+
+    std::vector<CorneredLoop> faired;
+    for (const std::vector<Crossing>& crossing_loop : crossings) {
+        const SlotLoop slots = placeSlots(field, crossing_loop, outline.anti_aliased);
+        const double enclosed = std::abs(enclosedArea(slots));
+        if (enclosed < options.speck_size) {
+            ++outline.specks_dropped;
+            outline.largest_speck_px = std::max(outline.largest_speck_px, enclosed);
+            continue;
+        }
+        faired.push_back(options.corners ? fairWithCorners(slots) : fairWhole(slots));
+    }
+    removeTouchingCorners(faired);
+    for (const CorneredLoop& cornered : faired) {
+        PixelLoop pixels = withCorners(cornered);
+        Loop loop;
+        loop.corner = std::move(pixels.corner);
+        loop.points.reserve(pixels.points.size());
+        for (const Vec2 p : pixels.points) {
+            loop.points.push_back({(p.x - 0.5 * mask.width) * outline.pixel_size,
+                                   (0.5 * mask.height - p.y) * outline.pixel_size});
+        }
+        outline.loops.push_back(std::move(loop));
+    }
+    if (std::none_of(outline.loops.begin(), outline.loops.end(), [](const Loop& l) { return signedArea(l) > 0; })) {
+        throw Error(ErrorCode::InvalidInput, "only specks in the mask: the largest of " +
+                                                 std::to_string(outline.specks_dropped) + " has " +
+                                                 std::to_string(outline.largest_speck_px) + " px², and speck_size is " +
+                                                 std::to_string(options.speck_size) + " px²");
+    }
+    return outline;
+}
+
+}  // namespace droplet

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// From z up to y up: a turn about x, so that winding stays outward. The zero keeps −0 out of files.
+constexpr Vec3 yUp(Vec3 a)
+{
+    return {a.x, a.z, 0.0 - a.y};
+}
+
+}  // namespace droplet

@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Linux manual: open(2) on O_TMPFILE, linkat(2), rename(2), fsync(2); IEEE Std 1003.1-2017.
+#include "droplet/io/output.h"
+
+#include <fcntl.h>
+#include <linux/magic.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <ostream>
+#include <streambuf>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/io/mesh_files.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
+    {Format::Glb, "glb"},
+    {Format::Gltf, "gltf"},
+    {Format::Obj, "obj"},
+    {Format::Ply, "ply"},
+    {Format::Stl, "stl"},
+}};
+
+constexpr int kMostLinks = 40;          // as many as Linux itself follows
+constexpr int kMostLeftovers = 10'000;  // temporary names tried; only processes killed mid-way leave one behind
+constexpr mode_t kNewFile = 0666;       // less the umask
+constexpr mode_t kPermissions = 0777;   // what is kept of a replaced file's mode: no set-id bits
+constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
+
+constexpr const char* kMustNotBeReplaced = "exists and must not be replaced";
+
+// A name may hold line breaks; a message must not.
+std::string quoted(const fs::path& path)
+{
+    std::string text = path.string();
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    return '"' + text + '"';
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& cause)
+{
+    throw Error(ErrorCode::OutputFailed, "output " + quoted(path) + ": " + cause);
+}
+
+[[noreturn]] void refuse(Format format)
+{
+    throw Error(ErrorCode::InvalidArgument, "format = " + std::to_string(static_cast<int>(format)) + " is unknown");
+}
+
+std::string textOf(int error)
+{
+    return std::generic_category().message(error);
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept
+    {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor() { close(); }
+
+    [[nodiscard]] int number() const { return number_; }
+    [[nodiscard]] bool valid() const { return number_ >= 0; }
+
+    /// Error number, or 0. An interrupted close has closed, on Linux.
+    int close()
+    {
+        const int number = std::exchange(number_, -1);
+        return number < 0 || ::close(number) == 0 || errno == EINTR ? 0 : errno;
+    }
+
+private:
+    int number_;
+};
+
+// Writes to a descriptor and remembers why it could not; std::filebuf would forget.
+class DescriptorBuffer : public std::streambuf {
+public:
+    explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { setp(buffer_.begin(), buffer_.end()); }
+
+    [[nodiscard]] int error() const { return error_; }
+    [[nodiscard]] std::uint64_t written() const { return written_; }
+
+protected:
+    int_type overflow(int_type c) override
+    {
+        if (sync() != 0) {
+            return traits_type::eof();
+        }
+        if (!traits_type::eq_int_type(c, traits_type::eof())) {
+            sputc(traits_type::to_char_type(c));
+        }
+        return traits_type::not_eof(c);
+    }
+
+    int sync() override
+    {
+        const bool ok = put(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        setp(buffer_.begin(), buffer_.end());
+        return ok ? 0 : -1;
+    }
+
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override
+    {
+        if (count < epptr() - pptr()) {
+            return std::streambuf::xsputn(bytes, count);
+        }
+        return sync() == 0 && put(bytes, static_cast<std::size_t>(count)) ? count : 0;
+    }
+
+private:
+    bool put(const char* bytes, std::size_t count)
+    {
+        while (count > 0 && error_ == 0) {
+            const ssize_t done = ::write(descriptor_, bytes, count);
+            if (done >= 0) {
+                bytes += done;
+                count -= static_cast<std::size_t>(done);
+                written_ += static_cast<std::uint64_t>(done);
+            } else if (errno == EAGAIN) {
+                pollfd wait{descriptor_, POLLOUT, 0};  // a pipe some other process made non-blocking
+                ::poll(&wait, 1, -1);
+            } else if (errno != EINTR) {
+                error_ = errno;
+            }
+        }
+        return error_ == 0;
+    }
+
+    int descriptor_;
+    int error_ = 0;
+    std::uint64_t written_ = 0;
+    std::array<char, kBufferBytes> buffer_{};
+};
+
+std::uint64_t fill(const fs::path& path, const Descriptor& file, const std::function<void(std::ostream&)>& write)
+{
+    DescriptorBuffer buffer(file.number());
+    std::ostream out(&buffer);
+    write(out);
+    out.flush();
+    if (buffer.error() != 0) {
+        fail(path, textOf(buffer.error()));
+    }
+    if (!out) {
+        fail(path, "the stream failed before all was written");
+    }
+    return buffer.written();
+}
+
+// What stands where a path leads, links followed.
+struct Target {
+    fs::path path;
+    std::optional<struct stat> status;   // none: nothing there yet
+    std::optional<int> open_descriptor;  // the path is a name of this process's own descriptor, like /dev/stdout
+    bool behind_proc = false;            // reached through /proc/…/fd: an open file, to be written, not replaced
+
+    [[nodiscard]] bool replaceable() const { return !behind_proc && (!status || S_ISREG(status->st_mode)); }
+    [[nodiscard]] fs::path folder() const { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+};
+
+bool onProc(const fs::path& folder)
+{
+    struct statfs status = {};
+    return ::statfs(folder.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;
+}
+
+std::optional<int> ownDescriptor(const Target& target)
+{
+    std::error_code ignored;
+    if (!fs::equivalent(target.folder(), "/proc/self/fd", ignored)) {
+        return std::nullopt;
+    }
+    const std::string name = target.path.filename().string();
+    int number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    return error == std::errc{} && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+}
+
+Target findTarget(const fs::path& path)
+{
+    if (path.empty()) {
+        fail(path, "the path is empty");
+    }
+    Target target;
+    target.path = path;
+    for (int links = 0; links <= kMostLinks; ++links) {
+        struct stat status = {};
+        if (::lstat(target.path.c_str(), &status) != 0) {
+            if (errno != ENOENT) {
+                fail(path, textOf(errno));
+            }
+            return target;
+        }
+        if (!S_ISLNK(status.st_mode)) {
+            target.status = status;
+            return target;
+        }
+        if (onProc(target.folder())) {
+            if (::stat(target.path.c_str(), &status) != 0) {
+                fail(path, textOf(errno));
+            }
+            target.status = status;
+            target.behind_proc = true;
+            target.open_descriptor = ownDescriptor(target);
+            return target;
+        }
+        std::error_code error;
+        const fs::path link = fs::read_symlink(target.path, error);
+        if (error) {
+            fail(path, error.message());
+        }
+        target.path = target.folder() / link;
+    }
+    fail(path, textOf(ELOOP));
+}
+
+void checkAccess(const fs::path& place, int mode, const fs::path& path, const std::string& what)
+{
+    if (::faccessat(AT_FDCWD, place.c_str(), mode, AT_EACCESS) != 0) {
+        fail(path, what + textOf(errno));
+    }
+}
+
+Target findWritable(const fs::path& path, const OutputOptions& options)
+{
+    Target target = findTarget(path);
+    if (target.status && S_ISDIR(target.status->st_mode)) {
+        fail(path, textOf(EISDIR));
+    }
+    if (target.replaceable()) {
+        if (target.status && options.no_clobber) {
+            fail(path, kMustNotBeReplaced);
+        }
+        checkAccess(target.folder(), W_OK | X_OK, path, "folder " + quoted(target.folder()) + ": ");
+    }
+    if (target.status && !target.open_descriptor) {
+        checkAccess(target.path, W_OK, path, "");
+    }
+    return target;
+}
+
+// A file that becomes visible at its place only by commit(); until then it has no name if the file system allows that,
+// else a temporary one, removed at the end.
+class Draft {
+public:
+    explicit Draft(fs::path folder) : folder_(std::move(folder))
+    {
+        file_ = Descriptor(::open(folder_.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, kNewFile));
+        // Naming it later goes through /proc, which not every root folder has.
+        if (file_.valid() && ::access(procName().c_str(), F_OK) != 0) {
+            file_.close();
+        }
+        if (!file_.valid()) {
+            error_ = takeName([this](const char* name) {
+                file_ = Descriptor(::open(name, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kNewFile));
+                return file_.valid();
+            });
+        }
+    }
+    Draft(const Draft&) = delete;
+    Draft& operator=(const Draft&) = delete;
+    ~Draft()
+    {
+        if (name_) {
+            ::unlink(name_->c_str());
+        }
+    }
+
+    [[nodiscard]] int error() const { return error_; }
+    [[nodiscard]] const Descriptor& file() const { return file_; }
+
+    // As far as we may: a file of another owner becomes ours, and where its group cannot be kept, what that group was
+    // allowed is not for ours.
+    void takePermissions(const struct stat& replaced)
+    {
+        const int file = file_.number();
+        mode_t mode = replaced.st_mode & kPermissions;
+        if (::fchown(file, replaced.st_uid, replaced.st_gid) != 0 &&
+            ::fchown(file, static_cast<uid_t>(-1), replaced.st_gid) != 0) {
+            mode &= static_cast<mode_t>(~S_IRWXG);
+        }
+        ::fchmod(file, mode);
+    }
+
+    // On the disk before it has the name: else a power cut could leave the name with nothing behind it. Also the one
+    // place where errors of delayed writing are certain to show.
+    int sync() const { return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno; }
+
+    int commit(const fs::path& place, bool no_clobber)
+    {
+        if (no_clobber) {
+            return name_ ? moveToFree(place) : errorOf(linkTo(place.c_str()));
+        }
+        if (!name_) {
+            if (const int error = takeName([this](const char* name) { return linkTo(name); }); error != 0) {
+                return error;
+            }
+        }
+        if (::rename(name_->c_str(), place.c_str()) != 0) {
+            return errno;
+        }
+        name_.reset();
+        return 0;
+    }
+
+    int close() { return file_.close(); }
+
+private:
+    static int errorOf(bool success) { return success ? 0 : errno; }
+
+    [[nodiscard]] std::string procName() const { return "/proc/self/fd/" + std::to_string(file_.number()); }
+
+    [[nodiscard]] bool linkTo(const char* place) const
+    {
+        return ::linkat(AT_FDCWD, procName().c_str(), AT_FDCWD, place, AT_SYMLINK_FOLLOW) == 0;
+    }
+
+    // Not every file system knows RENAME_NOREPLACE, and not every one knows links.
+    int moveToFree(const fs::path& place)
+    {
+        if (::renameat2(AT_FDCWD, name_->c_str(), AT_FDCWD, place.c_str(), RENAME_NOREPLACE) == 0) {
+            name_.reset();
+            return 0;
+        }
+        if (errno != EINVAL && errno != ENOSYS) {
+            return errno;
+        }
+        return errorOf(::link(name_->c_str(), place.c_str()) == 0);
+    }
+
+    // Tries names until `create` makes a file of one that was free.
+    template <class Create>
+    int takeName(const Create& create)
+    {
+        for (int i = 0; i < kMostLeftovers; ++i) {
+            const fs::path name =
+                folder_ / (".droplet-shape-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp");
+            if (create(name.c_str())) {
+                name_ = name;
+                return 0;
+            }
+            if (errno != EEXIST) {
+                return errno;
+            }
+        }
+        return EEXIST;
+    }
+
+    fs::path folder_;
+    Descriptor file_;
+    std::optional<fs::path> name_;
+    int error_ = 0;
+};
+
+void require(int error, const fs::path& path)
+{
+    if (error != 0) {
+        fail(path, textOf(error));
+    }
+}
+
+std::uint64_t writeThrough(const fs::path& path, const Target& target, const std::function<void(std::ostream&)>& write)
+{
+    Descriptor file(target.open_descriptor ? ::fcntl(*target.open_descriptor, F_DUPFD_CLOEXEC, 0)
+                                           : ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    if (!file.valid()) {
+        fail(path, textOf(errno));
+    }
+    const std::uint64_t bytes = fill(path, file, write);
+    require(file.close(), path);
+    return bytes;
+}
+
+std::uint64_t replaceWhole(const fs::path& path, const Target& target, const std::function<void(std::ostream&)>& write,
+                           bool no_clobber)
+{
+    Draft draft(target.folder());
+    require(draft.error(), path);
+    const std::uint64_t bytes = fill(path, draft.file(), write);
+    if (target.status) {
+        draft.takePermissions(*target.status);
+    }
+    require(draft.sync(), path);
+    const int error = draft.commit(target.path, no_clobber);
+    if (no_clobber && error == EEXIST) {
+        fail(path, kMustNotBeReplaced);
+    }
+    require(error, path);
+    require(draft.close(), path);
+    return bytes;
+}
+
+}  // namespace
+
+Format formatNamed(std::string_view name)
+{
+    std::string wanted(name.substr(!name.empty() && name.front() == '.' ? 1 : 0));
+    std::transform(wanted.begin(), wanted.end(), wanted.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::string known;
+    for (const auto& [format, known_name] : kFormats) {
+        if (wanted == known_name) {
+            return format;
+        }
+        known += std::string(" ") + known_name;
+    }
+    throw Error(ErrorCode::InvalidArgument, "format \"" + std::string(name) + "\" is unknown; known are" + known);
+}
+
+const char* name(Format format)
+{
+    for (const auto& [known, known_name] : kFormats) {
+        if (known == format) {
+            return known_name;
+        }
+    }
+    refuse(format);
+}
+
+void writeSurface(const Surface& surface, std::ostream& out, Format format, Material material)
+{
+    switch (format) {
+        case Format::Glb:
+        case Format::Gltf:
+            writeGltf(surface, out, {format == Format::Glb, material, isClosed(surface)});
+            return;
+        case Format::Obj:
+            writeObj(surface, out);
+            return;
+        case Format::Ply:
+            writePly(surface, out);
+            return;
+        case Format::Stl:
+            writeStl(surface, out);
+            return;
+    }
+    refuse(format);
+}
+
+void checkWritable(const fs::path& path, const OutputOptions& options)
+{
+    findWritable(path, options);
+}
+
+std::uint64_t writeWhole(const fs::path& path, const std::function<void(std::ostream&)>& write,
+                         const OutputOptions& options)
+{
+    const Target target = findWritable(path, options);
+    return target.replaceable() ? replaceWhole(path, target, write, options.no_clobber)
+                                : writeThrough(path, target, write);
+}
+
+}  // namespace droplet

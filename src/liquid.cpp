@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Values at 20 °C:
+// - water: 72.8 mN/m is the value in common use (IAPWS R1-76: 72.74); density IAPWS-95.
+// - ethanol, mercury: Jasper, "The surface tension of pure liquid compounds", J. Phys. Chem. Ref. Data 1 (1972) 841,
+//   γ = 24.05 − 0.0832 t and 490.6 − 0.2049 t; densities: CRC Handbook of Chemistry and Physics, 95th ed.
+// - glycerol: Miner and Dalton (eds.), "Glycerol" (1953).
+// - honey: Bogdanov, "Book of Honey" (2009), chapter 4, for 18 % water; of its surface tension of 50 to 60 mN/m the
+//   middle.
+#include "droplet/liquid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "droplet/error.h"
+
+namespace droplet
+{
+namespace
+{
+
+[[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
+{
+    std::ostringstream message;
+    message << field << " is " << value << ", must be " << constraint;
+    throw Error(ErrorCode::InvalidArgument, message.str());
+}
+
+}  // namespace
+
+void Liquid::validate() const
+{
+    if (!std::isfinite(surface_tension) || surface_tension <= 0.0) {
+        refuse("liquid.surface_tension", surface_tension, "finite and more than 0 N/m");
+    }
+    if (!std::isfinite(density) || density < 0.0) {
+        refuse("liquid.density", density, "finite and at least 0 kg/m3");
+    }
+}
+
+const std::vector<Liquid>& liquids()
+{
+    static const std::vector<Liquid> known{
+        {"water", 0.0728, 998.2},     {"ethanol", 0.02239, 789.3}, {"glycerol", 0.0634, 1261.0},
+        {"mercury", 0.4865, 13545.9}, {"honey", 0.055, 1417.0},
+    };
+    return known;
+}
+
+const Liquid& liquidNamed(std::string_view name)
+{
+    const auto& known = liquids();
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Liquid& l) { return l.name == name; });
+    if (found != known.end()) {
+        return *found;
+    }
+    std::string names;
+    for (const Liquid& liquid : known) {
+        names += (names.empty() ? "" : ", ") + liquid.name;
+    }
+    throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is no liquid known by name; known: " + names);
+}
+
+}  // namespace droplet

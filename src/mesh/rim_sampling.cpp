@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Local width by the poles of N. Amenta and M. Bern, "Surface reconstruction by Voronoi filtering" (1999): the largest
+// Delaunay circle inside the domain that touches a rim point approximates the medial ball there.
+
+#include "mesh/rim_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "droplet/error.h"
+#include "mesh/triangulation.h"
+
+namespace droplet {
+namespace {
+
+/// A rim edge turns by at most about this angle, so that a small round droplet has 18 of them [rad]. A chord that turns
+/// by δ has a sagitta of δ/8 of its length.
+constexpr double kTurnPerEdge = 0.35;
+
+/// How fast edge lengths may change along the rim, per unit of length: neighbours then differ by less than a factor 2.
+constexpr double kGradation = 0.4;
+
+/// Circles that touch the rim at points this many radii apart along it, or less, sit in a corner, not in a narrow part;
+/// at corners of less than 37° they count as narrow.
+constexpr double kCornerReach = 6.0;
+
+std::vector<double> arcLengths(const std::vector<Vec2>& points)
+{
+    std::vector<double> at(points.size() + 1, 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        at[i + 1] = at[i] + length(points[(i + 1) % points.size()] - points[i]);
+    }
+    return at;
+}
+
+/// A rim point's place: loop and index in it.
+struct Place {
+    std::size_t loop = 0;
+    std::size_t index = 0;
+};
+
+[[noreturn]] void failCrossing()
+{
+    throw Error(ErrorCode::InvalidArgument, "loops of a footprint must not cross or touch");
+}
+
+std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
+{
+    Triangulation triangulation;
+    std::vector<Place> places;
+    std::vector<std::vector<double>> arcs;
+    std::vector<std::vector<double>> widths;
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        const std::vector<Vec2>& points = loops[k].points;
+        arcs.push_back(arcLengths(points));
+        widths.emplace_back(points.size(), std::numeric_limits<double>::infinity());
+        std::vector<Triangulation::Vertex_handle> handles;
+        Triangulation::Face_handle hint;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Triangulation::Vertex_handle v = triangulation.insert({points[i].x, points[i].y}, hint);
+            if (v->info().index) {
+                failCrossing();
+            }
+            v->info().index = static_cast<std::uint32_t>(places.size());
+            places.push_back({k, i});
+            hint = v->face();
+            handles.push_back(v);
+        }
+        try {
+            for (std::size_t i = 0; i < handles.size(); ++i) {
+                triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
+            }
+        } catch (const Triangulation::Intersection_of_constraints_exception&) {
+            failCrossing();
+        }
+    }
+    markDomain(triangulation);
+
+    const auto apart = [&](const Place& a, const Place& b) {
+        if (a.loop != b.loop) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double way = std::abs(arcs[a.loop][a.index] - arcs[a.loop][b.index]);
+        return std::min(way, arcs[a.loop].back() - way);
+    };
+    for (auto f = triangulation.finite_faces_begin(); f != triangulation.finite_faces_end(); ++f) {
+        if (!f->is_in_domain()) {
+            continue;
+        }
+        const auto& a = f->vertex(0)->point();
+        const auto& b = f->vertex(1)->point();
+        const auto& c = f->vertex(2)->point();
+        const Vec2 ab{b.x() - a.x(), b.y() - a.y()};
+        const Vec2 ac{c.x() - a.x(), c.y() - a.y()};
+        const Vec2 bc = ac - ab;
+        const double radius = length(ab) * length(ac) * length(bc) / (2.0 * std::abs(cross(ab, ac)));
+        const Place& pa = places[*f->vertex(0)->info().index];
+        const Place& pb = places[*f->vertex(1)->info().index];
+        const Place& pc = places[*f->vertex(2)->info().index];
+        if (std::max({apart(pa, pb), apart(pb, pc), apart(pa, pc)}) > kCornerReach * radius) {
+            for (const Place& p : {pa, pb, pc}) {
+                double& width = widths[p.loop][p.index];
+                // The largest circle at a point is the medial one; smaller ones fit between neighbours.
+                width = std::isinf(width) ? 2.0 * radius : std::max(width, 2.0 * radius);
+            }
+        }
+    }
+    return widths;
+}
+
+/// Lowers lengths so that they change along a closed loop no faster than kGradation.
+void grade(std::vector<double>& lengths, const std::vector<double>& arc)
+{
+    const std::size_t n = lengths.size();
+    for (std::size_t lap = 0; lap < 2; ++lap) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t next = (i + 1) % n;
+            lengths[next] = std::min(lengths[next], lengths[i] + kGradation * (arc[i + 1] - arc[i]));
+        }
+    }
+    for (std::size_t lap = 0; lap < 2; ++lap) {
+        for (std::size_t i = n; i-- > 0;) {
+            const std::size_t next = (i + 1) % n;
+            lengths[i] = std::min(lengths[i], lengths[next] + kGradation * (arc[i + 1] - arc[i]));
+        }
+    }
+}
+
+/// A rim vertex's place on a loop: index of a point plus a fraction of the way to the next.
+struct Mark {
+    std::size_t index = 0;
+    double fraction = 0.0;
+    bool exact = false;  ///< the edge from here follows the loop as it is, for want of room
+};
+
+/// One loop being sampled.
+struct Sampling {
+    const Loop* loop = nullptr;
+    std::vector<double> arc;
+    std::vector<Mark> marks;
+
+    [[nodiscard]] Vec2 at(const Mark& m) const
+    {
+        const std::vector<Vec2>& p = loop->points;
+        return p[m.index] + m.fraction * (p[(m.index + 1) % p.size()] - p[m.index]);
+    }
+    [[nodiscard]] double arcAt(const Mark& m) const
+    {
+        return arc[m.index] + m.fraction * (arc[m.index + 1] - arc[m.index]);
+    }
+    [[nodiscard]] bool isCorner(const Mark& m) const { return m.fraction == 0.0 && loop->corner[m.index] != 0; }
+    [[nodiscard]] std::size_t size() const { return marks.size(); }
+    [[nodiscard]] const Mark& next(std::size_t i) const { return marks[(i + 1) % marks.size()]; }
+};
+
+/// Points of the loop strictly between two marks, in order.
+std::vector<std::size_t> between(const Sampling& sampling, const Mark& from, const Mark& to)
+{
+    const std::size_t n = sampling.loop->points.size();
+    std::vector<std::size_t> result;
+    const bool wraps = sampling.arcAt(to) <= sampling.arcAt(from);
+    const std::size_t last = to.index + (wraps ? n : 0);
+    for (std::size_t i = from.index + 1; i <= last; ++i) {
+        if (i < last || to.fraction > 0.0) {
+            result.push_back(i % n);
+        }
+    }
+    return result;
+}
+
+/// Distributes marks so that edges have about the wanted length everywhere; corners are marks.
+void distribute(Sampling& sampling, const std::vector<double>& lengths)
+{
+    const Loop& loop = *sampling.loop;
+    const std::size_t n = loop.points.size();
+    std::vector<std::size_t> stops;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (loop.corner[i] != 0) {
+            stops.push_back(i);
+        }
+    }
+    if (stops.empty()) {
+        stops.push_back(0);
+    }
+    const bool whole = stops.size() == 1;
+    for (std::size_t k = 0; k < stops.size(); ++k) {
+        const std::size_t begin = stops[k];
+        const std::size_t end = whole ? begin + n : (k + 1 < stops.size() ? stops[k + 1] : stops[0] + n);
+        std::vector<double> edges{0.0};  // how many edges fit up to every point
+        for (std::size_t i = begin; i < end; ++i) {
+            const double mean = 0.5 * (lengths[i % n] + lengths[(i + 1) % n]);
+            edges.push_back(edges.back() + (sampling.arc[i % n + 1] - sampling.arc[i % n]) / mean);
+        }
+        const std::size_t least = whole ? 6 : 1;
+        const auto count = std::max(least, static_cast<std::size_t>(std::lround(edges.back())));
+        sampling.marks.push_back({begin, 0.0, false});
+        std::size_t i = 0;
+        for (std::size_t j = 1; j < count; ++j) {
+            const double wanted = edges.back() * static_cast<double>(j) / static_cast<double>(count);
+            while (edges[i + 1] <= wanted) {
+                ++i;
+            }
+            const double fraction = (wanted - edges[i]) / (edges[i + 1] - edges[i]);
+            // Not beside a point of the loop but on it: that point may become a mark too.
+            constexpr double kSnap = 0.05;
+            if (fraction > 1.0 - kSnap) {
+                sampling.marks.push_back({(begin + i + 1) % n, 0.0, false});
+            } else {
+                sampling.marks.push_back({(begin + i) % n, fraction < kSnap ? 0.0 : fraction, false});
+            }
+        }
+    }
+    std::sort(sampling.marks.begin(), sampling.marks.end(), [](const Mark& a, const Mark& b) {
+        return a.index < b.index || (a.index == b.index && a.fraction < b.fraction);
+    });
+    sampling.marks.erase(std::unique(sampling.marks.begin(), sampling.marks.end(),
+                                     [](const Mark& a, const Mark& b) {
+                                         return a.index == b.index && a.fraction == b.fraction;
+                                     }),
+                         sampling.marks.end());
+}
+
+/// The mark half-way between two, at a point of the loop; none if there is no point between them.
+std::optional<Mark> halfway(const Sampling& sampling, const Mark& from, const Mark& to)
+{
+    const std::vector<std::size_t> inside = between(sampling, from, to);
+    if (inside.empty()) {
+        return std::nullopt;
+    }
+    return Mark{inside[inside.size() / 2], 0.0, false};
+}
+
+bool bulges(const Sampling& sampling, const Mark& from, const Mark& to)
+{
+    const Vec2 a = sampling.at(from);
+    const Vec2 chord = sampling.at(to) - a;
+    const double chord_length = length(chord);
+    double sagitta = 0.0;
+    for (const std::size_t i : between(sampling, from, to)) {
+        sagitta = std::max(sagitta, std::abs(cross(chord, sampling.loop->points[i] - a)));
+    }
+    return sagitta > kTurnPerEdge / 8.0 * chord_length * chord_length;
+}
+
+/// Splits edges that turn too far, down to `shortest`.
+void splitBulges(Sampling& sampling, double shortest)
+{
+    for (bool changed = true; changed;) {
+        changed = false;
+        std::vector<Mark> marks;
+        for (std::size_t i = 0; i < sampling.size(); ++i) {
+            const Mark& from = sampling.marks[i];
+            const Mark& to = sampling.next(i);
+            marks.push_back(from);
+            if (length(sampling.at(to) - sampling.at(from)) > 2.0 * shortest && bulges(sampling, from, to)) {
+                if (const std::optional<Mark> middle = halfway(sampling, from, to)) {
+                    marks.push_back(*middle);
+                    changed = true;
+                }
+            }
+        }
+        std::rotate(marks.begin(),
+                    std::min_element(marks.begin(), marks.end(),
+                                     [&](const Mark& a, const Mark& b) { return sampling.arcAt(a) < sampling.arcAt(b); }),
+                    marks.end());
+        sampling.marks = std::move(marks);
+    }
+}
+
+/// Moves vertices off the loop, outward, so that every loop's polygon encloses its area: a chord cuts off a segment that
+/// its two ends make good by half each. Corners stay.
+RimPolygon keepArea(const Sampling& sampling)
+{
+    const std::size_t n = sampling.size();
+    RimPolygon polygon(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        polygon[i] = sampling.at(sampling.marks[i]);
+    }
+    std::vector<double> missing(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        // Twice the area between chord and curve, positive where the curve lies to the right of the chord.
+        const Vec2 origin = polygon[i];
+        Vec2 last = origin;
+        for (const std::size_t j : between(sampling, sampling.marks[i], sampling.next(i))) {
+            const Vec2 here = sampling.loop->points[j];
+            missing[i] += cross(last - origin, here - origin);
+            last = here;
+        }
+        missing[i] = 0.5 * (missing[i] + cross(last - origin, polygon[(i + 1) % n] - origin));
+    }
+    RimPolygon result = polygon;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = (i + n - 1) % n;
+        if (sampling.isCorner(sampling.marks[i]) || sampling.marks[i].exact || sampling.marks[before].exact) {
+            continue;
+        }
+        const Vec2 along = polygon[(i + 1) % n] - polygon[before];
+        const double shorter = std::min(length(polygon[(i + 1) % n] - polygon[i]), length(polygon[i] - polygon[before]));
+        const double both = length(polygon[(i + 1) % n] - polygon[i]) + length(polygon[i] - polygon[before]);
+        if (length(along) < 0.5 * shorter) {
+            continue;
+        }
+        // More than this would be no correction of a chord but a change of shape.
+        const double most = kTurnPerEdge / 8.0 * shorter;
+        const double shift = std::clamp((missing[before] + missing[i]) / both, -most, most);
+        result[i] = polygon[i] + (shift / length(along)) * Vec2{along.y, -along.x};
+    }
+    return result;
+}
+
+/// Makes edges follow the loop more closely: halves them, and leaves their ends on the loop.
+/// @param chosen  one flag per edge
+/// @return        whether anything changed
+bool followLoop(Sampling& sampling, const std::vector<std::uint8_t>& chosen)
+{
+    bool changed = false;
+    std::vector<Mark> marks;
+    for (std::size_t i = 0; i < sampling.size(); ++i) {
+        Mark mark = sampling.marks[i];
+        const std::optional<Mark> middle =
+            chosen[i] != 0 ? halfway(sampling, mark, sampling.next(i)) : std::optional<Mark>();
+        if (chosen[i] != 0) {
+            changed = changed || !mark.exact || middle;
+            mark.exact = true;
+        }
+        marks.push_back(mark);
+        if (middle) {
+            marks.push_back({middle->index, middle->fraction, true});
+        }
+    }
+    // The last edge's half-way point may lie past the loop's first point.
+    std::rotate(marks.begin(),
+                std::min_element(marks.begin(), marks.end(),
+                                 [&](const Mark& a, const Mark& b) { return sampling.arcAt(a) < sampling.arcAt(b); }),
+                marks.end());
+    sampling.marks = std::move(marks);
+    return changed;
+}
+
+/// Whether the straight pieces ab and cd cross or touch.
+bool meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
+{
+    const auto apart = [](double p, double q, double r, double s) {
+        return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
+    };
+    // Also keeps collinear pieces apart.
+    if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) {
+        return false;
+    }
+    const double u = cross(b - a, c - a);
+    const double v = cross(b - a, d - a);
+    const double s = cross(d - c, a - c);
+    const double t = cross(d - c, b - c);
+    return ((u <= 0 && v >= 0) || (u >= 0 && v <= 0)) && ((s <= 0 && t >= 0) || (s >= 0 && t <= 0));
+}
+
+/// An edge of one of several polygons.
+struct EdgeId {
+    std::size_t loop = 0;
+    std::size_t index = 0;
+
+    friend bool operator==(const EdgeId&, const EdgeId&) = default;
+};
+
+/// Edges that cross or touch edges other than their neighbours, found through a grid of cells an edge long.
+std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
+{
+    double total = 0.0;
+    std::size_t count = 0;
+    for (const RimPolygon& p : polygons) {
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            total += length(p[(i + 1) % p.size()] - p[i]);
+            ++count;
+        }
+    }
+    const double cell = total / static_cast<double>(count);
+    std::unordered_map<std::uint64_t, std::vector<EdgeId>> grid;
+    std::vector<EdgeId> found;
+    for (std::size_t loop = 0; loop < polygons.size(); ++loop) {
+        const RimPolygon& p = polygons[loop];
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Vec2 a = p[i];
+            const Vec2 b = p[(i + 1) % p.size()];
+            const EdgeId id{loop, i};
+            bool is_meeting = false;
+            const auto [x0, x1] = std::minmax(a.x, b.x);
+            const auto [y0, y1] = std::minmax(a.y, b.y);
+            for (auto y = std::llround(std::floor(y0 / cell)); y <= std::llround(std::floor(y1 / cell)); ++y) {
+                for (auto x = std::llround(std::floor(x0 / cell)); x <= std::llround(std::floor(x1 / cell)); ++x) {
+                    std::vector<EdgeId>& there = grid[(static_cast<std::uint64_t>(y) << 32U) ^
+                                                      (static_cast<std::uint64_t>(x) & 0xffffffffU)];
+                    for (const EdgeId& other : there) {
+                        const RimPolygon& q = polygons[other.loop];
+                        const bool neighbours =
+                            other.loop == loop && ((other.index + 1) % q.size() == i || (i + 1) % q.size() == other.index);
+                        if (!neighbours && !(other == id) && meet(a, b, q[other.index], q[(other.index + 1) % q.size()])) {
+                            is_meeting = true;
+                            found.push_back(other);
+                        }
+                    }
+                    if (there.empty() || !(there.back() == id)) {
+                        there.push_back(id);
+                    }
+                }
+            }
+            if (is_meeting) {
+                found.push_back(id);
+            }
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+void markDomain(Triangulation& triangulation)
+{
+    for (auto f = triangulation.all_faces_begin(); f != triangulation.all_faces_end(); ++f) {
+        f->set_in_domain(false);
+        f->tds_data().clear();
+    }
+    // From the unbounded outside inward; crossing a constraint changes sides.
+    std::vector<Triangulation::Face_handle> outside{triangulation.infinite_face()};
+    std::vector<Triangulation::Face_handle> inside;
+    bool is_inside = false;
+    outside.front()->tds_data().mark_processed();
+    while (!outside.empty()) {
+        std::vector<Triangulation::Face_handle> stack = std::move(outside);
+        outside.clear();
+        for (const auto& f : stack) {
+            f->set_in_domain(is_inside);
+        }
+        while (!stack.empty()) {
+            const Triangulation::Face_handle f = stack.back();
+            stack.pop_back();
+            for (int i = 0; i < 3; ++i) {
+                const Triangulation::Face_handle neighbour = f->neighbor(i);
+                if (!neighbour->tds_data().is_clear()) {
+                    continue;
+                }
+                if (f->is_constrained(i)) {
+                    outside.push_back(neighbour);
+                    continue;
+                }
+                neighbour->tds_data().mark_processed();
+                neighbour->set_in_domain(is_inside);
+                stack.push_back(neighbour);
+            }
+        }
+        // A face may have been reached from several sides.
+        std::vector<Triangulation::Face_handle> fresh;
+        for (const auto& f : outside) {
+            if (f->tds_data().is_clear()) {
+                f->tds_data().mark_processed();
+                fresh.push_back(f);
+            }
+        }
+        outside = std::move(fresh);
+        is_inside = !is_inside;
+    }
+}
+
+RimSampler::RimSampler(const Footprint& footprint) : loops_{footprint.rim}
+{
+    loops_.insert(loops_.end(), footprint.holes.begin(), footprint.holes.end());
+    widths_ = localWidths(loops_);
+    double total = 0.0;
+    std::size_t count = 0;
+    for (const Loop& loop : loops_) {
+        total += arcLengths(loop.points).back();
+        count += loop.points.size();
+    }
+    // Traced loops have a point every 0.8 px: detail below half a pixel is an accident of the raster.
+    finest_ = 0.6 * total / static_cast<double>(count);
+}
+
+std::vector<RimPolygon> RimSampler::sample(double edge) const
+{
+    std::vector<Sampling> samplings(loops_.size());
+    for (std::size_t k = 0; k < loops_.size(); ++k) {
+        Sampling& sampling = samplings[k];
+        sampling.loop = &loops_[k];
+        sampling.arc = arcLengths(loops_[k].points);
+        std::vector<double> lengths(widths_[k].size());
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            lengths[i] = std::min(edge, std::max(finest_, widths_[k][i]));
+        }
+        grade(lengths, sampling.arc);
+        distribute(sampling, lengths);
+        splitBulges(sampling, std::min(edge, finest_));
+    }
+    // Where chords cut across a gap narrower than their sagitta, they follow the loop more closely, and exactly.
+    while (true) {
+        std::vector<RimPolygon> polygons;
+        std::vector<std::vector<std::uint8_t>> meets;
+        for (const Sampling& sampling : samplings) {
+            polygons.push_back(keepArea(sampling));
+            meets.emplace_back(sampling.size(), 0);
+        }
+        const std::vector<EdgeId> meeting = meetingEdges(polygons);
+        if (meeting.empty()) {
+            return polygons;
+        }
+        for (const EdgeId& id : meeting) {
+            meets[id.loop][id.index] = 1;
+        }
+        bool changed = false;
+        for (std::size_t k = 0; k < samplings.size(); ++k) {
+            changed = followLoop(samplings[k], meets[k]) || changed;
+        }
+        if (!changed) {
+            failCrossing();
+        }
+    }
+}
+
+}  // namespace droplet

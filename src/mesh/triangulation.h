@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <cstdint>
+#include <optional>
+
+namespace droplet {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// What a triangulation's vertex carries. A struct with a default: CGAL leaves plain numbers uninitialised.
+struct VertexTag {
+    std::optional<std::uint32_t> index;
+};
+
+using TriangulationData =
+    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<VertexTag, Kernel>,
+                                         CGAL::Delaunay_mesh_face_base_2<Kernel>>;
+
+/// Crossing constraints throw instead of adding vertices behind our backs.
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, TriangulationData,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+/// Marks the faces inside the constraints by the even-odd rule.
+void markDomain(Triangulation& triangulation);
+
+}  // namespace droplet

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/shape/fill.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "droplet/error.h"
+
+namespace droplet {
+
+void Fill::validate() const
+{
+    const auto fail = [this](const char* field, const char* unit, const char* constraint) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::string(field) + " " + std::to_string(amount) + unit + " must be " + constraint);
+    };
+    const bool positive = amount > 0.0 && std::isfinite(amount);
+    switch (by) {
+        case FillBy::Volume:
+            if (!positive) {
+                fail("volume", " m³", "positive");
+            }
+            break;
+        case FillBy::Height:
+            if (!positive) {
+                fail("height", " m", "positive");
+            }
+            break;
+        case FillBy::ContactAngle:
+            if (!positive || amount >= 0.5 * std::numbers::pi) {
+                fail("contact_angle", " rad", "between 0 and 90 degrees: steeper rims are no height field");
+            }
+            break;
+    }
+}
+
+}  // namespace droplet

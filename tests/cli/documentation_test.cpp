@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// --help, manual page and completion say the same, and say what is so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/droplet.h"
+#include "droplet/units.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::readFile;
+using testing::runDroplet;
+using testing::runProgram;
+using ::testing::SizeIs;
+
+std::string sourceFile(const std::string& name)
+{
+    return readFile(std::string(DROPLET_SOURCE_DIR) + "/cli/" + name);
+}
+
+std::string help()
+{
+    return runDroplet({"--help"}).output;
+}
+
+std::set<std::string> longOptions(const std::string& text)
+{
+    std::set<std::string> options;
+    for (auto at = text.find("--"); at != std::string::npos; at = text.find("--", at + 2)) {
+        const auto end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + 2);
+        if (end != at + 2) {
+            options.insert(text.substr(at, end - at));
+        }
+    }
+    return options;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+/// The manual page with its escapes for dashes taken out.
+std::string manual()
+{
+    return replaced(sourceFile("droplet-shape.1"), "\\-", "-");
+}
+
+/// What pressing the tab key offers after these words.
+std::vector<std::string> completions(const std::vector<std::string>& words)
+{
+    std::string script = "source \"$1\"; COMP_WORDS=(droplet-shape";
+    for (const std::string& word : words) {
+        script += " '" + word + "'";
+    }
+    script += "); COMP_CWORD=" + std::to_string(words.size()) + R"(; _droplet_shape; printf '%s\n' "${COMPREPLY[@]}")";
+    const std::string file = std::string(DROPLET_SOURCE_DIR) + "/cli/droplet-shape.bash";
+    const auto result = runProgram({"bash", "-c", script, "bash", file});
+    EXPECT_EQ(result.error, "");
+    std::istringstream lines(result.output);
+    std::vector<std::string> offered;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.empty()) {
+            offered.push_back(line);
+        }
+    }
+    return offered;
+}
+
+TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
+{
+    const auto known = longOptions(help());
+    EXPECT_THAT(known, SizeIs(28));
+    EXPECT_EQ(longOptions(manual()), known);
+    EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), [&] {
+        auto with_syntax = known;
+        with_syntax.insert("--option");  // of a comment
+        return with_syntax;
+    }());
+    const auto offered = completions({"--"});
+    EXPECT_EQ(std::set<std::string>(offered.begin(), offered.end()), known);
+}
+
+TEST(Documentation, EveryOptionInTheHelpIsAccepted)
+{
+    for (const std::string& option : longOptions(help())) {
+        EXPECT_THAT(runDroplet({option}).error, ::testing::Not(HasSubstr("unknown option"))) << option;
+    }
+}
+
+TEST(Documentation, DefaultsInTheHelpAreTheLibrarys)
+{
+    const std::string text = help();
+    const auto default_of = [&](const std::string& option) {
+        const auto begin = text.find('[', text.find("\n  " + option)) + 1;
+        return text.substr(begin, text.find(']', begin) - begin);
+    };
+    const DropletOptions options;
+    EXPECT_DOUBLE_EQ(parseQuantity(default_of("--width"), Dimension::Length), options.trace.width);
+    EXPECT_DOUBLE_EQ(std::stod(default_of("--threshold")), options.trace.threshold);
+    EXPECT_DOUBLE_EQ(std::stod(default_of("--speck-size")), options.trace.speck_size);
+    EXPECT_EQ(options.solve.fill.by, FillBy::ContactAngle);
+    EXPECT_DOUBLE_EQ(parseQuantity(default_of("--contact-angle"), Dimension::Angle), options.solve.fill.amount);
+    EXPECT_EQ(default_of("--fill"), options.solve.fill.sharing == FillSharing::Each ? "each" : "total");
+    EXPECT_EQ(default_of("--liquid"), options.solve.liquid.name);
+    EXPECT_DOUBLE_EQ(parseQuantity(default_of("--gravity"), Dimension::Acceleration), options.solve.gravity);
+    EXPECT_EQ(default_of("--triangles"), std::to_string(options.mesh.triangles / 1000) + "k");
+    EXPECT_EQ(default_of("--channel"), "auto");
+}
+
+TEST(Documentation, HelpAndManualNameEveryLiquidAndUnit)
+{
+    for (const std::string& text : {help(), manual()}) {
+        for (const Liquid& liquid : liquids()) {
+            EXPECT_THAT(text, HasSubstr(liquid.name));
+        }
+        for (const Dimension dimension : {Dimension::Length, Dimension::Volume, Dimension::Angle,
+                                          Dimension::SurfaceTension, Dimension::Density, Dimension::Acceleration}) {
+            std::istringstream words(replaced(replaced(unitsOf(dimension), ",", ""), " or ", " "));
+            for (std::string unit; words >> unit;) {
+                EXPECT_THAT(text, HasSubstr(" " + unit)) << unit;
+            }
+        }
+    }
+}
+
+TEST(Documentation, CompletionOffersNamesThatAreAccepted)
+{
+    EXPECT_THAT(completions({"in.png", "out.glb", "--channel", ""}), ElementsAre("auto", "alpha", "luma"));
+    EXPECT_THAT(completions({"--fill", "t"}), ElementsAre("total"));
+    EXPECT_THAT(completions({"--format", "=", "g"}), ElementsAre("glb", "gltf"));
+    EXPECT_THAT(completions({"--width", ""}), IsEmpty());
+    std::vector<std::string> names;
+    for (const Liquid& liquid : liquids()) {
+        names.push_back(liquid.name);
+    }
+    EXPECT_EQ(completions({"--liquid", ""}), names);
+    for (const char* option : {"--channel", "--fill", "--liquid", "--material", "--format", "--progress"}) {
+        const auto offered = completions({option, ""});
+        EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
+        for (const std::string& name : offered) {
+            // Without INPUT a run ends there, once all options have been understood.
+            EXPECT_THAT(runDroplet({option, name}).error, HasSubstr("INPUT is missing")) << option << " " << name;
+        }
+    }
+}
+
+TEST(Documentation, CompletionOffersFiles)
+{
+    testing::ScratchDirectory scratch;
+    const std::string beginning = (scratch.path() / "my").string();
+    testing::writeFile(beginning + " logo.png", "");
+    EXPECT_THAT(completions({beginning}), ElementsAre(beginning + " logo.png"));
+    EXPECT_THAT(completions({"--json", beginning}), ElementsAre(beginning + " logo.png"));
+}
+
+TEST(Documentation, ManualIsCleanRoff)
+{
+    const std::string file = std::string(DROPLET_SOURCE_DIR) + "/cli/droplet-shape.1";
+    const auto formatted = runProgram({"groff", "-man", "-ww", "-Tutf8", file});
+    ASSERT_EQ(formatted.exit_code, 0) << "groff (Debian: groff-base) formats the manual page";
+    EXPECT_EQ(formatted.error, "");
+    EXPECT_THAT(formatted.output, HasSubstr("DROPLET-SHAPE(1)"));
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bad inputs and outputs: a clear line, the right exit code, nothing lost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/refusal.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::canRespectPermissions;
+using testing::CommandOptions;
+using testing::discPicture;
+using testing::greymap;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::RefusalTest;
+using testing::writeFile;
+
+class FailureTest : public RefusalTest {
+protected:
+    /// A picture of these bytes is refused, from a file and from standard input.
+    void expectBadPicture(const std::string& bytes, const std::vector<std::string>& words) const
+    {
+        writeFile(directory() / "bad.png", bytes);
+        auto named = words;
+        named.emplace_back("bad.png");
+        expectRefusal({"bad.png", "old.glb", "--json", "old.json"}, 3, named);
+        CommandOptions options;
+        options.input = bytes;
+        named.back() = "standard input";
+        expectRefusal({"-", "old.glb", "--json", "old.json"}, 3, named, options);
+    }
+
+    /// A command line of the shell that begins with droplet-shape.
+    [[nodiscard]] testing::CommandResult runShell(const std::string& arguments, const std::string& before = "") const
+    {
+        CommandOptions options;
+        options.directory = directory();
+        return testing::runProgram({"sh", "-c", before + "exec \"$0\" " + arguments, DROPLET_COMMAND}, options);
+    }
+
+    void expectBadOutput(const std::vector<std::string>& outputs, const std::vector<std::string>& words,
+                         const CommandOptions& options = {}) const
+    {
+        std::vector<std::string> arguments{"disc.pgm"};
+        arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+        expectRefusal(arguments, 4, words, options);
+    }
+};
+
+TEST_F(FailureTest, MissingPicture)
+{
+    expectRefusal({"missing.png", "old.glb", "--json", "old.json"}, 3, {"missing.png", "No such file"});
+}
+
+TEST_F(FailureTest, EmptyPicture)
+{
+    expectBadPicture("", {"empty"});
+}
+
+TEST_F(FailureTest, TruncatedPicture)
+{
+    const std::string whole = discPicture(64, 24.0);
+    expectBadPicture(whole.substr(0, whole.size() / 2), {});
+    expectBadPicture(whole.substr(0, 5), {});
+}
+
+TEST_F(FailureTest, NotAPicture)
+{
+    expectBadPicture("This is no picture, but a sentence of some length.\n", {});
+}
+
+TEST_F(FailureTest, DirectoryForAPicture)
+{
+    fs::create_directory(directory() / "folder.png");
+    expectRefusal({"folder.png", "old.glb"}, 3, {"folder.png", "irectory"});
+}
+
+TEST_F(FailureTest, UnreadablePicture)
+{
+    if (!canRespectPermissions()) {
+        GTEST_SKIP() << "runs as a root that may not give up its privileges";
+    }
+    fs::permissions(directory() / "disc.pgm", fs::perms::none);
+    CommandOptions options;
+    options.respect_permissions = true;
+    expectRefusal({"disc.pgm", "old.glb", "--json", "old.json"}, 3, {"disc.pgm", "Permission denied"}, options);
+}
+
+TEST_F(FailureTest, BombOfATinyFile)
+{
+    expectBadPicture("P5\n100000 100000\n255\nabc", {"100000"});
+    // A PNG of 100000 × 100000 one-bit pixels with its checksums right and hardly any data.
+    constexpr std::array<unsigned char, 45> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,
+                                                 'I',  'H', 'D', 'R', 0,    0x01, 0x86, 0xa0, 0,    0x01, 0x86, 0xa0,
+                                                 1,    0,   0,   0,   0,    0x80, 0x29, 0x36, 0x65, 0,    0,    0,
+                                                 0,    'I', 'E', 'N', 'D',  0xae, 0x42, 0x60, 0x82};
+    expectBadPicture(std::string(kPng.begin(), kPng.end()), {"100000"});
+}
+
+TEST_F(FailureTest, PictureWithoutLiquid)
+{
+    expectBadPicture(greymap(32, 32, [](int, int) { return 0; }), {"liquid"});
+}
+
+TEST_F(FailureTest, PictureOfSpecksOnly)
+{
+    const auto specks = greymap(32, 32, [](int x, int y) { return x % 8 == 4 && y % 8 == 4 ? 255 : 0; });
+    expectBadPicture(specks, {"speck"});
+}
+
+TEST_F(FailureTest, MissingFolder)
+{
+    expectBadOutput({"nowhere/new.glb", "--json", "old.json"}, {"nowhere/new.glb", "No such file or directory"});
+    expectBadOutput({"old.glb", "--json", "nowhere/new.json"}, {"nowhere/new.json", "No such file or directory"});
+}
+
+TEST_F(FailureTest, FileForAFolder)
+{
+    expectBadOutput({"disc.pgm/new.glb", "--json", "old.json"}, {"disc.pgm/new.glb", "Not a directory"});
+}
+
+TEST_F(FailureTest, DirectoryForAnOutput)
+{
+    fs::create_directory(directory() / "folder.glb");
+    expectBadOutput({"folder.glb", "--json", "old.json"}, {"folder.glb", "Is a directory"});
+    expectBadOutput({"old.glb", "--json", "folder.glb"}, {"folder.glb", "Is a directory"});
+}
+
+TEST_F(FailureTest, ReadOnlyFolder)
+{
+    if (!canRespectPermissions()) {
+        GTEST_SKIP() << "runs as a root that may not give up its privileges";
+    }
+    const fs::path locked = directory() / "locked";
+    fs::create_directory(locked);
+    writeFile(locked / "old.glb", kOlder);
+    fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+    CommandOptions options;
+    options.respect_permissions = true;
+    expectBadOutput({"locked/new.glb", "--json", "old.json"}, {"locked/new.glb", "Permission denied"}, options);
+    expectBadOutput({"locked/old.glb", "--json", "old.json"}, {"locked/old.glb", "Permission denied"}, options);
+    expectBadOutput({"old.glb", "--json", "locked/new.json"}, {"locked/new.json", "Permission denied"}, options);
+    EXPECT_EQ(readFile(locked / "old.glb"), kOlder);
+    fs::permissions(locked, fs::perms::owner_all);
+}
+
+TEST_F(FailureTest, FullDevice)
+{
+    for (const char* format : {"glb", "gltf", "obj", "ply", "stl"}) {
+        expectBadOutput({"/dev/full", "--format", format, "--json", "old.json"}, {"/dev/full", "No space left"});
+    }
+    // The droplet itself could be written: that it is not there without its report is the promise.
+    expectBadOutput({"old.glb", "--json", "/dev/full"}, {"/dev/full", "No space left"});
+}
+
+TEST_F(FailureTest, FullStandardOutput)
+{
+    CommandOptions options;
+    options.output_file = "/dev/full";
+    expectBadOutput({"-", "--format", "stl", "--json", "old.json"}, {"No space left"}, options);
+    expectBadOutput({"old.glb", "--json", "-"}, {"No space left"}, options);
+}
+
+TEST_F(FailureTest, ReaderThatWentAway)
+{
+    CommandOptions options;
+    options.output_closed = true;
+    expectBadOutput({"-", "--format", "stl", "--json", "old.json"}, {"Broken pipe"}, options);
+    expectBadOutput({"old.glb", "--json", "-"}, {"Broken pipe"}, options);
+}
+
+TEST_F(FailureTest, ExistingFilesThatMustStay)
+{
+    expectBadOutput({"old.glb", "--no-clobber"}, {"old.glb", "exists"});
+    expectBadOutput({"new.glb", "--json", "old.json", "--no-clobber"}, {"old.json", "exists"});
+}
+
+TEST_F(FailureTest, StandardInputThatIsTheOutput)
+{
+    const std::string before = readFile(directory() / "disc.pgm");
+    const auto result = runShell("- disc.pgm --format glb < disc.pgm");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr("OUTPUT and INPUT are the same"));
+    EXPECT_EQ(readFile(directory() / "disc.pgm"), before);
+}
+
+TEST_F(FailureTest, ClosedStandardStreams)
+{
+    const auto no_input = runShell("- old.glb <&-");
+    EXPECT_EQ(no_input.exit_code, 3);
+    EXPECT_THAT(no_input.error, HasSubstr("standard input"));
+    const auto no_output = runShell("disc.pgm - --format stl --json old.json >&-");
+    EXPECT_EQ(no_output.exit_code, 4);
+    EXPECT_THAT(no_output.error, HasSubstr("/dev/stdout"));
+    expectOlderFiles();
+
+    // A file that took the place of standard error would also take the words meant for it.
+    EXPECT_EQ(runShell("disc.pgm silent.ply -v 2>&-").exit_code, 0);
+    EXPECT_EQ(runShell("disc.pgm loud.ply -v").exit_code, 0);
+    EXPECT_TRUE(readFile(directory() / "silent.ply") == readFile(directory() / "loud.ply"));
+}
+
+TEST_F(FailureTest, NamesThatWouldBreakALine)
+{
+    expectRefusal({"two\nlines.png", "old.glb"}, 3, {"lines.png"});
+    expectRefusal({"disc.pgm", "two\nlines"}, 2, {"lines"});
+    expectRefusal({"disc.pgm", "old.glb", "--width", "4\nmm"}, 2, {"--width"});
+}
+
+TEST_F(FailureTest, EdgeTooShortForTheFootprint)
+{
+    expectRefusal({"disc.pgm", "old.glb", "--edge", "1nm", "--json", "old.json"}, 2,
+                  {"--edge", "1e-06mm", "triangles", "at least"});
+}
+
+TEST_F(FailureTest, OutOfMemory)
+{
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the sanitizer itself takes terabytes of address space";
+#endif
+    const auto result = runShell("disc.pgm old.glb --triangles 5M -j 1", "ulimit -v 150000; ");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.error, ::testing::StartsWith("droplet-shape: out of memory"));
+    expectOlderFiles();
+}
+
+}  // namespace
+}  // namespace droplet

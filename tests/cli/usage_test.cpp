@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the command line refuses before any work is done: exit code 2 and one line that says what is allowed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/refusal.h"
+
+namespace droplet {
+namespace {
+
+using testing::CommandOptions;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::RefusalTest;
+using ::testing::StartsWith;
+using testing::writeFile;
+
+class UsageTest : public RefusalTest {
+protected:
+    /// A run that would replace old.glb and old.json were it not for one option.
+    void expectRefused(const std::vector<std::string>& options, const std::vector<std::string>& words) const
+    {
+        std::vector<std::string> arguments{"disc.pgm", "old.glb", "--json", "old.json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expectRefusal(arguments, 2, words);
+    }
+
+    void expectConfigRefused(const std::string& text, const std::vector<std::string>& words) const
+    {
+        SCOPED_TRACE(text);
+        writeFile(directory() / "settings.toml", text);
+        expectRefused({"--config", "settings.toml"}, words);
+    }
+};
+
+TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
+{
+    for (const char* option : {"--help", "-h"}) {
+        const auto help = run({option});
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.output, HasSubstr("Usage: droplet-shape"));
+        EXPECT_THAT(help.output, HasSubstr("Exit codes:"));
+        EXPECT_THAT(help.error, IsEmpty());
+    }
+    const auto version = run({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_THAT(version.output, StartsWith("droplet-shape "));
+    EXPECT_THAT(version.error, IsEmpty());
+}
+
+TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
+{
+    std::istringstream help(run({"--help"}).output);
+    for (std::string line; std::getline(help, line);) {
+        EXPECT_LE(line.size(), 80U) << line;
+    }
+}
+
+TEST_F(UsageTest, HelpOnAFullDeviceIsAFailedOutput)
+{
+    CommandOptions options;
+    options.output_file = "/dev/full";
+    expectRefusal({"--help"}, 4, {"/dev/stdout", "No space left"}, options);
+}
+
+TEST_F(UsageTest, MissingAndExtraArguments)
+{
+    expectRefusal({}, 2, {"INPUT is missing", "--help"});
+    expectRefusal({"disc.pgm"}, 2, {"OUTPUT is missing", "--help"});
+    expectRefusal({"", "old.glb"}, 2, {"INPUT is missing"});
+    expectRefusal({"disc.pgm", "old.glb", "third"}, 2, {"unexpected argument 'third'"});
+}
+
+TEST_F(UsageTest, UnknownOptions)
+{
+    expectRefused({"--trianglse", "5k"}, {"unknown option --trianglse", "--triangles"});
+    expectRefused({"--zzz=3"}, {"unknown option --zzz", "--help"});
+    expectRefused({"-x"}, {"unknown option -x"});
+    expectRefused({"--tilt", "5deg"}, {"unknown option --tilt"});
+    expectRefused({"--wid", "5mm"}, {"unknown option --wid"});
+}
+
+TEST_F(UsageTest, OptionsWithoutTheirValue)
+{
+    expectRefused({"--width"}, {"--width", "value is missing"});
+    expectRefused({"--width="}, {"--width", "empty"});
+    expectRefused({"--width", ""}, {"--width", "not a length"});
+    expectRefused({"--open=maybe"}, {"--open", "'maybe'", "true or false"});
+    expectRefused({"--width", "3mm", "--width", "4mm"}, {"--width", "2 times"});
+}
+
+TEST_F(UsageTest, BareNumbersNameTheUnitsAllowed)
+{
+    expectRefused({"--width", "20"}, {"--width", "'20' has no unit", "mm", "as in 4mm"});
+    expectRefused({"--pixel-size", "20"}, {"--pixel-size", "no unit", "um"});
+    expectRefused({"--volume", "30"}, {"--volume", "no unit", "uL", "as in 30uL"});
+    expectRefused({"--height", "4"}, {"--height", "no unit", "mm"});
+    expectRefused({"--contact-angle", "45"}, {"--contact-angle", "no unit", "deg or rad"});
+    expectRefused({"--surface-tension", "72"}, {"--surface-tension", "no unit", "mN/m"});
+    expectRefused({"--density", "1000"}, {"--density", "no unit", "kg/m3"});
+    expectRefused({"--gravity", "9.81"}, {"--gravity", "no unit", "m/s2"});
+    expectRefused({"--edge", "1"}, {"--edge", "no unit", "mm"});
+}
+
+TEST_F(UsageTest, AbsurdQuantities)
+{
+    for (const char* length :
+         {"0mm", "-1mm", "1e300m", "-1e300m", "1e-300m", "nan", "inf", "infmm", "1e999mm", "4uL"}) {
+        expectRefused({"--width", length}, {"--width", length});
+        expectRefused({"--pixel-size", length}, {"--pixel-size", length});
+        expectRefused({"--height", length}, {"--height", length});
+        expectRefused({"--edge", length}, {"--edge", length});
+    }
+    for (const char* volume : {"0uL", "-1uL", "1e300m3", "1e-300uL", "nan", "4mm"}) {
+        expectRefused({"--volume", volume}, {"--volume", volume});
+    }
+    for (const char* angle : {"0deg", "-1deg", "90deg", "91deg", "2rad", "nan", "infdeg"}) {
+        expectRefused({"--contact-angle", angle}, {"--contact-angle", angle});
+    }
+    for (const char* tension : {"0mN/m", "-1mN/m", "1e300N/m"}) {
+        expectRefused({"--surface-tension", tension}, {"--surface-tension", tension});
+    }
+    expectRefused({"--density", "-1kg/m3"}, {"--density", "from 0kg/m3"});
+    expectRefused({"--gravity", "-1m/s2"}, {"--gravity", "'-1m/s2'", "from 0m/s2"});
+    expectRefused({"--contact-angle", "91deg"}, {"to 89.999deg"});
+    expectRefused({"--width", "0mm"}, {"from 1nm to 1000m"});
+}
+
+TEST_F(UsageTest, NumbersOutOfRange)
+{
+    for (const char* threshold : {"0", "1", "-0.5", "2", "nan", "half", "0.5x"}) {
+        expectRefused({"--threshold", threshold}, {"--threshold", threshold, "over 0 and under 1"});
+    }
+    for (const char* speck : {"-1", "nan", "inf", "some"}) {
+        expectRefused({"--speck-size", speck}, {"--speck-size", speck, "at least 0"});
+    }
+    for (const char* count : {"0", "-5", "5.5", "1e9", "5kk", "k", "5G", "many", "nan"}) {
+        expectRefused({"--triangles", count}, {"--triangles", count, "from 1 to 100M"});
+    }
+    for (const char* count : {"0", "-1", "1.5", "2000", "all"}) {
+        expectRefused({"-j", count}, {"--threads", count, "from 1 to 1024"});
+    }
+}
+
+TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
+{
+    expectRefused({"--channel", "red"}, {"--channel", "'red'", "auto, alpha, luma"});
+    expectRefused({"--fill", "some"}, {"--fill", "'some'", "each, total"});
+    expectRefused({"--liquid", "milk"}, {"--liquid", "'milk'", "water", "mercury"});
+    expectRefused({"--material", "gold"}, {"--material", "gold", "water", "plain"});
+    expectRefused({"--format", "fbx"}, {"--format", "'fbx'", "glb, gltf, obj, ply, stl"});
+    expectRefused({"--progress", "loud"}, {"--progress", "'loud'", "auto, none, json"});
+}
+
+TEST_F(UsageTest, OptionsThatExcludeEachOther)
+{
+    expectRefused({"--width", "2cm", "--pixel-size", "1um"}, {"--width and --pixel-size exclude each other"});
+    expectRefused({"--volume", "1uL", "--height", "1mm"}, {"--volume and --height exclude each other"});
+    expectRefused({"--volume", "1uL", "--contact-angle", "1deg"}, {"--contact-angle and --volume exclude each other"});
+    expectRefused({"--height", "1mm", "--contact-angle", "1deg"}, {"--contact-angle and --height exclude each other"});
+    expectRefused({"--triangles", "5k", "--edge", "1mm"}, {"--triangles and --edge exclude each other"});
+    expectRefused({"-q", "-v"}, {"--quiet and --verbose exclude each other"});
+}
+
+TEST_F(UsageTest, OutputFormats)
+{
+    expectRefusal({"disc.pgm", "new.fbx"}, 2, {"OUTPUT 'new.fbx'", ".fbx", "glb", "stl"});
+    expectRefusal({"disc.pgm", "new"}, 2, {"OUTPUT 'new' has no extension", "glb", "--format"});
+    expectRefusal({"disc.pgm", ".glb"}, 2, {"OUTPUT '.glb' has no extension"});
+    expectRefusal({"disc.pgm", "-"}, 2, {"--format is needed", "glb"});
+}
+
+TEST_F(UsageTest, FilesThatWouldMeet)
+{
+    expectRefusal({"disc.pgm", "disc.pgm", "--format", "glb"}, 2, {"OUTPUT and INPUT are the same"});
+    expectRefusal({"disc.pgm", "./disc.pgm", "--format", "glb"}, 2, {"OUTPUT and INPUT are the same"});
+    std::filesystem::create_symlink("disc.pgm", directory() / "link.glb");
+    expectRefusal({"disc.pgm", "link.glb"}, 2, {"OUTPUT and INPUT are the same"});
+    std::filesystem::create_hard_link(directory() / "disc.pgm", directory() / "hard.glb");
+    expectRefusal({"disc.pgm", "hard.glb"}, 2, {"OUTPUT and INPUT are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--json", "disc.pgm"}, 2, {"--json and INPUT are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--json", "old.glb"}, 2, {"--json and OUTPUT are the same"});
+    expectRefusal({"disc.pgm", "new.glb", "--json", "./new.glb"}, 2, {"--json and OUTPUT are the same"});
+    expectRefusal({"disc.pgm", "-", "--format", "glb", "--json", "-"}, 2, {"--json and OUTPUT are the same"});
+    writeFile(directory() / "settings.toml", "open = true\n");
+    expectRefusal({"disc.pgm", "old.glb", "--json", "settings.toml", "--config", "settings.toml"}, 2,
+                  {"--json and --config are the same"});
+}
+
+TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
+{
+    expectConfigRefused("widht = \"8cm\"\n", {"settings.toml:1", "unknown key 'widht'", "'width'"});
+    expectConfigRefused("# fine\n\nx = 1\n", {"settings.toml:3", "unknown key 'x'"});
+    expectConfigRefused("INPUT = \"disc.pgm\"\n", {"unknown key 'INPUT'"});
+    expectConfigRefused("q = true\n", {"unknown key 'q'"});
+    expectConfigRefused("config = \"other.toml\"\n", {"unknown key 'config'"});
+    expectConfigRefused("help = true\n", {"unknown key 'help'"});
+    expectConfigRefused("open\n", {"settings.toml:1", "'open' is not of the form 'key = value'"});
+    expectConfigRefused("width = 8cm\n", {"'8cm'", "width = \"8cm\""});
+    expectConfigRefused("width =\n", {"settings.toml:1", "'width'"});
+    expectConfigRefused("width = \"8cm\n", {"closing quote"});
+    expectConfigRefused("width = \"8cm\" 3\n", {"'3' stands after the value"});
+    expectConfigRefused("width = \"\\q\"\n", {"escape"});
+    expectConfigRefused("[size]\nwidth = \"8cm\"\n", {"settings.toml:1", "tables"});
+    expectConfigRefused("triangles = [1, 2]\n", {"settings.toml:1", "[1, 2]"});
+    expectConfigRefused("open = true\nopen = false\n", {"settings.toml:2", "'open' is given twice"});
+    expectConfigRefused("open = \"yes\"\n", {"--open (settings.toml:1)", "true or false"});
+    expectConfigRefused("open = 1\n", {"--open (settings.toml:1)", "true or false"});
+    expectConfigRefused("\nvolume = \"30\"\n", {"--volume (settings.toml:2)", "no unit"});
+    expectConfigRefused("width = \"8cm\"\npixel-size = \"1um\"\n", {"--width and --pixel-size exclude each other"});
+    expectRefused({"--config", "missing.toml"}, {"--config", "missing.toml", "No such file"});
+    expectRefused({"--config", "."}, {"--config", "Is a directory"});
+}
+
+}  // namespace
+}  // namespace droplet

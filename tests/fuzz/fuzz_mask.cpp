@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/error.h"
+#include "droplet/footprint/mask.h"
+#include "fuzz/targets.h"
+
+namespace droplet {
+
+void fuzzMask(std::span<const std::byte> bytes)
+{
+    MaskOptions options;
+    options.max_pixels = std::size_t{1} << 20;  // so that time goes into headers, not into pixels
+    for (const Channel channel : {Channel::Auto, Channel::Alpha}) {
+        options.channel = channel;
+        try {
+            decodeMask(bytes, options).validate();
+        } catch (const Error&) {
+            // A clear refusal is what broken files are meant to get.
+        }
+    }
+}
+
+}  // namespace droplet

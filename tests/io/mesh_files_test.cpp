@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/io/mesh_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <locale>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/version.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::RoundDroplet;
+using testing::roundDroplet;
+
+using Writer = void (*)(const Surface&, std::ostream&);
+
+std::string written(Writer writer, const Surface& surface)
+{
+    std::ostringstream out;
+    writer(surface, out);
+    EXPECT_TRUE(out.good());
+    return out.str();
+}
+
+template <class Number>
+Number at(const std::string& bytes, std::size_t offset)
+{
+    Number number;
+    std::memcpy(&number, bytes.data() + offset, sizeof number);
+    return number;
+}
+
+std::size_t places(const Surface& surface)
+{
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
+        count += surface.weld[i] == i ? 1U : 0U;
+    }
+    return count;
+}
+
+// The lines of an OBJ, by keyword.
+std::map<std::string, std::vector<std::string>> linesOf(const std::string& obj)
+{
+    std::map<std::string, std::vector<std::string>> lines;
+    std::istringstream in(obj);
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t space = line.find(' ');
+        lines[line.substr(0, space)].push_back(line.substr(space + 1));
+    }
+    return lines;
+}
+
+std::vector<double> numbersIn(const std::string& line)
+{
+    std::istringstream in(line);
+    std::vector<double> numbers;
+    for (double number = 0.0; in >> number;) {
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+TEST(Obj, SaysItsUnitAndAxis)
+{
+    const std::string obj = written(writeObj, roundDroplet());
+    EXPECT_EQ(obj.substr(0, obj.find('\n')), std::string("# droplet-shape ") + kVersion);
+    EXPECT_THAT(obj.substr(0, 200), HasSubstr("# unit: millimetre, up: +Y, front: +Z\n"));
+}
+
+TEST(Obj, WeldsPositionsAndKeepsNormalsApart)
+{
+    const Surface surface = roundDroplet({.inner = 1e-3, .centre = {1e-3, 2e-3}});
+    auto lines = linesOf(written(writeObj, surface));
+    ASSERT_EQ(lines["v"].size(), places(surface));
+    ASSERT_LT(lines["v"].size(), surface.positions.size());
+    ASSERT_EQ(lines["vt"].size(), surface.positions.size());
+    ASSERT_EQ(lines["vn"].size(), surface.positions.size());
+    ASSERT_EQ(lines["f"].size(), surface.triangles.size());
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        std::istringstream face(lines["f"][t]);
+        for (const std::uint32_t vertex : surface.triangles[t]) {
+            std::size_t position = 0;
+            std::size_t texture = 0;
+            std::size_t normal = 0;
+            char slash = 0;
+            face >> position >> slash >> texture >> slash >> normal;
+            ASSERT_TRUE(face);
+            const Vec3 place = surface.positions[vertex];
+            const std::vector<double> v = numbersIn(lines["v"].at(position - 1));
+            ASSERT_EQ(v.size(), 3U);
+            EXPECT_NEAR(v[0], 1e3 * place.x, 5e-9 * std::abs(v[0]));
+            EXPECT_NEAR(v[1], 1e3 * place.z, 5e-9 * std::abs(v[1]));
+            EXPECT_NEAR(v[2], -1e3 * place.y, 5e-9 * std::abs(v[2]));
+            const std::vector<double> vt = numbersIn(lines["vt"].at(texture - 1));
+            ASSERT_EQ(vt.size(), 2U);
+            EXPECT_NEAR(vt[0], surface.uvs[vertex].x, 5e-9);
+            EXPECT_NEAR(vt[1], 1.0 - surface.uvs[vertex].y, 5e-9);
+            const std::vector<double> vn = numbersIn(lines["vn"].at(normal - 1));
+            ASSERT_EQ(vn.size(), 3U);
+            EXPECT_NEAR(vn[0], surface.normals[vertex].x, 5e-9);
+            EXPECT_NEAR(vn[1], surface.normals[vertex].z, 5e-9);
+            EXPECT_NEAR(vn[2], -surface.normals[vertex].y, 5e-9);
+        }
+        std::string rest;
+        EXPECT_FALSE(face >> rest);
+    }
+}
+
+TEST(Obj, HasNineSignificantDigits)
+{
+    Surface surface = roundDroplet();
+    surface.positions[1].x = 1.0 / 3.0;
+    surface.positions[1].y = -2e-8 / 3.0;
+    const std::string obj = written(writeObj, surface);
+    EXPECT_THAT(obj, HasSubstr("\nv 333.333333 "));
+    EXPECT_THAT(obj, HasSubstr(" 6.66666667e-06\n"));
+}
+
+TEST(Obj, KnowsNoNegativeZero)
+{
+    EXPECT_THAT(written(writeObj, roundDroplet()), ::testing::Not(HasSubstr(" -0\n")));
+}
+
+// As in German, with points between thousands.
+class CommaForPoint : public std::numpunct<char> {
+protected:
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Obj, DoesNotDependOnTheLocale)
+{
+    const Surface surface = roundDroplet({.rings = 20, .segments = 80});
+    const std::string expected = written(writeObj, surface);
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaForPoint));
+    std::string found;
+    {
+        std::ostringstream out;  // takes the global locale
+        writeObj(surface, out);
+        found = out.str();
+    }
+    std::locale::global(before);
+    EXPECT_EQ(found, expected);
+}
+
+TEST(Ply, IsBinaryLittleEndianWithNamedProperties)
+{
+    const Surface surface = roundDroplet();
+    const std::string ply = written(writePly, surface);
+    const std::string header = "ply\nformat binary_little_endian 1.0\ncomment droplet-shape " + std::string(kVersion) +
+                               "\ncomment unit: metre, up: z\nelement vertex " + std::to_string(places(surface)) +
+                               "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
+                               "property float ny\nproperty float nz\nproperty float s\nproperty float t\n"
+                               "element face " +
+                               std::to_string(surface.triangles.size()) +
+                               "\nproperty list uchar int vertex_indices\nend_header\n";
+    ASSERT_EQ(ply.substr(0, header.size()), header);
+    EXPECT_EQ(ply.size(), header.size() + 32 * places(surface) + 13 * surface.triangles.size());
+}
+
+TEST(Ply, TheRimHasTheLiquidsNormal)
+{
+    const Surface surface = roundDroplet();
+    const std::string ply = written(writePly, surface);
+    std::size_t offset = ply.find("end_header\n") + 11;
+    std::size_t on_rim = 0;
+    for (std::size_t i = 0; i < places(surface); ++i, offset += 32) {
+        const float radius = std::hypot(at<float>(ply, offset), at<float>(ply, offset + 4));
+        if (radius > 3.999e-3F) {
+            ++on_rim;
+            EXPECT_GT(at<float>(ply, offset + 20), 0.5F);  // the base's would be −1
+        }
+    }
+    EXPECT_EQ(on_rim, RoundDroplet{}.segments);
+}
+
+TEST(Ply, HoldsTheSurfaceAsFloats)
+{
+    const Surface surface = roundDroplet({.centre = {1e-3, 2e-3}});
+    const std::string ply = written(writePly, surface);
+    const std::size_t vertices = ply.find("end_header\n") + 11;
+    const std::size_t faces = vertices + 32 * places(surface);
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const std::size_t face = faces + 13 * t;
+        ASSERT_EQ(at<unsigned char>(ply, face), 3);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t own = surface.triangles[t][k];
+            const std::uint32_t vertex = surface.weld[own];
+            const std::size_t v = vertices + 32 * static_cast<std::size_t>(at<std::int32_t>(ply, face + 1 + 4 * k));
+            ASSERT_LT(v, faces);
+            EXPECT_EQ(at<float>(ply, v), static_cast<float>(surface.positions[own].x));
+            EXPECT_EQ(at<float>(ply, v + 4), static_cast<float>(surface.positions[own].y));
+            EXPECT_EQ(at<float>(ply, v + 8), static_cast<float>(surface.positions[own].z));
+            EXPECT_EQ(at<float>(ply, v + 12), static_cast<float>(surface.normals[vertex].x));
+            EXPECT_EQ(at<float>(ply, v + 16), static_cast<float>(surface.normals[vertex].y));
+            EXPECT_EQ(at<float>(ply, v + 20), static_cast<float>(surface.normals[vertex].z));
+            EXPECT_EQ(at<float>(ply, v + 24), static_cast<float>(surface.uvs[own].x));
+            EXPECT_EQ(at<float>(ply, v + 28), static_cast<float>(1.0 - surface.uvs[own].y));
+        }
+    }
+}
+
+TEST(Stl, IsBinaryInMillimetresWithTheWindingsNormals)
+{
+    const Surface surface = roundDroplet({.centre = {1e-3, 2e-3}});
+    const std::string stl = written(writeStl, surface);
+    ASSERT_EQ(stl.size(), 84 + 50 * surface.triangles.size());
+    EXPECT_NE(stl.substr(0, 5), "solid");
+    EXPECT_THAT(stl.substr(0, 80), HasSubstr("millimetres, z up"));
+    EXPECT_EQ(stl.substr(0, 80).find('\0'), std::string::npos);
+    ASSERT_EQ(at<std::uint32_t>(stl, 80), surface.triangles.size());
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const std::size_t facet = 84 + 50 * t;
+        std::array<Vec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 place = surface.positions[surface.triangles[t][k]];
+            const std::size_t v = facet + 12 + 12 * k;
+            corners[k] = {at<float>(stl, v), at<float>(stl, v + 4), at<float>(stl, v + 8)};
+            EXPECT_EQ(at<float>(stl, v), static_cast<float>(1e3 * place.x));
+            EXPECT_EQ(at<float>(stl, v + 4), static_cast<float>(1e3 * place.y));
+            EXPECT_EQ(at<float>(stl, v + 8), static_cast<float>(1e3 * place.z));
+        }
+        const Vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const Vec3 normal{at<float>(stl, facet), at<float>(stl, facet + 4), at<float>(stl, facet + 8)};
+        EXPECT_NEAR(length(normal), 1.0, 1e-6);
+        EXPECT_NEAR(dot(normal, area) / length(area), 1.0, 1e-5);
+        EXPECT_EQ(at<std::uint16_t>(stl, facet + 48), 0);
+    }
+}
+
+TEST(Stl, AFacetWithoutAreaHasNoNormal)
+{
+    const Surface line = testing::soup({{0, 1, 1}}, 2);
+    const std::string stl = written(writeStl, line);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(at<float>(stl, 84 + 4 * k), 0.0F);
+    }
+}
+
+struct Named {
+    const char* name;
+    Writer writer;
+};
+
+class MeshFile : public ::testing::TestWithParam<Named> {};
+
+INSTANTIATE_TEST_SUITE_P(Every, MeshFile,
+                         ::testing::Values(Named{"Obj", writeObj}, Named{"Ply", writePly}, Named{"Stl", writeStl}),
+                         [](const auto& run) { return run.param.name; });
+
+TEST_P(MeshFile, TheSameSurfaceGivesTheSameBytes)
+{
+    EXPECT_EQ(written(GetParam().writer, roundDroplet()), written(GetParam().writer, roundDroplet()));
+}
+
+TEST_P(MeshFile, RefusesWhatIsNotFinite)
+{
+    const std::vector<std::function<void(Surface&)>> spoils = {
+        [](Surface& s) { s.positions[3].z = std::numeric_limits<double>::quiet_NaN(); },
+        [](Surface& s) { s.normals[3].x = std::numeric_limits<double>::infinity(); },
+        [](Surface& s) { s.uvs[3].y = std::numeric_limits<double>::quiet_NaN(); },
+    };
+    for (const auto& spoil : spoils) {
+        Surface surface = roundDroplet();
+        spoil(surface);
+        std::ostringstream out;
+        EXPECT_THROW(GetParam().writer(surface, out), Error);
+        EXPECT_EQ(out.str(), "");
+    }
+}
+
+TEST_P(MeshFile, WritesNonManifoldsWhole)
+{
+    // Three triangles at an edge, one of them twice: half-edges would drop some.
+    const Surface surface = testing::soup({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {0, 1, 4}}, 5);
+    const std::string bytes = written(GetParam().writer, surface);
+    const std::string name = GetParam().name;
+    if (name == "Obj") {
+        EXPECT_EQ(linesOf(bytes)["f"].size(), 4U);
+    } else if (name == "Ply") {
+        EXPECT_THAT(bytes, HasSubstr("element face 4\n"));
+    } else {
+        EXPECT_EQ(at<std::uint32_t>(bytes, 80), 4U);
+    }
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "droplet/surface/surface.h"
+
+namespace droplet::testing {
+
+/// A droplet on a disc or ring with a known shape, made without any of the library's stages.
+struct RoundDroplet {
+    double inner = 0.0;   ///< radius of the hole [m]; 0: none
+    double outer = 4e-3;  ///< [m]
+    double height = 1e-3;
+    std::uint32_t rings = 4;  ///< of triangles, from the hole or the centre outward
+    std::uint32_t segments = 12;
+    bool open = false;
+    Vec2 centre = {};
+};
+
+inline constexpr double kExtent = 20e-3;  ///< of the imagined image, centred at the origin [m]
+
+/// Area of the regular polygon that stands for a circle [m²].
+inline double polygonArea(double radius, std::uint32_t segments)
+{
+    return 0.5 * segments * radius * radius * std::sin(2.0 * std::numbers::pi / segments);
+}
+
+/// Adds vertices of another surface behind those of the first.
+inline Surface together(Surface a, const Surface& b)
+{
+    const auto offset = static_cast<std::uint32_t>(a.positions.size());
+    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+    a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+    a.uvs.insert(a.uvs.end(), b.uvs.begin(), b.uvs.end());
+    for (const auto& [i, j, k] : b.triangles) {
+        a.triangles.push_back({i + offset, j + offset, k + offset});
+    }
+    for (const std::uint32_t first : b.weld) {
+        a.weld.push_back(first + offset);
+    }
+    return a;
+}
+
+/// Height (outer² − r²)·height/outer² over a disc, a paraboloid; over a ring a parabola across it. The rim stands
+/// twice, welded; the base is the same triangles at z = 0, wound the other way.
+inline Surface roundDroplet(const RoundDroplet& wish = {})
+{
+    const bool ring = wish.inner > 0.0;
+    Surface surface;
+    surface.mean_height = wish.height / 2.0;
+    std::vector<Triangle> planar;
+    std::vector<bool> rim;
+    const auto add = [&](double radius, double angle, bool on_rim) {
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        const double middle = ring ? 0.5 * (wish.inner + wish.outer) : 0.0;
+        const double half = wish.outer - middle;
+        const double across = (radius - middle) / half;
+        const double slope = -2.0 * wish.height * across / half;
+        const Vec3 upward{-slope * c, -slope * s, 1.0};
+        const Vec3 at{wish.centre.x + radius * c, wish.centre.y + radius * s,
+                      on_rim ? 0.0 : wish.height * (1.0 - across * across)};
+        surface.positions.push_back(at);
+        surface.normals.push_back((1.0 / length(upward)) * upward);
+        surface.uvs.push_back({0.5 + at.x / kExtent, 0.5 - at.y / kExtent});
+        surface.weld.push_back(static_cast<std::uint32_t>(surface.weld.size()));
+        rim.push_back(on_rim);
+    };
+    const std::uint32_t n = wish.segments;
+    const std::uint32_t first_circle = ring ? 0 : 1;
+    if (!ring) {
+        add(0.0, 0.0, false);
+    }
+    for (std::uint32_t circle = first_circle; circle <= wish.rings; ++circle) {
+        const double radius = wish.inner + (wish.outer - wish.inner) * circle / wish.rings;
+        for (std::uint32_t k = 0; k < n; ++k) {
+            add(radius, 2.0 * std::numbers::pi * k / n, circle == wish.rings || (ring && circle == 0));
+        }
+    }
+    const auto vertex = [&](std::uint32_t circle, std::uint32_t k) {
+        return (ring ? 0U : 1U) + (circle - first_circle) * n + k % n;
+    };
+    for (std::uint32_t k = 0; !ring && k < n; ++k) {
+        planar.push_back({0, vertex(1, k), vertex(1, k + 1)});
+    }
+    for (std::uint32_t circle = first_circle; circle < wish.rings; ++circle) {
+        for (std::uint32_t k = 0; k < n; ++k) {
+            planar.push_back({vertex(circle, k), vertex(circle + 1, k), vertex(circle + 1, k + 1)});
+            planar.push_back({vertex(circle, k), vertex(circle + 1, k + 1), vertex(circle, k + 1)});
+        }
+    }
+    surface.triangles = planar;
+    if (!wish.open) {
+        const auto count = static_cast<std::uint32_t>(surface.positions.size());
+        for (std::uint32_t i = 0; i < count; ++i) {
+            surface.positions.push_back({surface.positions[i].x, surface.positions[i].y, 0.0});
+            surface.normals.push_back({0.0, 0.0, -1.0});
+            surface.uvs.push_back(Vec2(surface.uvs[i]));
+            surface.weld.push_back(rim[i] ? i : count + i);
+        }
+        for (const auto& [i, j, k] : planar) {
+            surface.triangles.push_back({count + i, count + k, count + j});
+        }
+    }
+    return surface;
+}
+
+/// Triangles alone, on as many vertices as asked, every vertex at a place of its own.
+inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
+{
+    Surface surface;
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const auto x = static_cast<double>(i);
+        surface.positions.push_back({x, x * x, x * x * x});
+        surface.normals.push_back({0.0, 0.0, 1.0});
+        surface.uvs.emplace_back();
+        surface.weld.push_back(static_cast<std::uint32_t>(i));
+    }
+    surface.triangles = std::move(triangles);
+    return surface;
+}
+
+}  // namespace droplet::testing

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/surface/surface.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using testing::polygonArea;
+using testing::roundDroplet;
+using testing::soup;
+using testing::together;
+
+struct Expected {
+    long euler;
+    std::size_t components;
+    std::size_t loops;
+};
+
+void expectManifold(const Surface& surface, const Expected& expected)
+{
+    const Topology found = topology(surface);
+    EXPECT_TRUE(found.manifold);
+    EXPECT_EQ(found.closed, expected.loops == 0);
+    EXPECT_EQ(found.euler, expected.euler);
+    EXPECT_EQ(found.components, expected.components);
+    EXPECT_EQ(found.boundary_loops, expected.loops);
+    EXPECT_EQ(isClosed(surface), expected.loops == 0);
+}
+
+void expectNoManifold(const Surface& surface)
+{
+    const Topology found = topology(surface);
+    EXPECT_FALSE(found.manifold);
+    EXPECT_FALSE(found.closed);
+    EXPECT_EQ(found.euler, 0);
+    EXPECT_EQ(found.components, 0U);
+    EXPECT_EQ(found.boundary_loops, 0U);
+    EXPECT_FALSE(isClosed(surface));
+}
+
+TEST(Topology, AClosedDropletIsASphere)
+{
+    expectManifold(roundDroplet(), {2, 1, 0});
+}
+
+TEST(Topology, AHoleMakesATorus)
+{
+    expectManifold(roundDroplet({.inner = 1e-3}), {0, 1, 0});
+}
+
+TEST(Topology, AnOpenDropletIsADisc)
+{
+    expectManifold(roundDroplet({.open = true}), {1, 1, 1});
+}
+
+TEST(Topology, AnOpenDropletWithAHoleIsARing)
+{
+    expectManifold(roundDroplet({.inner = 1e-3, .open = true}), {0, 1, 2});
+}
+
+TEST(Topology, DropletsAddUp)
+{
+    const Surface ring = roundDroplet({.inner = 1e-3, .centre = {-5e-3, 0.0}});
+    const Surface disc = roundDroplet({.centre = {5e-3, 0.0}});
+    const Surface dome = roundDroplet({.open = true, .centre = {5e-3, 9e-3}});
+    expectManifold(together(disc, roundDroplet({.centre = {-5e-3, 0.0}})), {4, 2, 0});
+    expectManifold(together(ring, disc), {2, 2, 0});
+    expectManifold(together(together(ring, disc), dome), {3, 3, 1});
+}
+
+TEST(Topology, WithoutWeldingDomeAndBaseAreTwoDiscs)
+{
+    Surface surface = roundDroplet();
+    for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
+        surface.weld[i] = i;
+    }
+    expectManifold(surface, {2, 2, 2});
+}
+
+TEST(Topology, VerticesOfNoTriangleDoNotCount)
+{
+    Surface surface = roundDroplet();
+    surface.positions.push_back({9.0, 9.0, 9.0});
+    surface.normals.push_back({1.0, 0.0, 0.0});
+    surface.uvs.emplace_back();
+    surface.weld.push_back(static_cast<std::uint32_t>(surface.weld.size()));
+    expectManifold(surface, {2, 1, 0});
+}
+
+TEST(Topology, TheSmallestSurfaces)
+{
+    expectManifold(soup({{0, 1, 2}}, 3), {1, 1, 1});
+    expectManifold(soup({{0, 1, 2}, {0, 2, 1}}, 3), {2, 1, 0});
+    expectManifold(soup({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4), {2, 1, 0});
+}
+
+TEST(Topology, NonManifoldsAreReportedInSilence)
+{
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    {
+        SCOPED_TRACE("three triangles at an edge");
+        expectNoManifold(soup({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5));
+    }
+    {
+        SCOPED_TRACE("one triangle wound the other way");
+        Surface surface = roundDroplet();
+        std::swap(surface.triangles[3][0], surface.triangles[3][1]);
+        expectNoManifold(surface);
+    }
+    {
+        SCOPED_TRACE("the same triangle twice");
+        expectNoManifold(soup({{0, 1, 2}, {0, 1, 2}}, 3));
+    }
+    {
+        SCOPED_TRACE("a triangle with a vertex twice");
+        expectNoManifold(soup({{0, 1, 1}}, 2));
+    }
+    {
+        SCOPED_TRACE("a triangle with a vertex twice only after welding");
+        Surface surface = soup({{0, 1, 2}}, 3);
+        surface.positions[2] = surface.positions[1];
+        surface.weld[2] = 1;
+        expectNoManifold(surface);
+    }
+    {
+        SCOPED_TRACE("two triangles touching at a vertex");
+        expectNoManifold(soup({{0, 1, 2}, {0, 3, 4}}, 5));
+    }
+    {
+        SCOPED_TRACE("two tetrahedra touching at a vertex");
+        expectNoManifold(
+            soup({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 5, 4}, {0, 4, 6}, {4, 5, 6}, {5, 0, 6}}, 7));
+    }
+    {
+        SCOPED_TRACE("a triangle touching a tetrahedron at a vertex");
+        expectNoManifold(soup({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 5}}, 6));
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Topology, TheOrderOfTrianglesDoesNotMatter)
+{
+    const Surface tidy =
+        together(roundDroplet({.rings = 12, .segments = 40}), roundDroplet({.inner = 1e-3, .centre = {9e-3, 0.0}}));
+    std::mt19937 random(1);
+    ::testing::internal::CaptureStderr();
+    for (int run = 0; run < 20; ++run) {
+        Surface shuffled = tidy;
+        for (std::size_t i = shuffled.triangles.size(); i > 1; --i) {
+            std::swap(shuffled.triangles[i - 1], shuffled.triangles[random() % i]);
+        }
+        expectManifold(shuffled, {2, 2, 0});
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// Manifold by definition: directed edges once; around every vertex all triangles joined through edges at the vertex.
+bool manifoldByDefinition(const std::vector<Triangle>& triangles)
+{
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    std::map<std::uint32_t, std::vector<std::set<std::uint32_t>>> fans;  // groups of neighbours, one per fan
+    for (const auto& [a, b, c] : triangles) {
+        if (a == b || b == c || c == a) {
+            return false;
+        }
+        for (const auto& edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+            if (!edges.insert(edge).second) {
+                return false;
+            }
+        }
+        for (const auto& [at, left, right] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
+            std::set<std::uint32_t> fan = {left, right};
+            std::vector<std::set<std::uint32_t>> others;
+            for (const std::set<std::uint32_t>& other : fans[at]) {
+                if (other.count(left) + other.count(right) > 0) {
+                    fan.insert(other.begin(), other.end());
+                } else {
+                    others.push_back(other);
+                }
+            }
+            others.push_back(fan);
+            fans[at] = others;
+        }
+    }
+    return std::all_of(fans.begin(), fans.end(), [](const auto& entry) { return entry.second.size() == 1; });
+}
+
+TEST(Topology, AgreesWithTheDefinitionOnEverySmallSoup)
+{
+    constexpr std::size_t kVertices = 5;
+    std::mt19937 random(2);
+    int manifolds = 0;
+    ::testing::internal::CaptureStderr();
+    for (int run = 0; run < 20'000; ++run) {
+        std::vector<Triangle> triangles(1 + random() % 6);
+        for (Triangle& triangle : triangles) {
+            for (std::uint32_t& vertex : triangle) {
+                vertex = static_cast<std::uint32_t>(random() % kVertices);
+            }
+        }
+        const Topology found = topology(soup(triangles, kVertices));
+        ASSERT_EQ(isClosed(soup(triangles, kVertices)), found.closed);
+        ASSERT_EQ(found.manifold, manifoldByDefinition(triangles)) << "run " << run;
+        if (found.manifold) {
+            ++manifolds;
+            std::set<std::uint32_t> vertices;
+            std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+            for (const auto& [a, b, c] : triangles) {
+                vertices.insert({a, b, c});
+                edges.insert({std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)});
+            }
+            ASSERT_EQ(found.euler,
+                      static_cast<long>(vertices.size() + triangles.size()) - static_cast<long>(edges.size()));
+            ASSERT_EQ(found.closed, 2 * edges.size() == 3 * triangles.size());
+        }
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    EXPECT_GT(manifolds, 500);
+}
+
+TEST(EnclosedVolume, OfAPyramidIsAThirdOfBaseTimesHeight)
+{
+    const Surface pyramid = roundDroplet({.outer = 3e-3, .height = 2e-3, .rings = 1, .segments = 7});
+    const double exact = polygonArea(3e-3, 7) * 2e-3 / 3.0;
+    EXPECT_NEAR(enclosedVolume(pyramid) / exact, 1.0, 1e-14);
+}
+
+TEST(EnclosedVolume, OfAClosedSurfaceDoesNotDependOnItsPlace)
+{
+    Surface surface = roundDroplet({.inner = 1e-3});
+    const double volume = enclosedVolume(surface);
+    for (Vec3& position : surface.positions) {
+        position = position + Vec3{0.01, -0.02, 0.03};
+    }
+    EXPECT_NEAR(enclosedVolume(surface) / volume, 1.0, 1e-12);
+}
+
+TEST(EnclosedVolume, IsNegativeInsideOut)
+{
+    Surface surface = roundDroplet();
+    const double volume = enclosedVolume(surface);
+    EXPECT_GT(volume, 0.0);
+    for (Triangle& triangle : surface.triangles) {
+        std::swap(triangle[0], triangle[1]);
+    }
+    EXPECT_DOUBLE_EQ(enclosedVolume(surface), -volume);
+}
+
+TEST(EnclosedVolume, ABaseAtZeroAddsNothing)
+{
+    EXPECT_EQ(enclosedVolume(roundDroplet({.open = true})), enclosedVolume(roundDroplet()));
+}
+
+TEST(Surface, RefusesWhatBreaksItsInvariants)
+{
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    struct Case {
+        std::function<void(Surface&)> spoil;
+        const char* named;
+    };
+    const std::vector<Case> cases = {
+        {[](Surface& s) { s.triangles.clear(); }, "surface.triangles is empty"},
+        {[](Surface& s) { s.normals.pop_back(); }, "normals"},
+        {[](Surface& s) { s.uvs.emplace_back(); }, "uvs"},
+        {[](Surface& s) { s.weld.pop_back(); }, "weld"},
+        {[](Surface& s) { s.positions.pop_back(); }, "positions"},
+        {[](Surface& s) { s.mean_height = kNan; }, "surface.mean_height"},
+        {[](Surface& s) { s.mean_height = -1e-9; }, "surface.mean_height"},
+        {[](Surface& s) { s.positions[5].y = kNan; }, "surface.positions[5]"},
+        {[](Surface& s) { s.positions[6].z = -kInfinity; }, "surface.positions[6]"},
+        {[](Surface& s) { s.normals[7].x = kNan; }, "surface.normals[7]"},
+        {[](Surface& s) { s.normals[8] = 1.001 * s.normals[8]; }, "surface.normals[8]"},
+        {[](Surface& s) { s.normals[8] = {}; }, "surface.normals[8]"},
+        {[](Surface& s) { s.uvs[9].x = kInfinity; }, "surface.uvs[9]"},
+        {[](Surface& s) { s.weld[3] = 4; }, "surface.weld[3]"},
+        {[](Surface& s) { s.weld[3] = 2; }, "surface.weld[3]"},
+        {[](Surface& s) { s.weld.back() = static_cast<std::uint32_t>(s.weld.size()); }, "surface.weld["},
+        {[](Surface& s) { s.triangles[1][2] = static_cast<std::uint32_t>(s.weld.size()); }, "surface.triangles[1]"},
+    };
+    EXPECT_NO_THROW(roundDroplet().validate());
+    for (const Case& spoilt : cases) {
+        Surface surface = roundDroplet();
+        spoilt.spoil(surface);
+        try {
+            surface.validate();
+            ADD_FAILURE() << "accepted: " << spoilt.named;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+            EXPECT_THAT(error.what(), ::testing::HasSubstr(spoilt.named));
+        }
+        EXPECT_THROW(topology(surface), Error);
+        EXPECT_THROW(isClosed(surface), Error);
+    }
+}
+
+TEST(Surface, RefusesChainsOfWelds)
+{
+    Surface surface = soup({{0, 1, 2}}, 3);
+    surface.positions = {{}, {}, {}};
+    surface.weld = {0, 0, 1};
+    EXPECT_THROW(surface.validate(), Error);
+    surface.weld = {0, 0, 0};
+    EXPECT_NO_THROW(surface.validate());
+}
+
+}  // namespace
+}  // namespace droplet
