@@ -17,8 +17,8 @@ namespace droplet {
 
 namespace {
 
-/// A progressive file may repeat tiny scans for ever, each as dear as a whole image. Encoders write about ten;
-/// 500 is the bound libjpeg-turbo's own fuzzers use.
+/// A progressive file may bring every bit of every coefficient in a scan of its own, a few bytes long and each as
+/// dear as a whole image. Encoders write about ten scans; 500 is the bound libjpeg-turbo's own fuzzers use.
 constexpr int kMostScans = 500;
 
 /// libjpeg's state. Errors leave by longjmp: see PngReader.
@@ -59,21 +59,18 @@ void onMessage(j_common_ptr info, int level)
     }
 }
 
-[[noreturn]] void fail(j_common_ptr info, J_MESSAGE_CODE code)
-{
-    info->err->msg_code = code;
-    onError(info);
-}
-
 boolean onEndOfData(j_decompress_ptr info)
 {
-    fail(reinterpret_cast<j_common_ptr>(info), JERR_INPUT_EOF);
+    info->err->msg_code = JERR_INPUT_EOF;
+    onError(reinterpret_cast<j_common_ptr>(info));
 }
 
 void onProgress(j_common_ptr info)
 {
-    if (static_cast<JpegReader*>(info->client_data)->info.input_scan_number > kMostScans) {
-        fail(info, JERR_BAD_PROGRESSION);
+    auto& reader = *static_cast<JpegReader*>(info->client_data);
+    if (reader.info.input_scan_number > kMostScans) {
+        std::snprintf(reader.message.data(), reader.message.size(), "it has more than %d scans", kMostScans);
+        std::longjmp(reader.jump, 1);
     }
 }
 

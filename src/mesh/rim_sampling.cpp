@@ -160,6 +160,22 @@ struct Sampling {
     [[nodiscard]] const Mark& next(std::size_t i) const { return marks[(i + 1) % marks.size()]; }
 };
 
+/// The place on a loop a given way along it, on a point of the loop if one is near.
+Mark markAt(const Sampling& sampling, double way)
+{
+    const std::size_t n = sampling.loop->points.size();
+    way = std::fmod(way, sampling.arc.back());
+    const auto after = std::upper_bound(sampling.arc.begin(), sampling.arc.end() - 1, way);
+    const auto i = static_cast<std::size_t>(after - sampling.arc.begin()) - 1;
+    const double fraction = (way - sampling.arc[i]) / (sampling.arc[i + 1] - sampling.arc[i]);
+    // Not beside a point of the loop but on it: that point may become a mark too.
+    constexpr double kSnap = 0.05;
+    if (fraction > 1.0 - kSnap) {
+        return {(i + 1) % n, 0.0, false};
+    }
+    return {i, fraction < kSnap ? 0.0 : fraction, false};
+}
+
 /// Points of the loop strictly between two marks, in order.
 std::vector<std::size_t> between(const Sampling& sampling, const Mark& from, const Mark& to)
 {
@@ -207,14 +223,10 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
             while (edges[i + 1] <= wanted) {
                 ++i;
             }
+            const std::size_t point = (begin + i) % n;
             const double fraction = (wanted - edges[i]) / (edges[i + 1] - edges[i]);
-            // Not beside a point of the loop but on it: that point may become a mark too.
-            constexpr double kSnap = 0.05;
-            if (fraction > 1.0 - kSnap) {
-                sampling.marks.push_back({(begin + i + 1) % n, 0.0, false});
-            } else {
-                sampling.marks.push_back({(begin + i) % n, fraction < kSnap ? 0.0 : fraction, false});
-            }
+            sampling.marks.push_back(
+                markAt(sampling, sampling.arc[point] + fraction * (sampling.arc[point + 1] - sampling.arc[point])));
         }
     }
     std::sort(sampling.marks.begin(), sampling.marks.end(), [](const Mark& a, const Mark& b) {
@@ -227,8 +239,16 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
                          sampling.marks.end());
 }
 
-/// The mark half-way between two, at a point of the loop; none if there is no point between them.
-std::optional<Mark> halfway(const Sampling& sampling, const Mark& from, const Mark& to)
+/// The mark in the middle between two.
+Mark middle(const Sampling& sampling, const Mark& from, const Mark& to)
+{
+    const double begin = sampling.arcAt(from);
+    const double end = sampling.arcAt(to);
+    return markAt(sampling, begin + 0.5 * (end > begin ? end - begin : end - begin + sampling.arc.back()));
+}
+
+/// A mark between two at a point of the loop; none if there is no point between them.
+std::optional<Mark> pointBetween(const Sampling& sampling, const Mark& from, const Mark& to)
 {
     const std::vector<std::size_t> inside = between(sampling, from, to);
     if (inside.empty()) {
@@ -260,10 +280,8 @@ void splitBulges(Sampling& sampling, double shortest)
             const Mark& to = sampling.next(i);
             marks.push_back(from);
             if (length(sampling.at(to) - sampling.at(from)) > 2.0 * shortest && bulges(sampling, from, to)) {
-                if (const std::optional<Mark> middle = halfway(sampling, from, to)) {
-                    marks.push_back(*middle);
-                    changed = true;
-                }
+                marks.push_back(middle(sampling, from, to));
+                changed = true;
             }
         }
         std::rotate(marks.begin(),
@@ -325,7 +343,7 @@ bool followLoop(Sampling& sampling, const std::vector<std::uint8_t>& chosen)
     for (std::size_t i = 0; i < sampling.size(); ++i) {
         Mark mark = sampling.marks[i];
         const std::optional<Mark> middle =
-            chosen[i] != 0 ? halfway(sampling, mark, sampling.next(i)) : std::optional<Mark>();
+            chosen[i] != 0 ? pointBetween(sampling, mark, sampling.next(i)) : std::optional<Mark>();
         if (chosen[i] != 0) {
             changed = changed || !mark.exact || middle;
             mark.exact = true;

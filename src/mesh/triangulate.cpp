@@ -44,7 +44,7 @@ const double kLeastAngle = std::asin(std::sqrt(0.125));
 constexpr double kSharpCorner = std::numbers::pi / 3.0;
 
 /// Edges are not refined below this share of the loops' own detail.
-constexpr double kFinest = 0.25;
+constexpr double kFinest = 0.1;
 
 constexpr double kRoot3 = std::numbers::sqrt3;
 

@@ -70,7 +70,7 @@ Wedges wedgesOf(const std::vector<Triangle>& triangles, std::size_t vertex_count
     return result;
 }
 
-// What triangles make of a vertex, or of the whole surface.
+// What triangles make of a vertex, or of the whole surface; the worst comes first.
 enum class Kind { NoManifold, Bounded, Closed };
 
 // One ring is closed, one chain bounded. Every `from` and every `to` must stand once.

@@ -334,6 +334,7 @@ struct JpegKind {
     bool progressive = false;
     bool adobe = true;
     int quality = 100;
+    std::vector<jpeg_scan_info> scans;  ///< if any, in place of the usual progression
 };
 
 inline Bytes encodeJpeg(const Raster& raster, const JpegKind& kind = {})
@@ -353,6 +354,10 @@ inline Bytes encodeJpeg(const Raster& raster, const JpegKind& kind = {})
     jpeg_set_quality(&info, kind.quality, TRUE);
     if (kind.progressive) {
         jpeg_simple_progression(&info);
+    }
+    if (!kind.scans.empty()) {
+        info.scan_info = kind.scans.data();
+        info.num_scans = static_cast<int>(kind.scans.size());
     }
     if (!kind.adobe) {
         info.write_Adobe_marker = FALSE;

@@ -355,7 +355,7 @@ TEST(ReadJpeg, GreyAndColourBaselineAndProgressive)
     for (const int channels : {1, 3}) {
         for (const bool progressive : {false, true}) {
             const Raster raster = fields(channels, 4, 2);
-            const Mask mask = decodeMask(encodeJpeg(raster, {progressive, true, 100}), only(Channel::Luma));
+            const Mask mask = decodeMask(encodeJpeg(raster, {progressive, true, 100, {}}), only(Channel::Luma));
             ASSERT_EQ(mask.width, 32);
             ASSERT_EQ(mask.height, 16);
             for (int y = 0; y < 16; ++y) {
@@ -374,7 +374,7 @@ TEST(ReadJpeg, Inks)
 {
     const Raster raster = fields(4, 4, 2);
     for (const bool adobe : {true, false}) {
-        const Mask mask = decodeMask(encodeJpeg(raster, {false, adobe, 100}), only(Channel::Luma));
+        const Mask mask = decodeMask(encodeJpeg(raster, {false, adobe, 100, {}}), only(Channel::Luma));
         for (int y = 0; y < 16; ++y) {
             for (int x = 0; x < 32; ++x) {
                 // Adobe stores the paper that is left, others the ink.
@@ -388,30 +388,34 @@ TEST(ReadJpeg, Inks)
 
 TEST(ReadJpeg, CutAnywhereIsAnErrorEvenWithinTheLastBytes)
 {
-    const Bytes whole = encodeJpeg(fields(3, 4, 4), {false, true, 90});
+    const Bytes whole = encodeJpeg(fields(3, 4, 4), {false, true, 90, {}});
     for (std::size_t size = 0; size < whole.size(); ++size) {
         EXPECT_THROW(decodeMask(std::span(whole).first(size)), Error) << size << " of " << whole.size();
     }
 }
 
-TEST(ReadJpeg, ProgressiveFileOfEndlessScansIsRefused)
+TEST(ReadJpeg, HoleInThePixelsIsAnError)
 {
-    Bytes jpeg = encodeJpeg(fields(1, 1, 1), {true, true, 100});
-    // Repeat the last scan, from its mark to the end of the image, a thousand times.
-    auto last_scan = jpeg.end();
-    for (auto at = jpeg.begin(); at + 1 < jpeg.end(); ++at) {
-        if (*at == std::byte{0xff} && *(at + 1) == std::byte{0xda}) {
-            last_scan = at;
+    Bytes jpeg = encodeJpeg(noise(3, 8, 64, 64), {false, true, 90, {}});
+    ASSERT_GT(jpeg.size(), 3000U);
+    jpeg.erase(jpeg.begin() + 2000, jpeg.begin() + 2400);
+    EXPECT_THAT(messageOf(jpeg), HasSubstr("damaged JPEG"));
+}
+
+TEST(ReadJpeg, ProgressiveFileOfVeryManyScansIsRefused)
+{
+    // Every coefficient alone, from its 10th bit down: the most that libjpeg writes.
+    JpegKind kind;
+    constexpr int kTopBit = 10;
+    for (int coefficient = 0; coefficient < 64; ++coefficient) {
+        for (int bit = kTopBit; bit >= 0; --bit) {
+            kind.scans.push_back({1, {0}, coefficient, coefficient, bit == kTopBit ? 0 : bit + 1, bit});
         }
     }
-    ASSERT_NE(last_scan, jpeg.end());
-    const Bytes scan(last_scan, jpeg.end() - 2);
-    Bytes bomb(jpeg.begin(), last_scan);
-    for (int i = 0; i < 1000; ++i) {
-        bomb.insert(bomb.end(), scan.begin(), scan.end());
-    }
-    bomb.insert(bomb.end(), jpeg.end() - 2, jpeg.end());
-    EXPECT_THAT(messageOf(bomb), HasSubstr("JPEG"));
+    EXPECT_THAT(messageOf(encodeJpeg(fields(1, 1, 1), kind)), HasSubstr("more than 500 scans"));
+    kind.scans.resize(11);  // the first coefficient is all these fields need
+    EXPECT_EQ(decodeMask(encodeJpeg(fields(1, 1, 1), kind), only(Channel::Luma)).at(3, 3),
+              decodeMask(encodeJpeg(fields(1, 1, 1)), only(Channel::Luma)).at(3, 3));
 }
 
 TEST(ReadBmp, PalettesOfEveryDepth)
