@@ -15,10 +15,8 @@
 
 #include "droplet/error.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 [[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
 {

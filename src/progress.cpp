@@ -3,8 +3,7 @@
 
 #include "droplet/error.h"
 
-namespace droplet
-{
+namespace droplet {
 
 const char* name(Stage stage)
 {

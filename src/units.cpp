@@ -11,10 +11,8 @@
 #include "droplet/error.h"
 #include "droplet/liquid.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 /// A unit as a fraction: dividing by an exact power of ten rounds once, where multiplying by 1e-3 would round twice.
 struct Unit {

@@ -11,10 +11,8 @@
 
 #include "droplet/error.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 using ::testing::HasSubstr;
 

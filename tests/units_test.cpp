@@ -13,10 +13,8 @@
 #include "droplet/error.h"
 #include "droplet/liquid.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;

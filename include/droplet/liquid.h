@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace droplet
-{
+namespace droplet {
 
 inline constexpr double kStandardGravity = 9.81;  ///< [m/s²], the house's default, not the CODATA 9.80665
 

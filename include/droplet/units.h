@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace droplet
-{
+namespace droplet {
 
 /// The physical kinds a written quantity can have.
 enum class Dimension { Length, Volume, Angle, SurfaceTension, Density, Acceleration };

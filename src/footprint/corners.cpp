@@ -19,13 +19,8 @@ namespace droplet
 namespace
 {
 
-/// A turn is compared between chords of this length either side, this far from the turn [px]. The fairing rounds a
-/// corner over about ±1 px; much longer chords would take the next corner of a 3 px stroke for this one.
-constexpr double kChord = 3.0;
-constexpr double kGap = 1.0;
-
-/// Least turn between the chords for a corner to be tried. A circle turns by (kChord + 2 kGap)/R between them, so radii
-/// above 8 px are never tried.
+/// Least turn between the chords for a corner to be tried. A circle turns by (length + 2 gap)/R between them, so radii
+/// above 6 px are never tried.
 constexpr double kTryTurn = 35.0 * std::numbers::pi / 180.0;
 
 /// Least turn between the extended sides for a corner to be kept. In a hard mask small discs are octagons, which turn
@@ -42,6 +37,14 @@ constexpr double kSide = 3.5;
 /// The farthest a corner may stand from the ends of its sides [px]: the tip of an angle of 30° whose last liquid
 /// pixel centre is as far back as it can be, (1/2)/sin 15°, and a pixel of gap.
 constexpr double kReach = 3.0;
+
+/// The most a corner may add to what lies between its ends [px²]: a tip that holds no pixel centre has less, be it the
+/// corner of a square (1/4) or of an angle of 30°.
+constexpr double kMostAdded = 1.0;
+
+/// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of polygons,
+/// bend by more, and straight sides by half as much.
+constexpr double kMostBend = 0.12;
 
 /// Walks along the loop from a slot, forward or backward.
 class Walker
@@ -123,6 +126,7 @@ std::optional<Vec2> meet(const Line& a, const Line& b)
 struct Side {
     Vec2 end;   ///< its last vertex before the corner
     Line line;  ///< through its last stretch, toward the corner
+    double bend = 0.0;  ///< farthest any vertex of that stretch lies from the line [px]
 };
 
 /// Fits a line to the last stretch of a side, up to the next break.
@@ -143,14 +147,19 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
             break;
         }
     }
-    return {points.front(), fitLine(points, points.back(), points.front())};
+    const Line line = fitLine(points, points.back(), points.front());
+    double bend = 0.0;
+    for (const Vec2 p : points) {
+        bend = std::max(bend, std::abs(cross(line.direction, p - line.through)));
+    }
+    return {points.front(), line, bend};
 }
 
 /// The line through the chord before or after a turn, with what lies between the chord and the turn left out.
-Line fitChord(const SlotLoop& loop, std::size_t start, bool forward)
+Line fitChord(const SlotLoop& loop, std::size_t start, bool forward, const Chord& chord)
 {
     std::vector<Vec2> points;
-    for (double way = kGap; way <= kGap + kChord; way += 0.5) {
+    for (double way = chord.gap; way <= chord.gap + chord.length; way += 0.25) {
         points.push_back(pointAlong(loop, start, forward, way));
     }
     return fitLine(points, points.back(), points.front());
@@ -186,12 +195,12 @@ std::optional<Vec2> sharedPixel(const SlotLoop& loop, const Turn& turn)
 }
 
 /// The turn near a gap at which the slots change best from the line before it to the line after it.
-Turn locate(const SlotLoop& loop, std::size_t near)
+Turn locate(const SlotLoop& loop, std::size_t near, const Chord& chord)
 {
     const std::size_t n = loop.size();
     const Turn fallback{near, (near + 1) % n};
-    const Line before = fitChord(loop, near, false);
-    const Line after = fitChord(loop, (near + 1) % n, true);
+    const Line before = fitChord(loop, near, false, chord);
+    const Line after = fitChord(loop, (near + 1) % n, true, chord);
     const std::optional<Vec2> tip = meet(before, after);
     constexpr std::size_t kSlots = 5;  // 3 to 4 px: further off, the chords themselves lie
     if (!tip || n < 4 * kSlots) {
@@ -227,6 +236,70 @@ Turn locate(const SlotLoop& loop, std::size_t near)
         }
     }
     return best;
+}
+
+/// The part of a convex polygon to the left of a line through two points, y down.
+std::vector<Vec2> clip(const std::vector<Vec2>& polygon, Vec2 from, Vec2 to)
+{
+    std::vector<Vec2> result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2 a = polygon[i];
+        const Vec2 b = polygon[(i + 1) % polygon.size()];
+        // Liquid lies on the left with y up, which is a negative cross product with y down.
+        const double u = -cross(to - from, a - from);
+        const double v = -cross(to - from, b - from);
+        if (u >= 0) {
+            result.push_back(a);
+        }
+        if ((u > 0 && v < 0) || (u < 0 && v > 0)) {
+            result.push_back(a + (u / (u - v)) * (b - a));
+        }
+    }
+    return result;
+}
+
+double polygonArea(const std::vector<Vec2>& polygon)
+{
+    double sum = 0.0;
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+        sum += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
+    }
+    return 0.5 * std::abs(sum);
+}
+
+/// Whether the grey levels around a corner are nearer to what they would be with it than to what they would be if the
+/// rim went straight from one end to the other.
+bool levelsAgree(const Side& before, const Side& after, Vec2 tip, const Coverage& coverage)
+{
+    const bool convex = cross(before.line.direction, after.line.direction) > 0;
+    double with = 0.0;
+    double without = 0.0;
+    double measured = 0.0;
+    const int left = static_cast<int>(std::floor(std::min({before.end.x, tip.x, after.end.x})));
+    const int right = static_cast<int>(std::floor(std::max({before.end.x, tip.x, after.end.x})));
+    const int top = static_cast<int>(std::floor(std::min({before.end.y, tip.y, after.end.y})));
+    const int bottom = static_cast<int>(std::floor(std::max({before.end.y, tip.y, after.end.y})));
+    for (int y = top; y <= bottom; ++y) {
+        for (int x = left; x <= right; ++x) {
+            const double fx = x;
+            const double fy = y;
+            const std::vector<Vec2> pixel{{fx, fy}, {fx + 1, fy}, {fx + 1, fy + 1}, {fx, fy + 1}};
+            // Of a convex corner the liquid, of a concave one the dry: a wedge, and the same without its tip.
+            std::vector<Vec2> wedge;
+            std::vector<Vec2> blunt;
+            if (convex) {
+                wedge = clip(clip(pixel, tip - before.line.direction, tip), tip, tip - after.line.direction);
+                blunt = clip(wedge, before.end, after.end);
+            } else {
+                wedge = clip(clip(pixel, tip, tip - before.line.direction), tip - after.line.direction, tip);
+                blunt = clip(wedge, after.end, before.end);
+            }
+            with += polygonArea(wedge);
+            without += polygonArea(blunt);
+            measured += convex ? coverage(x, y) : 1.0 - coverage(x, y);
+        }
+    }
+    return std::abs(measured - with) < std::abs(measured - without);
 }
 
 bool contains(Vec2 a, Vec2 b, Vec2 c, Vec2 p)
@@ -394,27 +467,41 @@ private:
 
 }  // namespace
 
-std::vector<Turn> sharpTurns(const SlotLoop& loop)
+std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known)
 {
     const std::size_t n = loop.size();
     double perimeter = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         perimeter += length(loop[(i + 1) % n].point() - loop[i].point());
     }
-    if (perimeter < 4.0 * (kChord + kGap)) {
-        return {};
+    if (perimeter < 4.0 * (chord.length + chord.gap)) {
+        return known;
     }
     std::vector<double> sharpness(n);
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t j = (i + 1) % n;
-        const Vec2 before = pointAlong(loop, i, false, kGap) - pointAlong(loop, i, false, kGap + kChord);
-        const Vec2 after = pointAlong(loop, j, true, kGap + kChord) - pointAlong(loop, j, true, kGap);
+        const double far = chord.gap + chord.length;
+        const Vec2 before = pointAlong(loop, i, false, chord.gap) - pointAlong(loop, i, false, far);
+        const Vec2 after = pointAlong(loop, j, true, far) - pointAlong(loop, j, true, chord.gap);
         sharpness[i] = std::abs(angleBetween(before, after));
     }
-    std::vector<Turn> turns;
+    // Slots too near to a turn already known.
     std::vector<std::uint8_t> taken(n, 0);
+    for (const Turn& turn : known) {
+        for (const bool forward : {false, true}) {
+            std::size_t k = turn.first;
+            double way = 0.0;
+            for (std::size_t count = 0; count < n && way < chord.length + 2.0 * chord.gap; ++count) {
+                taken[k] = 1;
+                const std::size_t next = forward ? (k + 1) % n : (k + n - 1) % n;
+                way += length(loop[next].point() - loop[k].point());
+                k = next;
+            }
+        }
+    }
+    std::vector<Turn> turns = known;
     for (std::size_t i = 0; i < n; ++i) {
-        if (sharpness[i] < kTryTurn) {
+        if (sharpness[i] < kTryTurn || taken[i] != 0) {
             continue;
         }
         // The sharpest of its neighbourhood; of equals, the first.
@@ -425,7 +512,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop)
             while (sharpest) {
                 const std::size_t next = forward ? (j + 1) % n : (j + n - 1) % n;
                 way += length(loop[next].point() - loop[j].point());
-                if (way > kGap + 1.0 || next == i) {
+                if (way > chord.gap + 1.0 || next == i) {
                     break;
                 }
                 j = next;
@@ -435,7 +522,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop)
         if (!sharpest) {
             continue;
         }
-        const Turn turn = locate(loop, i);
+        const Turn turn = locate(loop, i, chord);
         bool free = true;
         for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % n) {
             free = free && taken[k] == 0;
@@ -447,6 +534,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop)
             turns.push_back(turn);
         }
     }
+    std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.first < b.first; });
     return turns;
 }
 
@@ -461,18 +549,22 @@ std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t s
     return breaks;
 }
 
-std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn)
+std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn,
+                                 const Coverage& coverage)
 {
     const std::size_t n = loop.size();
     const Side before = fitSide(loop, breaks, turn.first, false);
     const Side after = fitSide(loop, breaks, turn.last, true);
     const std::optional<Vec2> tip = meet(before.line, after.line);
-    const double least_turn = loop[turn.first].measured ? kKeepTurn : kKeepTurnHard;
+    const double least_turn = coverage ? kKeepTurn : kKeepTurnHard;
     if (!tip) {
         return std::nullopt;
     }
     const double turning = std::abs(angleBetween(before.line.direction, -1.0 * after.line.direction));
     if (turning < least_turn || turning > kMostTurn) {
+        return std::nullopt;
+    }
+    if (!coverage && std::max(before.bend, after.bend) > kMostBend) {
         return std::nullopt;
     }
     const bool drops = (turn.first + 1) % n != turn.last;
@@ -488,8 +580,15 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
         const bool first_is_nearer = length(*tip - before.end) <= length(*tip - after.end);
         return Corner{turn, first_is_nearer ? before.end : after.end, first_is_nearer, !first_is_nearer};
     }
+    const double added = 0.5 * std::abs(cross(*tip - before.end, after.end - before.end));
+    if (added > kMostAdded) {
+        return std::nullopt;
+    }
     const std::optional<Vec2> pixel = drops ? sharedPixel(loop, turn) : std::nullopt;
     if (std::min(ahead_before, ahead_after) < kAt || coversPixelCentre(before.end, *tip, after.end, pixel)) {
+        return std::nullopt;
+    }
+    if (coverage && !levelsAgree(before, after, *tip, coverage)) {
         return std::nullopt;
     }
     return Corner{turn, *tip, false, false};

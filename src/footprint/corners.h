@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,15 @@ struct Turn {
     std::size_t last = 0;
 };
 
+/// How a turn is measured: between chords of some length on either side of it, some way from it [px].
+struct Chord {
+    double length = 0.0;
+    double gap = 0.0;
+};
+
 /// The turns of a roughly faired loop that are sharp enough for a corner to be tried, in order, apart from one another.
-std::vector<Turn> sharpTurns(const SlotLoop& loop);
+/// @param known  turns already found to be corners: they are returned too, and others only away from them
+std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known);
 
 /// One flag per slot: 1 where a turn lies between this slot and the next.
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots);
@@ -31,13 +39,18 @@ struct Corner {
     bool replaces_last = false;    ///< likewise the vertex after it
 };
 
+/// Coverage of a pixel by liquid, in [0, 1]; 0 outside the mask. Empty for a hard mask, whose levels say nothing.
+using Coverage = std::function<double(int x, int y)>;
+
 /// Where the two sides of a loop meet when extended into a turn.
-/// @param loop    faired with a break at every turn
-/// @param breaks  all breaks of the loop: a side ends at the next one
-/// @param turn    where
-/// @return        the corner, or none if the sides do not meet sharply, or a corner there would put a pixel centre on the
-///                other side of the rim (other than that of the one pixel it stands in)
-std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn);
+/// @param loop      faired with a break at every turn
+/// @param breaks    all breaks of the loop: a side ends at the next one
+/// @param turn      where
+/// @param coverage  of the mask
+/// @return          the corner, or none if the sides do not meet sharply, or a corner there would put a pixel centre on
+///                  the other side of the rim (other than that of the one pixel it stands in), or contradict grey levels
+std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn,
+                                 const Coverage& coverage);
 
 /// A faired loop and its corners, in order along it.
 struct CorneredLoop {

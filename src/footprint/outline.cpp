@@ -53,6 +53,10 @@ constexpr double kCornerNeighbourhood = 1.5;
 /// Fairness of the curve in which corners are looked for: smooths single pixels (waves under 6 px), keeps turns.
 constexpr double kDetectionFairness = 10.0;
 
+/// Turns are looked for with long chords, which place them better, then with short ones for strokes of 4 px, whose two
+/// corners long chords take for one [px].
+constexpr std::array<Chord, 2> kChords{{{2.0, 0.75}, {1.25, 0.5}}};
+
 /// A corner must lower the cost of the curve around it by this much, a log-likelihood. In anti-aliased masks arcs of 3
 /// px and more gain up to 110 and right angles thousands; in hard ones a right angle between sides of 8 px gains 8.
 constexpr double kCornerGain = 250.0;
@@ -370,28 +374,31 @@ CorneredLoop fairWhole(const SlotLoop& measured)
     return result;
 }
 
-/// Fairs a loop smooth everywhere, then with corners wherever they explain the mask better by far.
-CorneredLoop fairWithCorners(const SlotLoop& measured)
+/// What fairing with corners needs of a loop at every turn.
+struct CornerSearch {
+    const SlotLoop& measured;
+    Coverage coverage;
+    CorneredLoop smooth;
+    std::vector<double> smooth_strain;
+};
+
+/// Fairs a loop with a break at every turn, again and again without those that do not prove to be corners.
+/// @return the loop with the corners that remain; smooth everywhere if none do
+CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
 {
-    CorneredLoop smooth = fairWhole(measured);
-    SlotLoop rough = measured;
-    fair(rough, {.breaks = {}, .fairness = kDetectionFairness});
-    std::vector<Turn> turns = sharpTurns(rough);
-    const std::vector<double> smooth_strain = strain(smooth.slots);
-    const double least_gain = measured.front().measured ? kCornerGain : kCornerGainHard;
-    // First with every turn tried, then with those that proved sharp, until all tried do.
+    const double least_gain = search.coverage ? kCornerGain : kCornerGainHard;
     while (!turns.empty()) {
-        const std::vector<std::uint8_t> breaks = breaksAt(turns, measured.size());
-        CorneredLoop result{measured, {}};
+        const std::vector<std::uint8_t> breaks = breaksAt(turns, search.measured.size());
+        CorneredLoop result{search.measured, {}};
         loosenAt(result.slots, breaks);
         fair(result.slots, {.breaks = breaks});
         const std::vector<double> broken_strain = strain(result.slots, {.breaks = breaks});
         std::vector<Turn> kept;
         for (const Turn& turn : turns) {
-            const double gain =
-                costAround(smooth.slots, smooth_strain, turn) - costAround(result.slots, broken_strain, turn);
+            const double gain = costAround(search.smooth.slots, search.smooth_strain, turn) -
+                                costAround(result.slots, broken_strain, turn);
             const std::optional<Corner> corner =
-                gain > least_gain ? findCorner(result.slots, breaks, turn) : std::nullopt;
+                gain > least_gain ? findCorner(result.slots, breaks, turn, search.coverage) : std::nullopt;
             if (corner) {
                 result.corners.push_back(*corner);
                 kept.push_back(turn);
@@ -402,7 +409,30 @@ CorneredLoop fairWithCorners(const SlotLoop& measured)
         }
         turns = std::move(kept);
     }
-    return smooth;
+    return search.smooth;
+}
+
+/// Fairs a loop smooth everywhere, then with corners wherever they explain the mask better by far.
+CorneredLoop fairWithCorners(const SlotLoop& measured, const Coverage& coverage)
+{
+    CornerSearch search{measured, coverage, fairWhole(measured), {}};
+    search.smooth_strain = strain(search.smooth.slots);
+    SlotLoop rough = measured;
+    fair(rough, {.breaks = {}, .fairness = kDetectionFairness});
+    CorneredLoop best = search.smooth;
+    std::vector<Turn> known;
+    for (const Chord& chord : kChords) {
+        const std::vector<Turn> turns = sharpTurns(rough, chord, known);
+        if (turns.size() == known.size()) {
+            continue;
+        }
+        best = keepCorners(search, turns);
+        known.clear();
+        for (const Corner& corner : best.corners) {
+            known.push_back(corner.turn);
+        }
+    }
+    return best;
 }
 
 }  // namespace
@@ -450,6 +480,10 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     outline.extent = {mask.width * outline.pixel_size, mask.height * outline.pixel_size};
     outline.anti_aliased = looksAntiAliased(field, crossings);
 
+    Coverage coverage;
+    if (outline.anti_aliased) {
+        coverage = [&field](int x, int y) { return field.coverage(x, y); };
+    }
     std::vector<CorneredLoop> faired;
     for (const std::vector<Crossing>& crossing_loop : crossings) {
         const SlotLoop slots = placeSlots(field, crossing_loop, outline.anti_aliased);
@@ -459,7 +493,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
             outline.largest_speck_px = std::max(outline.largest_speck_px, enclosed);
             continue;
         }
-        faired.push_back(options.corners ? fairWithCorners(slots) : fairWhole(slots));
+        faired.push_back(options.corners ? fairWithCorners(slots, coverage) : fairWhole(slots));
     }
     removeTouchingCorners(faired);
     for (const CorneredLoop& cornered : faired) {

@@ -11,10 +11,8 @@
 #include "droplet/units.h"
 #include "droplet/version.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 using Json = nlohmann::ordered_json;
 

@@ -227,7 +227,7 @@ TEST_F(FailureTest, OutOfMemory)
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer itself takes terabytes of address space";
 #endif
-    const auto result = runShell("disc.pgm old.glb --triangles 5M -j 1", "ulimit -v 150000; ");
+    const auto result = runShell("disc.pgm old.glb --triangles 5M -j 1", "ulimit -d 100000; ");
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.error, ::testing::StartsWith("droplet-shape: out of memory"));
     expectOlderFiles();

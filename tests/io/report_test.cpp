@@ -14,10 +14,8 @@
 #include "droplet/units.h"
 #include "droplet/version.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;

@@ -19,13 +19,10 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace droplet::testing
-{
-namespace
-{
+namespace droplet::testing {
+namespace {
 
-class Descriptor
-{
+class Descriptor {
 public:
     explicit Descriptor(int number = -1) : number_(number) {}
     Descriptor(const Descriptor&) = delete;

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace droplet::testing
-{
+namespace droplet::testing {
 
 /// How the program under test is started.
 struct CommandOptions {
@@ -43,8 +42,7 @@ CommandResult runProgram(const std::vector<std::string>& command, const CommandO
 bool canRespectPermissions();
 
 /// An empty directory of its own for the running test, removed with its contents at the end.
-class ScratchDirectory
-{
+class ScratchDirectory {
 public:
     ScratchDirectory();
     ~ScratchDirectory();

@@ -9,13 +9,11 @@
 
 #include "support/command.h"
 
-namespace droplet::testing
-{
+namespace droplet::testing {
 
 /// Runs droplet-shape in a directory that holds a good picture, `disc.pgm`, and older outputs, `old.glb` and
 /// `old.json`, which no failing run may touch.
-class RefusalTest : public ::testing::Test
-{
+class RefusalTest : public ::testing::Test {
 protected:
     RefusalTest()
     {

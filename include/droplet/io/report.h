@@ -16,8 +16,7 @@
 #include "droplet/shape/solve.h"
 #include "droplet/surface/surface.h"
 
-namespace droplet
-{
+namespace droplet {
 
 /// How many stages the river has.
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Write) + 1;
