@@ -588,7 +588,9 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     if (std::min(ahead_before, ahead_after) < kAt || coversPixelCentre(before.end, *tip, after.end, pixel)) {
         return std::nullopt;
     }
-    if (coverage && !levelsAgree(before, after, *tip, coverage)) {
+    // Less than this is within the error of the sides themselves, a few hundredths of a pixel over their ends.
+    constexpr double kTold = 0.15;
+    if (coverage && added > kTold && !levelsAgree(before, after, *tip, coverage)) {
         return std::nullopt;
     }
     return Corner{turn, *tip, false, false};

@@ -41,8 +41,9 @@ constexpr double kAntiAliasedShare = 0.15;
 constexpr int kReach = 4;
 
 /// Standard deviations of a measured place [px], from discs, squares and type rendered exactly and blurred: the height
-/// function; interpolation between two pixels; a pixel beside a corner, where neither holds; the image's border.
+/// function, with and without its neighbours; interpolation between two pixels; a pixel beside a corner, where neither holds; the image's border.
 constexpr double kHeightSpread = 0.02;
+constexpr double kRoughHeightSpread = 0.05;
 constexpr double kInterpolatedSpread = 0.1;
 constexpr double kCornerSpread = 0.4;
 constexpr double kBorderSpread = 0.002;
@@ -58,8 +59,8 @@ constexpr double kDetectionFairness = 10.0;
 constexpr std::array<Chord, 2> kChords{{{2.0, 0.75}, {1.25, 0.5}}};
 
 /// A corner must lower the cost of the curve around it by this much, a log-likelihood. In anti-aliased masks arcs of 3
-/// px and more gain up to 110 and right angles thousands; in hard ones a right angle between sides of 8 px gains 8.
-constexpr double kCornerGain = 250.0;
+/// px and more gain up to 500 and right angles at least 2000; in hard ones a right angle between sides of 8 px gains 8.
+constexpr double kCornerGain = 1000.0;
 constexpr double kCornerGainHard = 4.0;
 
 struct Step {
@@ -169,6 +170,55 @@ std::optional<Step> sidestep(const Field& field, const Crossing& at)
     return across > 0 ? f : Step{-f.x, -f.y};
 }
 
+/// A place read off grey levels.
+struct Reading {
+    double place = 0.0;
+    bool curved = false;  ///< whether the rim's curvature over neighbouring lines of pixels was known and allowed for
+};
+
+/// The place at which the rim crosses a slot it runs across: a line's mean place, which is that of its middle but for
+/// a twenty-fourth of the second difference between lines (the mean of a parabola over a pixel).
+std::optional<Reading> readAcross(const Field& field, const Crossing& at)
+{
+    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const std::optional<double> here = heightAlong(field, at.x, at.y, d);
+    if (!here) {
+        return std::nullopt;
+    }
+    const std::optional<double> before = heightAlong(field, at.x + d.y, at.y - d.x, d);
+    const std::optional<double> after = heightAlong(field, at.x - d.y, at.y + d.x, d);
+    if (!before || !after) {
+        return Reading{*here, false};
+    }
+    return Reading{*here - (*before - 2.0 * *here + *after) / 24.0, true};
+}
+
+/// The place at which the rim crosses a slot it runs along: where the parabola through the heights of the lines beside
+/// it, `side` being the step toward dry, is at the slot's level.
+std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step side)
+{
+    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const std::optional<double> here = heightAlong(field, at.x, at.y, side);
+    const std::optional<double> there = heightAlong(field, at.x + d.x, at.y + d.y, side);
+    if (!here || !there || *here <= *there + 1e-6) {
+        return std::nullopt;
+    }
+    const std::optional<double> before = heightAlong(field, at.x - d.x, at.y - d.y, side);
+    const std::optional<double> beyond = heightAlong(field, at.x + 2 * d.x, at.y + 2 * d.y, side);
+    if (!before || !beyond) {
+        return Reading{*here / (*here - *there), false};
+    }
+    const double bend = 0.5 * (*before - *here - *there + *beyond);
+    const double fall = *here - *there;
+    double t = *here / fall;
+    // h(t) = h₀ − t·fall − ½ bend t(1 − t), each height less bend/24 for being a mean.
+    for (int k = 0; k < 4; ++k) {
+        const double value = *here - bend / 24.0 - t * fall - 0.5 * bend * t * (1.0 - t);
+        t += value / (fall + 0.5 * bend * (1.0 - 2.0 * t));
+    }
+    return Reading{t, true};
+}
+
 /// Reads the place of a crossing off the grey levels around it.
 void measure(const Field& field, const Crossing& at, Slot& slot)
 {
@@ -179,19 +229,11 @@ void measure(const Field& field, const Crossing& at, Slot& slot)
     slot.spread = kInterpolatedSpread;
     // Areas speak of the level at half coverage only; another threshold is a level set of the greys.
     if (field.threshold() == 0.5) {
-        std::optional<double> place;
-        if (const std::optional<Step> side = sidestep(field, at)) {
-            const std::optional<double> here = heightAlong(field, at.x, at.y, *side);
-            const std::optional<double> there = heightAlong(field, at.x + d.x, at.y + d.y, *side);
-            if (here && there && *here > *there + 1e-6) {
-                place = *here / (*here - *there);
-            }
-        } else {
-            place = heightAlong(field, at.x, at.y, d);
-        }
-        if (place && *place > -0.25 && *place < 1.25) {
-            slot.measured = *place;
-            slot.spread = kHeightSpread;
+        const std::optional<Step> side = sidestep(field, at);
+        const std::optional<Reading> reading = side ? readAlong(field, at, *side) : readAcross(field, at);
+        if (reading && reading->place > -0.25 && reading->place < 1.25) {
+            slot.measured = reading->place;
+            slot.spread = reading->curved ? kHeightSpread : kRoughHeightSpread;
         }
     }
     slot.measured = std::clamp(*slot.measured, kSlotMargin, 1.0 - kSlotMargin);

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The river on every mask of data/ and on masks that are hard to take.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "droplet/droplet.h"
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "support/command.h"
+#include "support/masks.h"
+#include "support/sound.h"
+
+namespace droplet {
+namespace {
+
+using testing::disc;
+using testing::drawnMask;
+using testing::expectSound;
+using testing::hardMask;
+using testing::readFile;
+using testing::runDroplet;
+using testing::ScratchDirectory;
+
+const std::string kData = DROPLET_SOURCE_DIR "/data/";
+
+/// Angle of the liquid at every rim vertex [rad].
+std::vector<double> rimAngles(const PlanarMesh& mesh)
+{
+    std::vector<double> angles(mesh.rimVertexCount());
+    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+        for (std::uint32_t before = mesh.loop_starts[loop]; before < mesh.loop_starts[loop + 1]; ++before) {
+            const std::uint32_t v = nextOnRim(mesh, loop, before);
+            const Vec2 back = mesh.vertices[before] - mesh.vertices[v];
+            const Vec2 on = mesh.vertices[nextOnRim(mesh, loop, v)] - mesh.vertices[v];
+            const double angle = std::atan2(cross(on, back), dot(on, back));
+            angles[v] = angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+        }
+    }
+    return angles;
+}
+
+/// Triangles sharper than promised: 20°, or half the sharpest corner of the rim they stand in.
+std::vector<std::string> brokenPromises(const PlanarMesh& mesh)
+{
+    std::vector<std::string> broken;
+    const std::vector<double> angles = rimAngles(mesh);
+    for (const Triangle& t : mesh.triangles) {
+        double least = std::numbers::pi;
+        double allowed = 20.0 * kDegree;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 at = mesh.vertices[t[k]];
+            const Vec2 u = mesh.vertices[t[(k + 1) % 3]] - at;
+            const Vec2 v = mesh.vertices[t[(k + 2) % 3]] - at;
+            least = std::min(least, std::atan2(cross(u, v), dot(u, v)));
+            if (mesh.onRim(t[k])) {
+                allowed = std::min(allowed, 0.5 * angles[t[k]]);
+            }
+        }
+        if (least < allowed * (1.0 - 1e-9)) {
+            broken.push_back(std::to_string(least / kDegree) + " degrees, not " + std::to_string(allowed / kDegree) +
+                             ", at " + std::to_string(mesh.vertices[t[0]].x) + " " +
+                             std::to_string(mesh.vertices[t[0]].y));
+        }
+    }
+    return broken;
+}
+
+std::size_t triangles(const Droplet& droplet)
+{
+    std::size_t count = 0;
+    for (const PlanarMesh& mesh : droplet.meshes) {
+        count += mesh.triangles.size();
+    }
+    return count;
+}
+
+// What the mask itself says: liquid pixels that touch at a corner are one droplet, dry ones are not one hole.
+
+struct Counts {
+    std::size_t droplets = 0;
+    std::size_t holes = 0;
+
+    friend bool operator==(const Counts&, const Counts&) = default;
+    friend std::ostream& operator<<(std::ostream& out, const Counts& counts)
+    {
+        return out << counts.droplets << " droplets, " << counts.holes << " holes";
+    }
+};
+
+/// Counts 8-connected liquid and 4-connected dry regions, the dry world around the image aside, by flooding.
+Counts flooded(const Mask& mask)
+{
+    const int width = mask.width + 2;
+    const int height = mask.height + 2;
+    const auto liquid = [&](int x, int y) {
+        return x > 0 && y > 0 && x <= mask.width && y <= mask.height && mask.at(x - 1, y - 1) >= 0.5 * 65535.0;
+    };
+    std::vector<bool> seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), false);
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
+    Counts counts;
+    std::size_t dry = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (seen[index(x, y)]) {
+                continue;
+            }
+            const bool wet = liquid(x, y);
+            ++(wet ? counts.droplets : dry);
+            std::vector<std::pair<int, int>> front{{x, y}};
+            seen[index(x, y)] = true;
+            while (!front.empty()) {
+                const auto [fx, fy] = front.back();
+                front.pop_back();
+                for (int dy = -1; dy <= 1; ++dy) {
+                    for (int dx = -1; dx <= 1; ++dx) {
+                        const int nx = fx + dx;
+                        const int ny = fy + dy;
+                        const bool neighbour = wet || dx == 0 || dy == 0;
+                        if (neighbour && nx >= 0 && ny >= 0 && nx < width && ny < height && !seen[index(nx, ny)] &&
+                            liquid(nx, ny) == wet) {
+                            seen[index(nx, ny)] = true;
+                            front.emplace_back(nx, ny);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    counts.holes = dry - 1;
+    return counts;
+}
+
+Counts counted(const Droplet& droplet)
+{
+    Counts counts{droplet.domain.droplets.size(), 0};
+    for (const Footprint& footprint : droplet.domain.droplets) {
+        counts.holes += footprint.holes.size();
+    }
+    return counts;
+}
+
+/// Runs the river without dropping specks; the droplets must be those of the mask, sound, and of the volume asked for.
+void expectTaken(const Mask& mask, std::size_t triangles = 2'000)
+{
+    constexpr double kVolume = 1.0 * kMicrolitre;
+    DropletOptions options;
+    options.trace.speck_size = 0.0;
+    options.trace.pixel_size = 0.1 * kMillimetre;
+    options.mesh.triangles = triangles;
+    options.solve.fill = {FillBy::Volume, kVolume, FillSharing::Total};
+    const Droplet droplet = makeDroplet(mask, options);
+    expectSound(droplet);
+    EXPECT_EQ(counted(droplet), flooded(mask));
+    EXPECT_NEAR(droplet.total.volume / kVolume, 1.0, 1e-10);
+    EXPECT_NEAR(enclosedVolume(droplet.surface) / kVolume, 1.0, 1e-9);
+}
+
+// Every mask of data/.
+
+class DataMaskTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(DataMaskTest, BecomesASoundDroplet)
+{
+    const Droplet droplet = makeDroplet(readMask(kData + GetParam()));
+    expectSound(droplet);
+    for (const ShapeFigures& figures : droplet.figures) {
+        EXPECT_NEAR(figures.contact_angle.mean, 40.0 * kDegree, 1e-9);
+    }
+    EXPECT_NEAR(static_cast<double>(triangles(droplet)), 40'000.0, 4'000.0);
+    EXPECT_THAT(droplet.warnings, ::testing::Not(::testing::Contains(::testing::HasSubstr("asked for"))));
+}
+
+TEST_P(DataMaskTest, HasTheAnglesPromised)
+{
+    const Droplet droplet = makeDroplet(readMask(kData + GetParam()));
+    for (const PlanarMesh& mesh : droplet.meshes) {
+        EXPECT_THAT(brokenPromises(mesh), ::testing::IsEmpty());
+    }
+}
+
+TEST_P(DataMaskTest, KeepsEveryPixelOfItsTopology)
+{
+    expectTaken(readMask(kData + GetParam()), 5'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, DataMaskTest,
+                         ::testing::Values("ampersand.png", "butterfly.jpg", "cluster.png", "debian_astro.png",
+                                           "debian_swirl.png", "deer.bmp", "flourish.png", "handprint.jpg",
+                                           "inkscape.png", "letter_g_1bit.png", "line_of_type.png", "maze.pgm",
+                                           "ornament.png", "sakura.tif", "shamrock.webp"),
+                         [](const auto& info) {
+                             const std::string name = info.param;
+                             return name.substr(0, name.find('.'));
+                         });
+
+TEST(DataMasks, GiveTheSameBytesInEveryProcess)
+{
+    // Addresses differ from process to process; nothing may be ordered by them.
+    const ScratchDirectory scratch;
+    for (const char* name : {"cluster.png", "debian_swirl.png", "maze.pgm"}) {
+        SCOPED_TRACE(name);
+        for (const char* output : {"first.glb", "second.glb"}) {
+            const auto result = runDroplet({kData + name, (scratch.path() / output).string(), "--quiet"});
+            ASSERT_EQ(result.exit_code, 0) << result.error;
+        }
+        const std::string first = readFile(scratch.path() / "first.glb");
+        EXPECT_GT(first.size(), 100'000U);
+        EXPECT_TRUE(first == readFile(scratch.path() / "second.glb"));
+    }
+}
+
+// Masks that are hard to take.
+
+struct AwkwardMask {
+    const char* name;
+    Counts counts;
+    std::function<Mask()> make;
+};
+
+void PrintTo(const AwkwardMask& mask, std::ostream* out)
+{
+    *out << mask.name;
+}
+
+class AwkwardMaskTest : public ::testing::TestWithParam<AwkwardMask> {};
+
+TEST_P(AwkwardMaskTest, BecomesASoundDroplet)
+{
+    const Mask mask = GetParam().make();
+    ASSERT_EQ(flooded(mask), GetParam().counts);
+    expectTaken(mask);
+}
+
+Mask comb()
+{
+    return hardMask(63, 30, [](Vec2 p) { return p.y < 4.0 || (static_cast<int>(p.x) % 2 == 0 && p.y < 27.0); });
+}
+
+Mask spiral()
+{
+    return hardMask(100, 100, [](Vec2 p) {
+        const Vec2 d = p - Vec2{50.0, 50.0};
+        const double turn = (std::atan2(d.y, d.x) + std::numbers::pi) / (2.0 * std::numbers::pi);
+        const double arm = length(d) / 9.0 - turn;
+        return arm > 0.0 && arm < 4.0 && arm - std::floor(arm) < 0.45;
+    });
+}
+
+Mask rings()
+{
+    return hardMask(90, 90, [](Vec2 p) {
+        const double r = length(p - Vec2{45.0, 45.0});
+        return r < 6.0 || (r > 12.0 && r < 20.0) || (r > 26.0 && r < 40.0);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mask, AwkwardMaskTest,
+    ::testing::Values(
+        AwkwardMask{"OnePixel", {1, 0}, [] { return drawnMask("#"); }},
+        AwkwardMask{"OnePixelInTheMiddle", {1, 0}, [] { return drawnMask("...\n.#.\n..."); }},
+        AwkwardMask{
+            "HorizontalLine", {1, 0}, [] { return hardMask(40, 9, [](Vec2 p) { return p.y > 4.0 && p.y < 5.0; }); }},
+        AwkwardMask{"DiagonalLine", {1, 0}, [] { return hardMask(30, 30, [](Vec2 p) { return p.x == p.y; }); }},
+        AwkwardMask{"DiagonalCross",
+                    {1, 0},
+                    [] { return hardMask(31, 31, [](Vec2 p) { return p.x == p.y || p.x + p.y == 31.0; }); }},
+        AwkwardMask{"Checkerboard",
+                    {1, 98},
+                    [] { return hardMask(16, 16, [](Vec2 p) { return static_cast<int>(p.x + p.y) % 2 == 0; }); }},
+        AwkwardMask{"AllLiquid", {1, 0}, [] { return hardMask(20, 12, [](Vec2) { return true; }); }},
+        AwkwardMask{"Frame",
+                    {1, 1},
+                    [] { return hardMask(20, 14, [](Vec2 p) { return p.x < 2 || p.y < 2 || p.x > 18 || p.y > 12; }); }},
+        AwkwardMask{"FrameOfOnePixel",
+                    {1, 1},
+                    [] { return hardMask(20, 14, [](Vec2 p) { return p.x < 1 || p.y < 1 || p.x > 19 || p.y > 13; }); }},
+        AwkwardMask{
+            "AllButOnePixel", {1, 1}, [] { return hardMask(21, 15, [](Vec2 p) { return p.x != 9.5 || p.y != 6.5; }); }},
+        AwkwardMask{"IslandsInRings", {3, 2}, rings},
+        AwkwardMask{"DiscsThatTouchAtACorner",
+                    {1, 0},
+                    [] {
+                        return drawnMask(
+                            "..##......\n.####.....\n######....\n######....\n.####.....\n..###.....\n"
+                            ".....###..\n.....####.\n....######\n....######\n.....####.\n......##..");
+                    }},
+        AwkwardMask{"Spiral", {1, 0}, spiral}, AwkwardMask{"Comb", {1, 0}, comb},
+        AwkwardMask{"OnlyBarelyLiquid",
+                    {1, 0},
+                    [] {
+                        Mask mask = hardMask(16, 16, disc({8.0, 8.0}, 5.0));
+                        for (std::uint16_t& c : mask.coverage) {
+                            c = c > 0 ? 32768 : 32767;
+                        }
+                        return mask;
+                    }}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(AwkwardMasks, SpecksAloneAreNoLiquid)
+{
+    for (const Mask& mask : {drawnMask("#"), drawnMask("....\n.#..\n...#"), drawnMask("...\n...")}) {
+        try {
+            makeDroplet(mask);
+            ADD_FAILURE() << "a droplet from nothing";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        }
+    }
+}
+
+/// Uniform numbers in [0, 1) from Knuth's 64-bit linear congruential generator: the same everywhere.
+class Noise {
+public:
+    explicit Noise(std::uint64_t seed) : state_(seed) {}
+    double next()
+    {
+        state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+        return static_cast<double>(state_ >> 11U) * 0x1p-53;
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+class NoiseMaskTest : public ::testing::TestWithParam<bool> {};
+
+TEST_P(NoiseMaskTest, BecomesSoundDroplets)
+{
+    const bool hard = GetParam();
+    Noise noise(hard ? 1 : 2);
+    for (int k = 0; k < 100; ++k) {
+        const double density = 0.05 + 0.9 * k / 99.0;
+        Mask mask;
+        mask.width = 4 + static_cast<int>(20.0 * noise.next());
+        mask.height = 4 + static_cast<int>(20.0 * noise.next());
+        for (int i = 0; i < mask.width * mask.height; ++i) {
+            const double level = std::clamp(0.5 + density - noise.next(), 0.0, 1.0);
+            mask.coverage.push_back(
+                static_cast<std::uint16_t>(hard ? (level >= 0.5 ? 65535 : 0) : std::lround(65535.0 * level)));
+        }
+        SCOPED_TRACE("mask " + std::to_string(k));
+        if (flooded(mask).droplets == 0) {
+            EXPECT_THROW(makeDroplet(mask), Error);
+            continue;
+        }
+        expectTaken(mask, 1'000);
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mask, NoiseMaskTest, ::testing::Values(true, false),
+                         [](const auto& info) { return std::string(info.param ? "Hard" : "Grey"); });
+
+TEST(AwkwardMasks, LargeAndNearlyEmpty)
+{
+    constexpr int kSide = 4096;
+    Mask mask;
+    mask.width = kSide;
+    mask.height = kSide;
+    mask.coverage.assign(static_cast<std::size_t>(kSide) * kSide, 0);
+    const testing::Inside inside = disc({3000.0, 777.0}, 25.0);
+    for (int y = 740; y < 820; ++y) {
+        for (int x = 2960; x < 3040; ++x) {
+            mask.coverage[static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x)] =
+                inside({x + 0.5, y + 0.5}) ? 65535 : 0;
+        }
+    }
+    DropletOptions options;
+    options.trace.width = 4.096;
+    options.mesh.triangles = 2'000;
+    const Droplet droplet = makeDroplet(mask, options);
+    expectSound(droplet);
+    EXPECT_EQ(counted(droplet), (Counts{1, 0}));
+    EXPECT_NEAR(droplet.total.footprint_area / (std::numbers::pi * 25e-3 * 25e-3), 1.0, 1e-2);
+    Vec2 middle;
+    for (const Vec2 v : droplet.meshes[0].vertices) {
+        middle = middle + (1.0 / static_cast<double>(droplet.meshes[0].vertices.size())) * v;
+    }
+    EXPECT_NEAR(middle.x, 3.000 - 2.048, 1e-3);
+    EXPECT_NEAR(middle.y, 2.048 - 0.777, 1e-3);
+}
+
+}  // namespace
+}  // namespace droplet

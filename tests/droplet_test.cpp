@@ -1,0 +1,647 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The river as a whole: exact shapes, balances, relations between runs.
+#include "droplet/droplet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/io/output.h"
+#include "droplet/units.h"
+#include "support/masks.h"
+#include "support/sound.h"
+
+namespace droplet {
+namespace {
+
+using testing::disc;
+using ::testing::ElementsAre;
+using testing::expectSound;
+using testing::hardMask;
+using ::testing::HasSubstr;
+using testing::Inside;
+using ::testing::IsEmpty;
+using testing::rectangle;
+using testing::smoothMask;
+
+constexpr double kPi = std::numbers::pi;
+
+/// A ring, a bar askew and a small disc on 96 × 72 pixels; no symmetry at all.
+Inside scene(double scale = 1.0)
+{
+    const Inside outer = disc(scale * Vec2{34.0, 38.0}, scale * 25.0);
+    const Inside hole = disc(scale * Vec2{28.0, 42.0}, scale * 8.0);
+    const Inside bar = rectangle(scale * Vec2{76.0, 22.0}, scale * Vec2{13.0, 8.0}, 0.4);
+    const Inside small = disc(scale * Vec2{78.0, 56.0}, scale * 7.0);
+    return [=](Vec2 p) { return (outer(p) && !hole(p)) || bar(p) || small(p); };
+}
+
+Mask sceneMask(int scale = 1)
+{
+    return smoothMask(96 * scale, 72 * scale, scene(scale));
+}
+
+/// What the tests start from: little work, no gravity, pixels of a fifth of a millimetre.
+DropletOptions plain()
+{
+    DropletOptions options;
+    options.trace.pixel_size = 0.2 * kMillimetre;
+    options.mesh.triangles = 6000;
+    options.solve.gravity = 0.0;
+    return options;
+}
+
+DropletOptions filled(FillBy by, double amount, FillSharing sharing)
+{
+    DropletOptions options = plain();
+    options.solve.gravity = kStandardGravity;
+    options.solve.fill = {by, amount, sharing};
+    return options;
+}
+
+std::vector<double> heights(const Droplet& droplet)
+{
+    std::vector<double> all;
+    for (const HeightField& field : droplet.solution.droplets) {
+        all.insert(all.end(), field.height.begin(), field.height.end());
+    }
+    return all;
+}
+
+std::string glb(const Droplet& droplet)
+{
+    std::ostringstream out;
+    writeSurface(droplet.surface, out, Format::Glb);
+    return out.str();
+}
+
+std::vector<double> scaled(double factor, std::vector<double> values)
+{
+    for (double& v : values) {
+        v *= factor;
+    }
+    return values;
+}
+
+void expectRelative(double found, double wanted, double tolerance, const char* what)
+{
+    EXPECT_NEAR(found / wanted, 1.0, tolerance) << what;
+}
+
+// A disc's shape is known in closed form.
+
+TEST(Droplet, DiscIsTheParaboloidOfItsContactAngle)
+{
+    constexpr double kRadius = 40.0;  // [px]
+    const DropletOptions options = plain();
+    const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, kRadius)), options);
+    const double radius = kRadius * *options.trace.pixel_size;
+    const double slope = std::tan(40.0 * kDegree);
+    // Coverage in 256 levels places the rim to a few 1/1000 px, 1e-4 of the radius; 6000 triangles have h/R = 1/31, and
+    // linear elements fall short by about h²/R² = 1e-3 in volume.
+    EXPECT_THAT(droplet.warnings, IsEmpty());
+    expectSound(droplet);
+    expectRelative(droplet.total.footprint_area, kPi * radius * radius, 5e-4, "area");
+    expectRelative(droplet.total.rim_length, 2.0 * kPi * radius, 5e-4, "rim length");
+    expectRelative(droplet.total.volume, kPi * std::pow(radius, 3) * slope / 4.0, 2e-3, "volume");
+    expectRelative(droplet.total.height_max, radius * slope / 2.0, 2e-3, "height");
+    expectRelative(droplet.solution.droplets[0].pressure, 2.0 * 0.0728 * slope / radius, 2e-3, "pressure");
+    const double paraboloid =
+        kPi * radius * radius * (2.0 / 3.0) * (std::pow(1.0 + slope * slope, 1.5) - 1.0) / (slope * slope);
+    expectRelative(droplet.total.liquid_area, paraboloid, 2e-3, "area of the liquid's surface");
+    expectRelative(droplet.total.surface_energy, 0.0728 * paraboloid, 2e-3, "energy");
+    EXPECT_EQ(droplet.total.gravity_energy, 0.0);
+}
+
+TEST(Droplet, DiscUnderGravityIsTheBesselShape)
+{
+    constexpr double kRadius = 40.0;
+    DropletOptions options = plain();
+    const double radius = kRadius * *options.trace.pixel_size;
+    // k = R √(ρg/σ) = 2.
+    options.solve.liquid = {"test", 0.05, 1000.0};
+    options.solve.gravity = 4.0 * 0.05 / (1000.0 * radius * radius);
+    options.solve.fill = {FillBy::Volume, 5.0 * kMicrolitre, FillSharing::Each};
+    const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, kRadius)), options);
+    expectSound(droplet);
+    expectRelative(droplet.total.height_max * radius * radius / droplet.total.volume, 0.591198, 2e-3, "apex");
+    expectRelative(droplet.solution.droplets[0].pressure * std::pow(radius, 4) / (0.05 * droplet.total.volume),
+                   4.212881, 2e-3, "pressure");
+}
+
+TEST(Droplet, ConvergesAsTheMaskGetsFiner)
+{
+    // The same scene on finer and finer masks and meshes; the area is known, the volume from the finest.
+    const double radii = 25.0 * 25.0 - 8.0 * 8.0 + 7.0 * 7.0;
+    const double pixel = 0.2 * kMillimetre;
+    const double exact = (kPi * radii + 4.0 * 13.0 * 8.0) * pixel * pixel;
+    std::vector<double> area_errors;
+    std::vector<double> volumes;
+    for (const int scale : {1, 2, 4}) {
+        DropletOptions options = plain();
+        options.trace.pixel_size = pixel / scale;
+        options.mesh.triangles = 2000 * static_cast<std::size_t>(scale * scale);
+        const Droplet droplet = makeDroplet(sceneMask(scale), options);
+        expectSound(droplet);
+        area_errors.push_back(std::abs(droplet.total.footprint_area / exact - 1.0));
+        volumes.push_back(droplet.total.volume);
+    }
+    EXPECT_LT(area_errors[0], 1e-3);
+    EXPECT_LT(area_errors[2], 3e-4);
+    EXPECT_LT(std::abs(volumes[2] - volumes[1]), 0.5 * std::abs(volumes[1] - volumes[0]));
+    EXPECT_LT(std::abs(volumes[2] / volumes[1] - 1.0), 3e-3);
+}
+
+TEST(Droplet, HardMasksComeNearTheSmoothOnes)
+{
+    const Droplet smooth = makeDroplet(sceneMask(2), plain());
+    const Droplet hard = makeDroplet(hardMask(192, 144, scene(2.0)), plain());
+    EXPECT_TRUE(smooth.outline.anti_aliased);
+    EXPECT_FALSE(hard.outline.anti_aliased);
+    expectSound(hard);
+    ASSERT_EQ(hard.figures.size(), 3U);
+    // A hard rim is known to a fraction of a pixel, of radii from 14 pixels up.
+    expectRelative(hard.total.footprint_area, smooth.total.footprint_area, 1e-2, "area");
+    expectRelative(hard.total.volume, smooth.total.volume, 2e-2, "volume");
+}
+
+TEST(Droplet, ThresholdTakesTheMasksLevelThere)
+{
+    // Coverage falls evenly from the middle to nothing at 40 px, so that level t is a circle of (1 − t) · 40 px.
+    Mask mask;
+    mask.width = 91;
+    mask.height = 91;
+    for (int y = 0; y < 91; ++y) {
+        for (int x = 0; x < 91; ++x) {
+            const double level = 1.0 - std::hypot(x - 45.0, y - 45.0) / 40.0;
+            mask.coverage.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * std::max(0.0, level))));
+        }
+    }
+    for (const double threshold : {0.25, 0.5, 0.7}) {
+        SCOPED_TRACE(threshold);
+        DropletOptions options = plain();
+        options.mesh.triangles = 2000;
+        options.trace.threshold = threshold;
+        const Droplet droplet = makeDroplet(mask, options);
+        const double radius = (1.0 - threshold) * 40.0 * *options.trace.pixel_size;
+        expectRelative(droplet.total.footprint_area, kPi * radius * radius, 5e-3, "area");
+    }
+}
+
+// How much liquid.
+
+struct Sharing {
+    FillSharing sharing;
+    const char* name;
+};
+
+class FillTest : public ::testing::TestWithParam<Sharing> {
+protected:
+    [[nodiscard]] static bool each() { return GetParam().sharing == FillSharing::Each; }
+};
+
+TEST_P(FillTest, VolumeIsMet)
+{
+    const double wanted = 20.0 * kMicrolitre;
+    const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::Volume, wanted, GetParam().sharing));
+    expectSound(droplet);
+    ASSERT_EQ(droplet.figures.size(), 3U);
+    for (const ShapeFigures& figures : droplet.figures) {
+        if (each()) {
+            expectRelative(figures.volume, wanted, 1e-10, "volume");
+        }
+    }
+    expectRelative(droplet.total.volume, each() ? 3.0 * wanted : wanted, 1e-10, "total volume");
+    expectRelative(enclosedVolume(droplet.surface), each() ? 3.0 * wanted : wanted, 1e-10, "enclosed volume");
+}
+
+TEST_P(FillTest, HeightIsMet)
+{
+    const double wanted = 0.8 * kMillimetre;
+    const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::Height, wanted, GetParam().sharing));
+    expectSound(droplet);
+    for (const ShapeFigures& figures : droplet.figures) {
+        if (each()) {
+            expectRelative(figures.height_max, wanted, 1e-12, "height");
+        } else {
+            EXPECT_LE(figures.height_max, wanted * (1.0 + 1e-12));
+        }
+    }
+    expectRelative(droplet.total.height_max, wanted, 1e-12, "largest height");
+    double top = 0.0;
+    for (const Vec3& p : droplet.surface.positions) {
+        top = std::max(top, p.z);
+    }
+    EXPECT_EQ(top, droplet.total.height_max);
+}
+
+TEST_P(FillTest, ContactAngleIsMet)
+{
+    const double wanted = 33.0 * kDegree;
+    const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::ContactAngle, wanted, GetParam().sharing));
+    expectSound(droplet);
+    for (const ShapeFigures& figures : droplet.figures) {
+        if (each()) {
+            EXPECT_NEAR(figures.contact_angle.mean, wanted, 1e-9);
+        }
+        EXPECT_LE(figures.contact_angle.min, figures.contact_angle.mean);
+        EXPECT_LE(figures.contact_angle.mean, figures.contact_angle.max);
+    }
+    EXPECT_NEAR(droplet.total.contact_angle.mean, wanted, 1e-9);
+}
+
+TEST_P(FillTest, PressureIsSharedWithTheReservoirAlone)
+{
+    const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::ContactAngle, 30.0 * kDegree, GetParam().sharing));
+    const std::vector<HeightField>& fields = droplet.solution.droplets;
+    ASSERT_EQ(fields.size(), 3U);
+    EXPECT_EQ(fields[0].pressure == fields[1].pressure && fields[1].pressure == fields[2].pressure, !each());
+}
+
+INSTANTIATE_TEST_SUITE_P(Fill, FillTest,
+                         ::testing::Values(Sharing{FillSharing::Each, "Each"}, Sharing{FillSharing::Total, "Total"}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Droplet, OneDropletIsItsOwnReservoir)
+{
+    const Mask mask = smoothMask(64, 64, disc({31.0, 33.0}, 24.0));
+    for (const auto& [by, amount] :
+         {std::pair{FillBy::Volume, 10.0 * kMicrolitre}, std::pair{FillBy::Height, 1.0 * kMillimetre},
+          std::pair{FillBy::ContactAngle, 35.0 * kDegree}}) {
+        const Droplet each = makeDroplet(mask, filled(by, amount, FillSharing::Each));
+        const Droplet total = makeDroplet(mask, filled(by, amount, FillSharing::Total));
+        EXPECT_EQ(glb(each), glb(total));
+        EXPECT_EQ(each.solution.droplets[0].pressure, total.solution.droplets[0].pressure);
+    }
+}
+
+TEST(Droplet, HeightsAreProportionalToTheVolume)
+{
+    const double volume = 7.0 * kMicrolitre;
+    const Droplet once = makeDroplet(sceneMask(), filled(FillBy::Volume, volume, FillSharing::Total));
+    const Droplet twice = makeDroplet(sceneMask(), filled(FillBy::Volume, 2.0 * volume, FillSharing::Total));
+    EXPECT_EQ(heights(twice), scaled(2.0, heights(once)));
+    EXPECT_EQ(twice.solution.droplets[0].pressure, 2.0 * once.solution.droplets[0].pressure);
+}
+
+// Physics.
+
+TEST(Droplet, PressureCarriesTheWeightAndThePullOfTheRim)
+{
+    for (const double gravity : {0.0, kStandardGravity, 100.0}) {
+        SCOPED_TRACE(gravity);
+        DropletOptions options = plain();
+        options.solve.gravity = gravity;
+        const Droplet droplet = makeDroplet(sceneMask(), options);
+        const Liquid& liquid = options.solve.liquid;
+        for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+            const PlanarMesh& mesh = droplet.meshes[k];
+            const HeightField& field = droplet.solution.droplets[k];
+            double pull = 0.0;
+            for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+                for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+                    const std::uint32_t next = nextOnRim(mesh, loop, v);
+                    const double edge = length(mesh.vertices[next] - mesh.vertices[v]);
+                    pull += 0.5 * edge * (field.rim_slope[v] + field.rim_slope[next]);
+                }
+            }
+            const double weight = liquid.density * gravity * droplet.figures[k].volume;
+            // Exact on any mesh: the equations of all vertices, the rim's among them, add up to this.
+            expectRelative(liquid.surface_tension * pull + weight, field.pressure * area(mesh), 1e-10, "force");
+        }
+    }
+}
+
+TEST(Droplet, GravityFlattens)
+{
+    double last_height = 1.0;
+    double last_pressure = 0.0;
+    for (const double gravity : {0.0, 5.0, 10.0, 20.0, 40.0}) {
+        DropletOptions options = filled(FillBy::Volume, 100.0 * kMicrolitre, FillSharing::Each);
+        options.solve.gravity = gravity;
+        const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, 40.0)), options);
+        EXPECT_LT(droplet.total.height_max, last_height);
+        EXPECT_GT(droplet.solution.droplets[0].pressure, last_pressure);
+        EXPECT_GT(droplet.total.surface_energy, 0.0728 * droplet.total.footprint_area);
+        EXPECT_EQ(droplet.total.gravity_energy > 0.0, gravity > 0.0);
+        last_height = droplet.total.height_max;
+        last_pressure = droplet.solution.droplets[0].pressure;
+    }
+}
+
+TEST(Droplet, SurfaceTensionRaises)
+{
+    double last = 0.0;
+    for (const double sigma : {0.01, 0.03, 0.1, 0.5}) {
+        DropletOptions options = filled(FillBy::Volume, 100.0 * kMicrolitre, FillSharing::Each);
+        options.solve.liquid.surface_tension = sigma;
+        const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, 40.0)), options);
+        EXPECT_GT(droplet.total.height_max, last);
+        last = droplet.total.height_max;
+    }
+}
+
+TEST(Droplet, OnlyTheRatioOfWeightToTensionShapes)
+{
+    DropletOptions options = filled(FillBy::Volume, 20.0 * kMicrolitre, FillSharing::Each);
+    const Droplet once = makeDroplet(sceneMask(), options);
+    options.solve.liquid.surface_tension *= 4.0;
+    options.solve.liquid.density *= 4.0;
+    const Droplet more = makeDroplet(sceneMask(), options);
+    // Exact in binary, the square roots of a factorisation included.
+    EXPECT_EQ(heights(more), heights(once));
+    EXPECT_EQ(more.solution.droplets[2].pressure, 4.0 * once.solution.droplets[2].pressure);
+    EXPECT_EQ(more.total.surface_energy, 4.0 * once.total.surface_energy);
+    EXPECT_EQ(more.total.gravity_energy, 4.0 * once.total.gravity_energy);
+}
+
+TEST(Droplet, WithoutGravityShapesScale)
+{
+    DropletOptions options = plain();
+    const Droplet once = makeDroplet(sceneMask(), options);
+    *options.trace.pixel_size *= 4.0;
+    const Droplet large = makeDroplet(sceneMask(), options);
+    // Powers of two are exact in binary: nothing in the river knows a length of its own.
+    EXPECT_EQ(heights(large), scaled(4.0, heights(once)));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(large.solution.droplets[k].pressure, once.solution.droplets[k].pressure / 4.0);
+        EXPECT_EQ(large.figures[k].volume, 64.0 * once.figures[k].volume);
+        EXPECT_EQ(large.figures[k].footprint_area, 16.0 * once.figures[k].footprint_area);
+        EXPECT_EQ(large.figures[k].contact_angle.max, once.figures[k].contact_angle.max);
+        EXPECT_EQ(large.figures[k].slope_max, once.figures[k].slope_max);
+    }
+    // Other factors round: at worst an edge of the triangulation flips somewhere.
+    options.trace.pixel_size = 3.7 * *plain().trace.pixel_size;
+    const Droplet odd = makeDroplet(sceneMask(), options);
+    expectRelative(odd.total.volume, std::pow(3.7, 3) * once.total.volume, 1e-4, "volume");
+    expectRelative(odd.total.height_max, 3.7 * once.total.height_max, 1e-4, "height");
+    expectRelative(odd.solution.droplets[0].pressure, once.solution.droplets[0].pressure / 3.7, 1e-4, "pressure");
+}
+
+// The mask turned, mirrored, moved.
+
+Mask rearranged(const Mask& mask, bool transpose, bool flip_x, bool flip_y)
+{
+    Mask result = mask;
+    if (transpose) {
+        std::swap(result.width, result.height);
+    }
+    for (int y = 0; y < result.height; ++y) {
+        for (int x = 0; x < result.width; ++x) {
+            const int fx = flip_x ? result.width - 1 - x : x;
+            const int fy = flip_y ? result.height - 1 - y : y;
+            result.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(result.width) +
+                            static_cast<std::size_t>(x)] = transpose ? mask.at(fy, fx) : mask.at(fx, fy);
+        }
+    }
+    return result;
+}
+
+/// Droplets in order of area: turning a mask reorders them.
+std::vector<std::size_t> byArea(const Droplet& droplet)
+{
+    std::vector<std::size_t> order(droplet.figures.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        order[k] = k;
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return droplet.figures[a].footprint_area < droplet.figures[b].footprint_area;
+    });
+    return order;
+}
+
+struct Turn {
+    const char* name;
+    bool transpose;
+    bool flip_x;
+    bool flip_y;
+};
+
+class TurnTest : public ::testing::TestWithParam<Turn> {};
+
+TEST_P(TurnTest, LeavesEveryFigureAsItWas)
+{
+    const Turn& turn = GetParam();
+    DropletOptions options = plain();
+    options.solve.gravity = kStandardGravity;
+    options.mesh.triangles = 20'000;
+    const Droplet upright = makeDroplet(sceneMask(), options);
+    const Droplet turned = makeDroplet(rearranged(sceneMask(), turn.transpose, turn.flip_x, turn.flip_y), options);
+    expectSound(turned);
+    const std::vector<std::size_t> a = byArea(upright);
+    const std::vector<std::size_t> b = byArea(turned);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        SCOPED_TRACE(k);
+        const ShapeFigures& was = upright.figures[a[k]];
+        const ShapeFigures& is = turned.figures[b[k]];
+        // A corner's tip depends on where the tracing began, by 0.01 px here, and the bar's rim is 84 px long.
+        expectRelative(is.footprint_area, was.footprint_area, 5e-4, "area");
+        expectRelative(is.rim_length, was.rim_length, 1e-3, "rim length");
+        // The lattice lies otherwise: linear elements are off by (edge / half width)² = (0.5 px / 8 px)² = 4e-3 at
+        // most, in heights, which are read at vertices; figures that are integrals gain from averaging.
+        expectRelative(is.height_max, was.height_max, 4e-3, "height");
+        expectRelative(is.volume, was.volume, 2e-3, "volume");
+        expectRelative(is.surface_energy, was.surface_energy, 1e-3, "surface energy");
+        expectRelative(is.gravity_energy, was.gravity_energy, 4e-3, "gravity energy");
+        const double pressure = upright.solution.droplets[a[k]].pressure;
+        expectRelative(turned.solution.droplets[b[k]].pressure, pressure, 2e-3, "pressure");
+        EXPECT_NEAR(is.contact_angle.mean, was.contact_angle.mean, 1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mask, TurnTest,
+                         ::testing::Values(Turn{"Mirrored", false, true, false}, Turn{"UpsideDown", false, false, true},
+                                           Turn{"HalfTurned", false, true, true},
+                                           Turn{"Transposed", true, false, false},
+                                           Turn{"TurnedLeft", true, true, false},
+                                           Turn{"TurnedRight", true, false, true}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Droplet, PlaceInTheImageDoesNotMatter)
+{
+    // Ten pixels of dry frame on the left and the top: the same scene elsewhere on the lattice.
+    Mask wide;
+    wide.width = 106;
+    wide.height = 82;
+    const Mask mask = sceneMask();
+    for (int y = 0; y < wide.height; ++y) {
+        for (int x = 0; x < wide.width; ++x) {
+            wide.coverage.push_back(x < 10 || y < 10 ? std::uint16_t{0} : mask.at(x - 10, y - 10));
+        }
+    }
+    const Droplet here = makeDroplet(mask, plain());
+    const Droplet there = makeDroplet(wide, plain());
+    EXPECT_NEAR(there.meshes[0].vertices[0].x - here.meshes[0].vertices[0].x, 1.0 * kMillimetre, 1e-9);
+    EXPECT_NEAR(there.meshes[0].vertices[0].y - here.meshes[0].vertices[0].y, -1.0 * kMillimetre, 1e-9);
+    expectRelative(there.total.footprint_area, here.total.footprint_area, 1e-4, "area");
+    expectRelative(there.total.volume, here.total.volume, 1e-3, "volume");
+}
+
+TEST(Droplet, NoDropletKnowsOfAnother)
+{
+    const Droplet both = makeDroplet(sceneMask(), plain());
+    DropletOptions options = plain();
+    // Mesh size is shared; given as a length it stays what it was.
+    options.mesh.edge = 0.2 * kMillimetre;
+    const Droplet all = makeDroplet(sceneMask(), options);
+    const Inside bar = rectangle({76.0, 22.0}, {13.0, 8.0}, 0.4);
+    const Droplet alone = makeDroplet(smoothMask(96, 72, bar), options);
+    ASSERT_EQ(alone.figures.size(), 1U);
+    const std::size_t k = byArea(all)[1];
+    EXPECT_EQ(all.meshes[k].vertices, alone.meshes[0].vertices);
+    EXPECT_EQ(all.solution.droplets[k].height, alone.solution.droplets[0].height);
+    expectRelative(both.figures[byArea(both)[1]].volume, alone.figures[0].volume, 1e-2, "volume at another mesh size");
+}
+
+// The surface.
+
+TEST(Droplet, ClosedAndOpenSurfacesHaveTheTopologyOfTheirRims)
+{
+    DropletOptions options = plain();
+    expectSound(makeDroplet(sceneMask(), options));
+    options.open = true;
+    const Droplet open = makeDroplet(sceneMask(), options);
+    expectSound(open, true);
+    // A ring, a bar, a disc: 0 + 1 + 1; four rims.
+    EXPECT_EQ(topology(open.surface).euler, 2);
+    EXPECT_EQ(topology(open.surface).boundary_loops, 4U);
+    EXPECT_EQ(topology(makeDroplet(sceneMask(), plain()).surface).euler, 4);
+}
+
+TEST(Droplet, TextureCoordinatesLeadBackToLiquidPixels)
+{
+    const Mask mask = sceneMask();
+    const Droplet droplet = makeDroplet(mask, plain());
+    // The rim itself may fall a hair beyond the edge of a pixel.
+    const auto wet = [&](Vec2 uv, Vec2 aside) {
+        const int x = static_cast<int>(uv.x * mask.width + aside.x);
+        const int y = static_cast<int>(uv.y * mask.height + aside.y);
+        return x >= 0 && x < mask.width && y >= 0 && y < mask.height && mask.at(x, y) > 0;
+    };
+    std::size_t dry = 0;
+    for (const Vec2 uv : droplet.surface.uvs) {
+        dry += wet(uv, {-0.05, -0.05}) || wet(uv, {0.05, -0.05}) || wet(uv, {-0.05, 0.05}) || wet(uv, {0.05, 0.05}) ? 0
+                                                                                                                    : 1;
+    }
+    EXPECT_EQ(dry, 0U);
+}
+
+TEST(Droplet, TopOfTheImageIsTheFarSide)
+{
+    // A small disc in the upper left quarter.
+    const Droplet droplet = makeDroplet(smoothMask(64, 64, disc({16.0, 12.0}, 8.0)), plain());
+    for (std::size_t v = 0; v < droplet.surface.positions.size(); ++v) {
+        EXPECT_LT(droplet.surface.positions[v].x, 0.0);
+        EXPECT_GT(droplet.surface.positions[v].y, 0.0);
+        EXPECT_LT(droplet.surface.uvs[v].x, 0.5);
+        EXPECT_LT(droplet.surface.uvs[v].y, 0.5);
+    }
+}
+
+TEST(Droplet, NormalsAreThoseOfTheShape)
+{
+    constexpr double kRadius = 40.0;
+    const DropletOptions options = plain();
+    const Droplet droplet = makeDroplet(smoothMask(90, 90, disc({45.0, 45.0}, kRadius)), options);
+    const double radius = kRadius * *options.trace.pixel_size;
+    const double curvature = std::tan(40.0 * kDegree) / radius;  // u = (R² − r²) · curvature / 2
+    double worst = 0.0;
+    for (std::size_t v = 0; v < droplet.surface.positions.size(); ++v) {
+        const Vec3 n = droplet.surface.normals[v];
+        if (n.z < 0.0) {
+            EXPECT_EQ(n, (Vec3{0.0, 0.0, -1.0}));
+            EXPECT_EQ(droplet.surface.positions[v].z, 0.0);
+            continue;
+        }
+        const Vec3 upward{curvature * droplet.surface.positions[v].x, curvature * droplet.surface.positions[v].y, 1.0};
+        worst = std::max(worst, std::acos(std::min(1.0, dot(n, upward) / length(upward))));
+    }
+    EXPECT_LT(worst, 2.0 * kDegree);
+}
+
+// Words.
+
+TEST(Droplet, WarnsOfSlopesBeyondTheModel)
+{
+    const Mask mask = smoothMask(64, 64, disc({32.0, 32.0}, 24.0));
+    DropletOptions options = plain();
+    options.mesh.triangles = 2000;
+    for (const double angle : {20.0, 47.0}) {
+        options.solve.fill.amount = angle * kDegree;
+        EXPECT_THAT(makeDroplet(mask, options).warnings, IsEmpty()) << angle;
+    }
+    for (const double angle : {53.0, 80.0}) {
+        options.solve.fill.amount = angle * kDegree;
+        EXPECT_THAT(makeDroplet(mask, options).warnings, ElementsAre(HasSubstr("slopes reach"))) << angle;
+    }
+}
+
+TEST(Droplet, WarnsOfATriangleCountOutOfReach)
+{
+    DropletOptions options = plain();
+    options.mesh.triangles = 3;
+    options.solve.fill.amount = 10.0 * kDegree;
+    const Droplet droplet = makeDroplet(sceneMask(), options);
+    expectSound(droplet);
+    EXPECT_THAT(droplet.warnings, ElementsAre(HasSubstr("not the 3 asked for")));
+    options.mesh.edge = 10.0;  // a length is no count
+    EXPECT_THAT(makeDroplet(sceneMask(), options).warnings, IsEmpty());
+}
+
+TEST(Droplet, TellsOfEveryStageInOrder)
+{
+    std::vector<Stage> stages;
+    makeDroplet(sceneMask(), plain(), [&](Stage stage) { stages.push_back(stage); });
+    EXPECT_THAT(stages, ElementsAre(Stage::Trace, Stage::Triangulate, Stage::Assemble, Stage::Solve, Stage::Loft));
+}
+
+TEST(Droplet, RefusesBadOptionsBeforeAnyWork)
+{
+    const auto refused = [](const DropletOptions& options) {
+        bool began = false;
+        try {
+            makeDroplet(sceneMask(), options, [&](Stage) { began = true; });
+        } catch (const Error& error) {
+            return !began && error.code() == ErrorCode::InvalidArgument;
+        }
+        return false;
+    };
+    DropletOptions options = plain();
+    options.trace.threshold = 1.0;
+    EXPECT_TRUE(refused(options));
+    options = plain();
+    options.mesh.edge = 0.0;
+    EXPECT_TRUE(refused(options));
+    options = plain();
+    options.solve.fill.amount = kPi / 2.0;
+    EXPECT_TRUE(refused(options));
+    EXPECT_FALSE(refused(plain()));
+}
+
+// Same input, same bytes.
+
+TEST(Droplet, IsTheSameEveryTimeAtAnyNumberOfThreads)
+{
+    const Mask mask = hardMask(192, 144, scene(2.0));
+    const std::string bytes = glb(makeDroplet(mask, plain()));
+    EXPECT_TRUE(bytes == glb(makeDroplet(mask, plain())));
+    for (const std::size_t threads : {1U, 2U, 5U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_TRUE(bytes == glb(makeDroplet(mask, plain()))) << threads;
+    }
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/surface/loft.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/mesh/triangulate.h"
+#include "droplet/shape/figures.h"
+#include "support/domains.h"
+
+namespace droplet {
+namespace {
+
+using testing::domainOf;
+using testing::ellipseLoop;
+using testing::reversed;
+
+/// A solved disc of radius 1 m with σ = ρ = 1, no gravity and volume 1: u = (2/π)(1 − r²).
+struct SolvedDisc {
+    std::vector<PlanarMesh> meshes;
+    std::vector<HeightField> fields;
+};
+
+SolvedDisc solvedDisc(double edge)
+{
+    SolvedDisc result;
+    result.meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = edge});
+    SolveOptions options;
+    options.liquid = {"unit", 1.0, 1.0};
+    options.gravity = 0.0;
+    options.fill = {FillBy::Volume, 1.0, FillSharing::Each};
+    result.fields = solve(result.meshes, options).droplets;
+    return result;
+}
+
+TEST(Loft, IsClosedAndHoldsItsVolume)
+{
+    for (const std::size_t holes : {0U, 1U, 2U}) {
+        std::vector<Loop> inner;
+        for (std::size_t k = 0; k < holes; ++k) {
+            Loop hole = reversed(ellipseLoop(0.2, 0.3));
+            for (Vec2& p : hole.points) {
+                p.x += 0.5 - static_cast<double>(k);
+            }
+            inner.push_back(hole);
+        }
+        const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1), inner), {.edge = 0.05});
+        SolveOptions options;
+        options.fill = {FillBy::Volume, 0.5, FillSharing::Each};
+        const Solution solution = solve(meshes, options);
+        const Surface closed = loft(meshes, solution.droplets, {.open = false, .extent = {2, 2}});
+        EXPECT_NO_THROW(closed.validate());
+        const Topology t = topology(closed);
+        EXPECT_TRUE(t.closed);
+        EXPECT_EQ(t.components, 1U);
+        // A droplet with holes is a sphere with as many handles: V − E + F = 2 − 2·holes.
+        EXPECT_EQ(t.euler, 2 - 2 * static_cast<long>(holes));
+        EXPECT_NEAR(enclosedVolume(closed), 0.5, 1e-12);
+        EXPECT_NEAR(closed.mean_height, 0.5 / area(meshes[0]), 1e-12);
+
+        const Topology open = topology(loft(meshes, solution.droplets, {.open = true, .extent = {2, 2}}));
+        EXPECT_TRUE(open.manifold);
+        EXPECT_FALSE(open.closed);
+        EXPECT_EQ(open.boundary_loops, 1 + holes);
+        EXPECT_EQ(open.euler, 1 - static_cast<long>(holes));
+    }
+}
+
+TEST(Loft, TrianglesWindOutward)
+{
+    const SolvedDisc disc = solvedDisc(0.1);
+    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}});
+    for (const Triangle& t : surface.triangles) {
+        const Vec3 a = surface.positions[t[0]];
+        const Vec3 normal = cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a);
+        for (const std::uint32_t v : t) {
+            EXPECT_GT(dot(normal, surface.normals[v]), 0.0);
+        }
+    }
+}
+
+// Normals of a paraboloid. The largest error over all vertices falls with the edge; measured 3.4°, 0.9°, 0.4°.
+TEST(Loft, NormalsAreThoseOfTheParaboloid)
+{
+    double before = 10.0;
+    for (const double edge : {0.1, 0.05, 0.025}) {
+        const SolvedDisc disc = solvedDisc(edge);
+        const Surface surface = loft(disc.meshes, disc.fields, {.open = true, .extent = {2, 2}});
+        double worst = 0.0;
+        for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+            const Vec3 p = surface.positions[v];
+            const double g = 4.0 / std::numbers::pi;
+            const Vec3 exact = (1.0 / std::sqrt(1.0 + g * g * (p.x * p.x + p.y * p.y))) * Vec3{g * p.x, g * p.y, 1.0};
+            worst = std::max(worst, std::acos(std::min(1.0, dot(exact, surface.normals[v]))) * 180.0 / std::numbers::pi);
+        }
+        EXPECT_LT(worst, 0.65 * before) << edge;
+        before = worst;
+    }
+    EXPECT_LT(before, 1.0);
+}
+
+TEST(Loft, RimIsCrisp)
+{
+    const SolvedDisc disc = solvedDisc(0.1);
+    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}});
+    std::size_t split = 0;
+    for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+        if (surface.weld[v] != v) {
+            ++split;
+            EXPECT_EQ(surface.positions[v], surface.positions[surface.weld[v]]);
+            EXPECT_EQ(surface.positions[v].z, 0.0);
+            EXPECT_EQ(surface.normals[v], (Vec3{0, 0, -1}));
+            EXPECT_GT(surface.normals[surface.weld[v]].z, 0.1);
+        }
+    }
+    EXPECT_EQ(split, disc.meshes[0].rimVertexCount());
+}
+
+TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
+{
+    const SolvedDisc disc = solvedDisc(0.2);
+    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {4, 8}});
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        EXPECT_NEAR(surface.uvs[v].x, (surface.positions[v].x + 2) / 4, 1e-15);
+        EXPECT_NEAR(surface.uvs[v].y, (4 - surface.positions[v].y) / 8, 1e-15);
+    }
+}
+
+TEST(Loft, RefusesWhatDoesNotBelongTogether)
+{
+    SolvedDisc disc = solvedDisc(0.2);
+    EXPECT_THROW((void)loft(disc.meshes, {}, {.open = false, .extent = {2, 2}}), Error);
+    EXPECT_THROW((void)loft(disc.meshes, disc.fields, {.open = false, .extent = {0, 2}}), Error);
+    disc.fields[0].height.pop_back();
+    EXPECT_THROW((void)loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}}), Error);
+}
+
+}  // namespace
+}  // namespace droplet
