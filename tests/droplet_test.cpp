@@ -323,6 +323,28 @@ TEST(Droplet, PressureCarriesTheWeightAndThePullOfTheRim)
     }
 }
 
+TEST(Droplet, PressureTimesVolumeIsTwiceTheLinearEnergy)
+{
+    DropletOptions options = plain();
+    options.solve.gravity = 50.0;
+    const Droplet droplet = makeDroplet(sceneMask(), options);
+    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        const PlanarMesh& mesh = droplet.meshes[k];
+        const std::vector<double>& u = droplet.solution.droplets[k].height;
+        double stretching = 0.0;  // ∫|∇u|²
+        for (const auto& [a, b, c] : mesh.triangles) {
+            // The gradient is the sum of heights times opposite edges, turned by a right angle, over twice the area.
+            const Vec2 turned = u[a] * (mesh.vertices[c] - mesh.vertices[b]) +
+                                u[b] * (mesh.vertices[a] - mesh.vertices[c]) +
+                                u[c] * (mesh.vertices[b] - mesh.vertices[a]);
+            stretching += 0.5 * dot(turned, turned) / doubleArea(mesh, {a, b, c});
+        }
+        // The equations times the solution: exact on any mesh.
+        expectRelative(options.solve.liquid.surface_tension * stretching + 2.0 * droplet.figures[k].gravity_energy,
+                       droplet.solution.droplets[k].pressure * droplet.figures[k].volume, 1e-10, "energy");
+    }
+}
+
 TEST(Droplet, GravityFlattens)
 {
     double last_height = 1.0;

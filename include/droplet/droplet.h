@@ -29,7 +29,7 @@ struct DropletOptions {
 struct Droplet {
     Outline outline;
     Domain domain;
-    std::vector<PlanarMesh> meshes;     ///< one per droplet
+    std::vector<PlanarMesh> meshes;  ///< one per droplet
     Solution solution;
     std::vector<ShapeFigures> figures;  ///< one per droplet
     ShapeFigures total;

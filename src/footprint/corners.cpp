@@ -14,10 +14,8 @@
 #include <map>
 #include <numbers>
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 /// Least turn between the chords for a corner to be tried. A circle turns by (length + 2 gap)/R between them, so radii
 /// above 6 px are never tried.
@@ -42,13 +40,12 @@ constexpr double kReach = 3.0;
 /// corner of a square (1/4) or of an angle of 30°.
 constexpr double kMostAdded = 1.0;
 
-/// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of polygons,
-/// bend by more, and straight sides by half as much.
+/// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of
+/// polygons, bend by more, and straight sides by half as much.
 constexpr double kMostBend = 0.12;
 
 /// Walks along the loop from a slot, forward or backward.
-class Walker
-{
+class Walker {
 public:
     Walker(const SlotLoop& loop, std::size_t start, bool forward) : loop_(loop), index_(start), forward_(forward) {}
 
@@ -124,8 +121,8 @@ std::optional<Vec2> meet(const Line& a, const Line& b)
 
 /// A side of a corner, as far as it is extended.
 struct Side {
-    Vec2 end;   ///< its last vertex before the corner
-    Line line;  ///< through its last stretch, toward the corner
+    Vec2 end;           ///< its last vertex before the corner
+    Line line;          ///< through its last stretch, toward the corner
     double bend = 0.0;  ///< farthest any vertex of that stretch lies from the line [px]
 };
 
@@ -336,7 +333,10 @@ struct Cell {
     friend auto operator<=>(const Cell&, const Cell&) = default;
 };
 
-Cell cellOf(Vec2 p) { return {static_cast<int>(std::floor(p.x - 0.5)), static_cast<int>(std::floor(p.y - 0.5))}; }
+Cell cellOf(Vec2 p)
+{
+    return {static_cast<int>(std::floor(p.x - 0.5)), static_cast<int>(std::floor(p.y - 0.5))};
+}
 
 /// An end of a piece of rim: which one it is counts, for two corners may stand at the same point.
 struct End {
@@ -389,7 +389,10 @@ std::array<Piece, 2> piecesOf(const SlotLoop& slots, std::size_t loop, const Cor
     return {Piece{first, tip}, Piece{tip, last}};
 }
 
-bool standsBetween(const Corner& corner) { return !corner.replaces_first && !corner.replaces_last; }
+bool standsBetween(const Corner& corner)
+{
+    return !corner.replaces_first && !corner.replaces_last;
+}
 
 /// All cells a piece can touch.
 std::vector<Cell> cellsAround(const Piece& piece)

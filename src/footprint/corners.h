@@ -34,9 +34,9 @@ std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t s
 /// A corner of the rim, in place of the slots between the ends of a turn, or of one of those ends.
 struct Corner {
     Turn turn;
-    Vec2 tip;                      ///< [px]
-    bool replaces_first = false;   ///< the tip lies so near to the vertex before it that it takes that one's place
-    bool replaces_last = false;    ///< likewise the vertex after it
+    Vec2 tip;                     ///< [px]
+    bool replaces_first = false;  ///< the tip lies so near to the vertex before it that it takes that one's place
+    bool replaces_last = false;   ///< likewise the vertex after it
 };
 
 /// Coverage of a pixel by liquid, in [0, 1]; 0 outside the mask. Empty for a hard mask, whose levels say nothing.
@@ -48,7 +48,8 @@ using Coverage = std::function<double(int x, int y)>;
 /// @param turn      where
 /// @param coverage  of the mask
 /// @return          the corner, or none if the sides do not meet sharply, or a corner there would put a pixel centre on
-///                  the other side of the rim (other than that of the one pixel it stands in), or contradict grey levels
+///                  the other side of the rim (other than that of the one pixel it stands in), or contradict grey
+///                  levels
 std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn,
                                  const Coverage& coverage);
 

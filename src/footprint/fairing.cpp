@@ -16,10 +16,8 @@
 #include <cstddef>
 #include <utility>
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 /// Radius below which a curve may vary its curvature more freely [px]: what counts is dκ/ds against κ², so that small
 /// shapes are treated like large ones seen from afar.
@@ -78,8 +76,7 @@ PlaceCost placeCost(const Slot& slot)
 }
 
 /// The normal equations of one loop: a band of half-width 3 that wraps around.
-class BandSystem
-{
+class BandSystem {
 public:
     explicit BandSystem(std::size_t size) : size_(static_cast<Eigen::Index>(size)), gradient_(size_)
     {

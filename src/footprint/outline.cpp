@@ -22,10 +22,8 @@
 #include "footprint/fairing.h"
 #include "footprint/slot.h"
 
-namespace droplet
-{
-namespace
-{
+namespace droplet {
+namespace {
 
 constexpr double kFull = std::numeric_limits<std::uint16_t>::max();
 
@@ -41,7 +39,8 @@ constexpr double kAntiAliasedShare = 0.15;
 constexpr int kReach = 4;
 
 /// Standard deviations of a measured place [px], from discs, squares and type rendered exactly and blurred: the height
-/// function, with and without its neighbours; interpolation between two pixels; a pixel beside a corner, where neither holds; the image's border.
+/// function, with and without its neighbours; interpolation between two pixels; a pixel beside a corner, where neither
+/// holds; the image's border.
 constexpr double kHeightSpread = 0.02;
 constexpr double kRoughHeightSpread = 0.05;
 constexpr double kInterpolatedSpread = 0.1;
@@ -81,8 +80,7 @@ struct Crossing {
 };
 
 /// The mask with a dry frame around it, thresholded or as coverage.
-class Field
-{
+class Field {
 public:
     Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold), level_(threshold * kFull) {}
 
@@ -544,8 +542,8 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         loop.corner = std::move(pixels.corner);
         loop.points.reserve(pixels.points.size());
         for (const Vec2 p : pixels.points) {
-            loop.points.push_back({(p.x - 0.5 * mask.width) * outline.pixel_size,
-                                   (0.5 * mask.height - p.y) * outline.pixel_size});
+            loop.points.push_back(
+                {(p.x - 0.5 * mask.width) * outline.pixel_size, (0.5 * mask.height - p.y) * outline.pixel_size});
         }
         outline.loops.push_back(std::move(loop));
     }

@@ -14,11 +14,11 @@ namespace droplet {
 /// However the vertices move in their slots, the polygon through them separates the same pixel centres, so it cannot
 /// cross itself or another loop. Pixels, y down, pixel centres at half-integers.
 struct Slot {
-    Vec2 liquid;                    ///< the liquid pixel's centre
-    Vec2 toward;                    ///< unit step to the dry pixel's centre
-    double t = 0.5;                 ///< place of the crossing between the two, in (kSlotMargin, 1 − kSlotMargin)
-    std::optional<double> measured; ///< place read off the grey levels; none in a hard mask
-    double spread = 0.0;            ///< standard deviation of `measured`
+    Vec2 liquid;                     ///< the liquid pixel's centre
+    Vec2 toward;                     ///< unit step to the dry pixel's centre
+    double t = 0.5;                  ///< place of the crossing between the two, in (kSlotMargin, 1 − kSlotMargin)
+    std::optional<double> measured;  ///< place read off the grey levels; none in a hard mask
+    double spread = 0.0;             ///< standard deviation of `measured`
 
     [[nodiscard]] Vec2 point() const { return liquid + t * toward; }
 };

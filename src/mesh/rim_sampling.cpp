@@ -232,11 +232,10 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
     std::sort(sampling.marks.begin(), sampling.marks.end(), [](const Mark& a, const Mark& b) {
         return a.index < b.index || (a.index == b.index && a.fraction < b.fraction);
     });
-    sampling.marks.erase(std::unique(sampling.marks.begin(), sampling.marks.end(),
-                                     [](const Mark& a, const Mark& b) {
-                                         return a.index == b.index && a.fraction == b.fraction;
-                                     }),
-                         sampling.marks.end());
+    sampling.marks.erase(
+        std::unique(sampling.marks.begin(), sampling.marks.end(),
+                    [](const Mark& a, const Mark& b) { return a.index == b.index && a.fraction == b.fraction; }),
+        sampling.marks.end());
 }
 
 /// The mark in the middle between two.
@@ -284,16 +283,17 @@ void splitBulges(Sampling& sampling, double shortest)
                 changed = true;
             }
         }
-        std::rotate(marks.begin(),
-                    std::min_element(marks.begin(), marks.end(),
-                                     [&](const Mark& a, const Mark& b) { return sampling.arcAt(a) < sampling.arcAt(b); }),
-                    marks.end());
+        std::rotate(
+            marks.begin(),
+            std::min_element(marks.begin(), marks.end(),
+                             [&](const Mark& a, const Mark& b) { return sampling.arcAt(a) < sampling.arcAt(b); }),
+            marks.end());
         sampling.marks = std::move(marks);
     }
 }
 
-/// Moves vertices off the loop, outward, so that every loop's polygon encloses its area: a chord cuts off a segment that
-/// its two ends make good by half each. Corners stay.
+/// Moves vertices off the loop, outward, so that every loop's polygon encloses its area: a chord cuts off a segment
+/// that its two ends make good by half each. Corners stay.
 RimPolygon keepArea(const Sampling& sampling)
 {
     const std::size_t n = sampling.size();
@@ -320,7 +320,8 @@ RimPolygon keepArea(const Sampling& sampling)
             continue;
         }
         const Vec2 along = polygon[(i + 1) % n] - polygon[before];
-        const double shorter = std::min(length(polygon[(i + 1) % n] - polygon[i]), length(polygon[i] - polygon[before]));
+        const double shorter =
+            std::min(length(polygon[(i + 1) % n] - polygon[i]), length(polygon[i] - polygon[before]));
         const double both = length(polygon[(i + 1) % n] - polygon[i]) + length(polygon[i] - polygon[before]);
         if (length(along) < 0.5 * shorter) {
             continue;
@@ -412,13 +413,14 @@ std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
             const auto [y0, y1] = std::minmax(a.y, b.y);
             for (auto y = std::llround(std::floor(y0 / cell)); y <= std::llround(std::floor(y1 / cell)); ++y) {
                 for (auto x = std::llround(std::floor(x0 / cell)); x <= std::llround(std::floor(x1 / cell)); ++x) {
-                    std::vector<EdgeId>& there = grid[(static_cast<std::uint64_t>(y) << 32U) ^
-                                                      (static_cast<std::uint64_t>(x) & 0xffffffffU)];
+                    std::vector<EdgeId>& there =
+                        grid[(static_cast<std::uint64_t>(y) << 32U) ^ (static_cast<std::uint64_t>(x) & 0xffffffffU)];
                     for (const EdgeId& other : there) {
                         const RimPolygon& q = polygons[other.loop];
-                        const bool neighbours =
-                            other.loop == loop && ((other.index + 1) % q.size() == i || (i + 1) % q.size() == other.index);
-                        if (!neighbours && !(other == id) && meet(a, b, q[other.index], q[(other.index + 1) % q.size()])) {
+                        const bool neighbours = other.loop == loop && ((other.index + 1) % q.size() == i ||
+                                                                       (i + 1) % q.size() == other.index);
+                        if (!neighbours && !(other == id) &&
+                            meet(a, b, q[other.index], q[(other.index + 1) % q.size()])) {
                             is_meeting = true;
                             found.push_back(other);
                         }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Rim vertices and an equilateral lattice inside go into one constrained Delaunay triangulation (CGAL), which is then
-// refined after J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation" (1995), with his
-// concentric shells at sharp corners. Departures: inner edges between two rim vertices count as bad, for the liquid's
-// surface would lie on the ground along them, and nothing is refined below a fraction of a pixel, so that refinement ends
-// whatever the input angles. CGAL's own refinement, Delaunay_mesher_2, knows neither; on masks of noise it ends in a
-// segmentation fault (5.5.1).
+// refined after J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh generation" (1995), with
+// his concentric shells at sharp corners. Departures: inner edges between two rim vertices count as bad, for the
+// liquid's surface would lie on the ground along them, and nothing is refined below a fraction of a pixel, so that
+// refinement ends whatever the input angles. CGAL's own refinement, Delaunay_mesher_2, knows neither; on masks of noise
+// it ends in a segmentation fault (5.5.1).
 //
-// Uniform, not graded toward the rim: the linear model's solution is smooth up to a smooth rim as long as the droplet is
-// not many capillary lengths wide, so the error is spread evenly, and equilateral triangles of one size cancel its
+// Uniform, not graded toward the rim: the linear model's solution is smooth up to a smooth rim as long as the droplet
+// is not many capillary lengths wide, so the error is spread evenly, and equilateral triangles of one size cancel its
 // leading term. On the unit disc at k = 3, 10 000 triangles, a mesh graded 1 : 3 toward the rim had 1.6 times the L²
 // error of the uniform one.
 
@@ -33,8 +33,9 @@
 namespace droplet {
 namespace {
 
-/// Lattice points stay this many edges away from the rim. At 1/√3 ≈ 0.577 and more, every lattice triangle away from the
-/// rim is Delaunay; at 0.65 the triangles between the lattice and the rim are nearest to equilateral on discs and glyphs.
+/// Lattice points stay this many edges away from the rim. At 1/√3 ≈ 0.577 and more, every lattice triangle away from
+/// the rim is Delaunay; at 0.65 the triangles between the lattice and the rim are nearest to equilateral on discs and
+/// glyphs.
 constexpr double kClearance = 0.65;
 
 /// Smallest angle wanted: Ruppert's bound, the largest for which refinement provably ends, arcsin(1/√8) = 20.7°.
@@ -44,7 +45,7 @@ const double kLeastAngle = std::asin(std::sqrt(0.125));
 constexpr double kSharpCorner = std::numbers::pi / 3.0;
 
 /// Edges are not refined below this share of the loops' own detail.
-constexpr double kFinest = 0.1;
+constexpr double kFinest = 0.03;
 
 constexpr double kRoot3 = std::numbers::sqrt3;
 
@@ -54,7 +55,10 @@ using FaceHandle = Triangulation::Face_handle;
 using Edge = Triangulation::Edge;
 using Corners = std::array<VertexHandle, 3>;
 
-Vec2 vec(const Point& p) { return {p.x(), p.y()}; }
+Vec2 vec(const Point& p)
+{
+    return {p.x(), p.y()};
+}
 
 double angleAt(Vec2 corner, Vec2 a, Vec2 b)
 {
@@ -134,11 +138,12 @@ private:
                     std::swap(a, b);
                 }
                 // Half-open, so that a vertex on a row counts once.
-                for (long r = static_cast<long>(std::ceil(a.y / height_)); static_cast<double>(r) * height_ < b.y; ++r) {
+                for (long r = static_cast<long>(std::ceil(a.y / height_)); static_cast<double>(r) * height_ < b.y;
+                     ++r) {
                     if (r >= first_row_ && r <= last_row) {
                         const double y = static_cast<double>(r) * height_;
-                        crossings[static_cast<std::size_t>(r - first_row_)].push_back(
-                            a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+                        crossings[static_cast<std::size_t>(r - first_row_)].push_back(a.x + (y - a.y) / (b.y - a.y) *
+                                                                                                (b.x - a.x));
                     }
                 }
             }
@@ -263,8 +268,7 @@ private:
         for (int i = 0; i < 3; ++i) {
             const double angle = angleAt(vec(f->vertex(i)->point()), vec(f->vertex(Triangulation::ccw(i))->point()),
                                          vec(f->vertex(Triangulation::cw(i))->point()));
-            const bool is_corner =
-                f->is_constrained(Triangulation::ccw(i)) && f->is_constrained(Triangulation::cw(i));
+            const bool is_corner = f->is_constrained(Triangulation::ccw(i)) && f->is_constrained(Triangulation::cw(i));
             if (angle < kLeastAngle && !is_corner) {
                 return true;
             }
@@ -292,7 +296,8 @@ private:
         }
         std::vector<FaceHandle> conflicts;
         std::vector<Edge> boundary;
-        triangulation_.get_conflicts_and_boundary(centre, std::back_inserter(conflicts), std::back_inserter(boundary), at);
+        triangulation_.get_conflicts_and_boundary(centre, std::back_inserter(conflicts), std::back_inserter(boundary),
+                                                  at);
         std::vector<std::array<VertexHandle, 2>> encroached;
         for (const Edge& e : boundary) {
             const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
@@ -535,9 +540,9 @@ void smooth(PlanarMesh& mesh)
             for (std::uint32_t k = starts[v]; k < starts[v + 1]; ++k) {
                 const Triangle& t = mesh.triangles[around[k]];
                 const double twice = doubleArea(mesh, t);
-                sum = sum + (twice / 3.0) * ((mesh.vertices[t[0]] - mesh.vertices[v]) +
-                                             (mesh.vertices[t[1]] - mesh.vertices[v]) +
-                                             (mesh.vertices[t[2]] - mesh.vertices[v]));
+                sum = sum + (twice / 3.0) *
+                                ((mesh.vertices[t[0]] - mesh.vertices[v]) + (mesh.vertices[t[1]] - mesh.vertices[v]) +
+                                 (mesh.vertices[t[2]] - mesh.vertices[v]));
                 weight += twice;
             }
             const Vec2 move = (1.0 / weight) * sum;

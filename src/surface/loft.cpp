@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Normals from the recovered gradient: O. C. Zienkiewicz and J. Z. Zhu, "A simple error estimator and adaptive procedure
-// for practical engineering analysis" (1987), area-weighted means; on the rim, where a mean is one-sided and a whole
-// order worse, from the slope that balances the rim's force (see solve).
+// Normals from the recovered gradient: O. C. Zienkiewicz and J. Z. Zhu, "A simple error estimator and adaptive
+// procedure for practical engineering analysis" (1987), area-weighted means; on the rim, where a mean is one-sided and
+// a whole order worse, from the slope that balances the rim's force (see solve).
 
 #include "droplet/surface/loft.h"
 
@@ -98,8 +98,8 @@ void addDroplet(const PlanarMesh& mesh, const HeightField& field, const LoftOpti
 void LoftOptions::validate() const
 {
     if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
-        throw Error(ErrorCode::InvalidArgument, "extent " + std::to_string(extent.x) + " m × " +
-                                                    std::to_string(extent.y) + " m must be positive");
+        throw Error(ErrorCode::InvalidArgument,
+                    "extent " + std::to_string(extent.x) + " m × " + std::to_string(extent.y) + " m must be positive");
     }
 }
 

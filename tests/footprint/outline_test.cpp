@@ -37,7 +37,10 @@ TraceOptions inPixels()
 }
 
 /// A point of the image in the outline's coordinates: origin at the centre, y up.
-Vec2 place(const Mask& mask, Vec2 pixel) { return {pixel.x - 0.5 * mask.width, 0.5 * mask.height - pixel.y}; }
+Vec2 place(const Mask& mask, Vec2 pixel)
+{
+    return {pixel.x - 0.5 * mask.width, 0.5 * mask.height - pixel.y};
+}
 
 struct DiscError {
     double area = 0.0;      ///< relative
@@ -133,10 +136,9 @@ bool anyEdgesMeet(const Outline& outline)
                 break;
             }
             const std::size_t n = outline.loops[e.loop].points.size();
-            const bool neighbours =
-                e.loop == f.loop && ((e.index + 1) % n == f.index || (f.index + 1) % n == e.index);
-            const bool apart = std::max(e.a.y, e.b.y) < std::min(f.a.y, f.b.y) ||
-                               std::max(f.a.y, f.b.y) < std::min(e.a.y, e.b.y);
+            const bool neighbours = e.loop == f.loop && ((e.index + 1) % n == f.index || (f.index + 1) % n == e.index);
+            const bool apart =
+                std::max(e.a.y, e.b.y) < std::min(f.a.y, f.b.y) || std::max(f.a.y, f.b.y) < std::min(e.a.y, e.b.y);
             if (neighbours || apart) {
                 continue;
             }
@@ -264,9 +266,8 @@ TEST(Outline, SlantedEdgesOfHardMasksAreStraight)
 {
     for (const double slope : {1.0 / 7, 1.0 / 13, 0.4}) {
         const double angle = std::atan(slope);
-        const Mask mask = hardMask(300, 200, [&](Vec2 p) {
-            return p.x > 10 && p.x < 290 && p.y < 190 && p.y > 60.3 + slope * (p.x - 150);
-        });
+        const Mask mask = hardMask(
+            300, 200, [&](Vec2 p) { return p.x > 10 && p.x < 290 && p.y < 190 && p.y > 60.3 + slope * (p.x - 150); });
         const Outline outline = trace(mask, inPixels());
         double squares = 0.0;
         double rim = 0.0;
@@ -346,7 +347,8 @@ TEST(Outline, NeverCrossesItselfWhateverTheMask)
             for (const bool hard : {true, false}) {
                 TraceOptions options = inPixels();
                 options.speck_size = 0.0;
-                EXPECT_FALSE(anyEdgesMeet(trace(noiseMask(50, density, hard, seed), options))) << seed << " " << density;
+                EXPECT_FALSE(anyEdgesMeet(trace(noiseMask(50, density, hard, seed), options)))
+                    << seed << " " << density;
             }
         }
     }
@@ -380,7 +382,8 @@ TEST(Outline, PixelsThatTouchAtACornerAreOneDroplet)
 
 TEST(Outline, OnePixelStrokesSurvive)
 {
-    const Outline line = trace(drawnMask("......................\n.####################.\n......................"), inPixels());
+    const Outline line =
+        trace(drawnMask("......................\n.####################.\n......................"), inPixels());
     ASSERT_EQ(line.loops.size(), 1U);
     EXPECT_GT(signedArea(line.loops[0]), 0.6 * 20);
     std::string diagonal;
@@ -453,13 +456,14 @@ TEST(Outline, ThresholdMovesABlurredEdge)
 
 TEST(Outline, SpecksAreDroppedAndCounted)
 {
-    const Mask mask = drawnMask("............\n"
-                                ".#...#####..\n"
-                                ".....#####..\n"
-                                ".....##.##..\n"
-                                ".##..#####..\n"
-                                ".....#####..\n"
-                                "............");
+    const Mask mask = drawnMask(
+        "............\n"
+        ".#...#####..\n"
+        ".....#####..\n"
+        ".....##.##..\n"
+        ".##..#####..\n"
+        ".....#####..\n"
+        "............");
     const Outline outline = trace(mask, inPixels());
     EXPECT_EQ(outline.loops.size(), 1U);
     EXPECT_EQ(outline.specks_dropped, 3U);

@@ -17,8 +17,10 @@ Mask maskFrom(std::span<const std::byte> bytes, bool hard)
     constexpr int kMostPixels = 40;  // a side: larger masks find nothing that two smaller ones do not
     Mask mask;
     mask.width = 1 + std::to_integer<int>(bytes[0]) % kMostPixels;
-    const std::size_t pixels = std::min<std::size_t>(bytes.size() - 2, static_cast<std::size_t>(mask.width) * kMostPixels);
-    mask.height = static_cast<int>((pixels + static_cast<std::size_t>(mask.width) - 1) / static_cast<std::size_t>(mask.width));
+    const std::size_t pixels =
+        std::min<std::size_t>(bytes.size() - 2, static_cast<std::size_t>(mask.width) * kMostPixels);
+    mask.height =
+        static_cast<int>((pixels + static_cast<std::size_t>(mask.width) - 1) / static_cast<std::size_t>(mask.width));
     for (std::size_t i = 0; i < static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height); ++i) {
         const int level = i < pixels ? std::to_integer<int>(bytes[i + 2]) : 0;
         mask.coverage.push_back(static_cast<std::uint16_t>(hard ? (level % 2) * 65535 : level * 257));

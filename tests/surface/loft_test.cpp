@@ -96,7 +96,8 @@ TEST(Loft, NormalsAreThoseOfTheParaboloid)
             const Vec3 p = surface.positions[v];
             const double g = 4.0 / std::numbers::pi;
             const Vec3 exact = (1.0 / std::sqrt(1.0 + g * g * (p.x * p.x + p.y * p.y))) * Vec3{g * p.x, g * p.y, 1.0};
-            worst = std::max(worst, std::acos(std::min(1.0, dot(exact, surface.normals[v]))) * 180.0 / std::numbers::pi);
+            worst =
+                std::max(worst, std::acos(std::min(1.0, dot(exact, surface.normals[v]))) * 180.0 / std::numbers::pi);
         }
         EXPECT_LT(worst, 0.65 * before) << edge;
         before = worst;

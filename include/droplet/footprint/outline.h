@@ -28,11 +28,11 @@ double signedArea(const Loop& loop);
 /// another or themselves, whatever the mask.
 struct Outline {
     std::vector<Loop> loops;
-    Vec2 extent;                    ///< physical width and height of the whole image [m]
-    double pixel_size = 0.0;        ///< edge of a pixel [m]
-    bool anti_aliased = false;      ///< whether grey levels gave the sub-pixel place of the rim
-    std::size_t specks_dropped = 0; ///< liquid or dry loops smaller than the speck size
-    double largest_speck_px = 0.0;  ///< area of the largest loop dropped [px²]
+    Vec2 extent;                     ///< physical width and height of the whole image [m]
+    double pixel_size = 0.0;         ///< edge of a pixel [m]
+    bool anti_aliased = false;       ///< whether grey levels gave the sub-pixel place of the rim
+    std::size_t specks_dropped = 0;  ///< liquid or dry loops smaller than the speck size
+    double largest_speck_px = 0.0;   ///< area of the largest loop dropped [px²]
 };
 
 /// How a mask becomes an outline.

@@ -15,10 +15,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// A triangulated footprint of one droplet.
 ///
 /// Invariants: rim vertices come first, loop after loop in order; triangles are counter-clockwise with positive
-/// area and cover the polygon of the loops once; an edge between two rim vertices is an edge of the rim. (So no triangle
-/// lies flat on the ground with all three vertices on the rim, and the surface touches the ground along the rim only.)
+/// area and cover the polygon of the loops once; an edge between two rim vertices is an edge of the rim. (So no
+/// triangle lies flat on the ground with all three vertices on the rim, and the surface touches the ground along the
+/// rim only.)
 struct PlanarMesh {
-    std::vector<Vec2> vertices;              ///< [m]
+    std::vector<Vec2> vertices;  ///< [m]
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> loop_starts;  ///< loop k: vertices [loop_starts[k], loop_starts[k+1]); outer first,
                                              ///< liquid on the left; the last entry is the number of rim vertices

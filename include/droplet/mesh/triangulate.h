@@ -21,10 +21,10 @@ struct TriangulateOptions {
 
 /// Triangulates every droplet's footprint with equilateral triangles inside and a Delaunay band along the rim.
 ///
-/// Guarantees, for every mesh: the invariants of PlanarMesh; angles of at least 20°, except in triangles at a
-/// corner of the rim of less than 40°, which are at least half the corner; rim vertices on the footprint's loops
-/// up to the area-keeping offset of at most 1/12 of a chord's sagitta times 8; corners kept as they stand.
-/// Narrow parts get shorter edges than asked. Droplets share one edge length, found so that the number of
+/// Guarantees, for every mesh: the invariants of PlanarMesh; angles of at least 20°, except near corners of the rim
+/// that are sharper than 40°: there, within two of the loop's own points, at least half the corner; corners stand as
+/// they are, other rim vertices off their loop by less than a chord's sagitta, so that the polygon keeps the loop's
+/// area. Narrow parts get shorter edges than asked. Droplets share one edge length, found so that the number of
 /// triangles is within 10 % of the wish wherever the footprint's detail allows so few.
 /// @param domain   loops that do not cross
 /// @param options  number of triangles or edge length

@@ -58,7 +58,6 @@ struct SolveOptions {
 /// @param progress  told of Stage::Assemble and Stage::Solve; may be empty
 /// @return          heights and report; a failed factorisation is reported, not thrown
 /// @throws Error    InvalidArgument for options or an empty list of meshes
-Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& options = {},
-               const Progress& progress = {});
+Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& options = {}, const Progress& progress = {});
 
 }  // namespace droplet

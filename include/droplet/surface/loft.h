@@ -26,7 +26,6 @@ struct LoftOptions {
 /// @param fields   one per mesh
 /// @param options  open or closed, extent of the image
 /// @throws Error   InvalidArgument if counts differ
-Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
-             const LoftOptions& options);
+Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
 }  // namespace droplet
