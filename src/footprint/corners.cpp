@@ -541,6 +541,13 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
     return turns;
 }
 
+Turn relocated(const SlotLoop& loop, const Turn& turn)
+{
+    // Well away from the turn, which is drawn toward where it was thought to be.
+    constexpr Chord kSides{3.0, 1.5};
+    return locate(loop, turn.first, kSides);
+}
+
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots)
 {
     std::vector<std::uint8_t> breaks(slots, 0);

@@ -28,6 +28,9 @@ struct Chord {
 /// @param known  turns already found to be corners: they are returned too, and others only away from them
 std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known);
 
+/// The turn moved, by a slot or a few, to where the sides of a faired loop say it is.
+Turn relocated(const SlotLoop& loop, const Turn& turn);
+
 /// One flag per slot: 1 where a turn lies between this slot and the next.
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots);
 

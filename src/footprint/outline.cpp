@@ -422,18 +422,41 @@ struct CornerSearch {
     std::vector<double> smooth_strain;
 };
 
+/// Turns and further ones as far as they do not overlap, in order along a loop of some slots.
+std::vector<Turn> apart(std::vector<Turn> turns, const std::vector<Turn>& further, std::size_t slots)
+{
+    std::vector<std::uint8_t> taken = breaksAt(turns, slots);
+    for (const Turn& turn : further) {
+        bool free = true;
+        for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % slots) {
+            free = free && taken[k] == 0;
+        }
+        for (std::size_t k = turn.first; free && k != turn.last; k = (k + 1) % slots) {
+            taken[k] = 1;
+        }
+        if (free) {
+            turns.push_back(turn);
+        }
+    }
+    std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.first < b.first; });
+    return turns;
+}
+
 /// Fairs a loop with a break at every turn, again and again without those that do not prove to be corners.
 /// @return the loop with the corners that remain; smooth everywhere if none do
 CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
 {
     const double least_gain = search.coverage ? kCornerGain : kCornerGainHard;
-    while (!turns.empty()) {
+    // What was found in the rough curve may be a slot or two off: each round but the last tries failures elsewhere.
+    constexpr int kRelocations = 2;
+    for (int round = 0; !turns.empty(); ++round) {
         const std::vector<std::uint8_t> breaks = breaksAt(turns, search.measured.size());
         CorneredLoop result{search.measured, {}};
         loosenAt(result.slots, breaks);
         fair(result.slots, {.breaks = breaks});
         const std::vector<double> broken_strain = strain(result.slots, {.breaks = breaks});
         std::vector<Turn> kept;
+        std::vector<Turn> moved;
         for (const Turn& turn : turns) {
             const double gain = costAround(search.smooth.slots, search.smooth_strain, turn) -
                                 costAround(result.slots, broken_strain, turn);
@@ -442,12 +465,14 @@ CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
             if (corner) {
                 result.corners.push_back(*corner);
                 kept.push_back(turn);
+            } else if (round < kRelocations) {
+                moved.push_back(relocated(result.slots, turn));
             }
         }
         if (kept.size() == turns.size()) {
             return result;
         }
-        turns = std::move(kept);
+        turns = apart(std::move(kept), moved, search.measured.size());
     }
     return search.smooth;
 }
