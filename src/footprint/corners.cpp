@@ -41,7 +41,7 @@ constexpr double kReach = 3.0;
 constexpr double kMostAdded = 1.0;
 
 /// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of
-/// polygons, bend by more, and straight sides by half as much.
+/// polygons, bend by more, and the straight sides of squares and bars by 0.05 px at most.
 constexpr double kMostBend = 0.12;
 
 /// Walks along the loop from a slot, forward or backward.

@@ -23,7 +23,7 @@ namespace {
 /// shapes are treated like large ones seen from afar.
 constexpr double kFreeRadius = 4.0;
 
-/// Most Gauss–Newton steps; discs, squares and glyphs settle in 6 to 12.
+/// Most Gauss–Newton steps; discs and squares settle in half a dozen.
 constexpr int kSteps = 20;
 
 /// Lengths enter curvatures no shorter than about this [px]: crossings next to a pixel centre nearly coincide.

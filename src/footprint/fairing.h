@@ -15,7 +15,8 @@ struct FairingOptions {
 
     /// Weight of ∫ (dκ/ds)² ds [px³]. A wave of wavenumber k costs fairness·k⁶ per unit of length against about 11 for
     /// leaving the middle of its slot in a hard mask: waves shorter than 2π(fairness/11)^(1/6) ≈ 34 px are faired,
-    /// longer ones are shape. Chosen on thresholded discs, lines and glyphs against their anti-aliased originals.
+    /// longer ones are shape. A tenth of it leaves a hard disc of 100 px twice the error in its normals (0.8°), ten
+    /// times as much twice the error in its area (3e-4).
     double fairness = 3e5;
 };
 

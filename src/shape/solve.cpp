@@ -237,7 +237,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         solution.report.residual = std::max(solution.report.residual, units[k].residual);
         solution.report.converged = solution.report.converged && units[k].factored && units[k].volume > 0.0;
     }
-    // A backward-stable solve of the finest mesh tried, 4 M triangles, leaves 1e-12.
+    // A million triangles leave 1e-12.
     solution.report.converged = solution.report.converged && solution.report.residual < 1e-9;
     if (!solution.report.converged) {
         return solution;
