@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace droplet {
 namespace {
@@ -156,8 +156,10 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
 Line fitChord(const SlotLoop& loop, std::size_t start, bool forward, const Chord& chord)
 {
     std::vector<Vec2> points;
-    for (double way = chord.gap; way <= chord.gap + chord.length; way += 0.25) {
-        points.push_back(pointAlong(loop, start, forward, way));
+    constexpr int kPoints = 9;
+    points.reserve(kPoints);
+    for (int k = 0; k < kPoints; ++k) {
+        points.push_back(pointAlong(loop, start, forward, chord.gap + k * chord.length / (kPoints - 1)));
     }
     return fitLine(points, points.back(), points.front());
 }
@@ -206,10 +208,10 @@ Turn locate(const SlotLoop& loop, std::size_t near, const Chord& chord)
     // Costs of the first k slots of the window on the line before, and of the rest on the line after.
     std::array<double, 2 * kSlots + 1> on_before{};
     std::array<double, 2 * kSlots + 1> on_after{};
-    const auto slotAt = [&](std::size_t j) { return (near + n + j + 1 - kSlots) % n; };
+    const auto slot_at = [&](std::size_t j) { return (near + n + j + 1 - kSlots) % n; };
     for (std::size_t j = 0; j < 2 * kSlots; ++j) {
-        on_before[j + 1] = on_before[j] + misfit(loop[slotAt(j)], before);
-        on_after[j + 1] = on_after[j] + misfit(loop[slotAt(j)], after);
+        on_before[j + 1] = on_before[j] + misfit(loop[slot_at(j)], before);
+        on_after[j + 1] = on_after[j] + misfit(loop[slot_at(j)], after);
     }
     Turn best = fallback;
     double best_cost = std::numeric_limits<double>::infinity();
@@ -218,8 +220,8 @@ Turn locate(const SlotLoop& loop, std::size_t near, const Chord& chord)
     constexpr std::size_t kMostDropped = 2;
     for (std::size_t first = 0; first + 1 < 2 * kSlots; ++first) {
         for (std::size_t dropped = 0; dropped <= kMostDropped && first + dropped + 1 < 2 * kSlots; ++dropped) {
-            const Turn turn{slotAt(first), slotAt(first + dropped + 1)};
-            if (dropped > 0 && (!loop[slotAt(first + 1)].measured || !sharedPixel(loop, turn))) {
+            const Turn turn{slot_at(first), slot_at(first + dropped + 1)};
+            if (dropped > 0 && (!loop[slot_at(first + 1)].measured || !sharedPixel(loop, turn))) {
                 continue;
             }
             const Vec2 middle = 0.5 * (loop[turn.first].point() + loop[turn.last].point());
@@ -330,7 +332,7 @@ struct Cell {
     int x = 0;
     int y = 0;
 
-    friend auto operator<=>(const Cell&, const Cell&) = default;
+    friend bool operator<(const Cell& a, const Cell& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }
 };
 
 Cell cellOf(Vec2 p)

@@ -367,7 +367,7 @@ double costAround(const SlotLoop& loop, const std::vector<double>& strains, cons
         way += length(loop[i].point() - loop[(i + n - 1) % n].point());
     }
     way = 0.0;
-    for (std::size_t i = (turn.first + 1) % n, count = 0; count < n && way < kWindow; i = (i + 1) % n, ++count) {
+    for (std::size_t i = turn.last, count = 0; count < n && way < kWindow; i = (i + 1) % n, ++count) {
         cost += strains[i];
         way += length(loop[i].point() - loop[(i + 1) % n].point());
     }

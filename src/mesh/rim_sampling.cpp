@@ -211,8 +211,9 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
         const std::size_t end = whole ? begin + n : (k + 1 < stops.size() ? stops[k + 1] : stops[0] + n);
         std::vector<double> edges{0.0};  // how many edges fit up to every point
         for (std::size_t i = begin; i < end; ++i) {
-            const double mean = 0.5 * (lengths[i % n] + lengths[(i + 1) % n]);
-            edges.push_back(edges.back() + (sampling.arc[i % n + 1] - sampling.arc[i % n]) / mean);
+            const std::size_t at = i < n ? i : i - n;
+            const double mean = 0.5 * (lengths[at] + lengths[at + 1 < n ? at + 1 : 0]);
+            edges.push_back(edges.back() + (sampling.arc[at + 1] - sampling.arc[at]) / mean);
         }
         const std::size_t least = whole ? 6 : 1;
         const auto count = std::max(least, static_cast<std::size_t>(std::lround(edges.back())));
@@ -223,7 +224,7 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
             while (edges[i + 1] <= wanted) {
                 ++i;
             }
-            const std::size_t point = (begin + i) % n;
+            const std::size_t point = begin + i < n ? begin + i : begin + i - n;
             const double fraction = (wanted - edges[i]) / (edges[i + 1] - edges[i]);
             sampling.marks.push_back(
                 markAt(sampling, sampling.arc[point] + fraction * (sampling.arc[point + 1] - sampling.arc[point])));
