@@ -46,39 +46,26 @@ struct Place {
     std::size_t index = 0;
 };
 
-[[noreturn]] void failCrossing()
-{
-    throw Error(ErrorCode::InvalidArgument, "loops of a footprint must not cross or touch");
-}
-
 std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
 {
-    Triangulation triangulation;
+    std::vector<std::vector<Vec2>> polygons;
     std::vector<Place> places;
     std::vector<std::vector<double>> arcs;
     std::vector<std::vector<double>> widths;
     for (std::size_t k = 0; k < loops.size(); ++k) {
         const std::vector<Vec2>& points = loops[k].points;
+        polygons.push_back(points);
         arcs.push_back(arcLengths(points));
         widths.emplace_back(points.size(), std::numeric_limits<double>::infinity());
-        std::vector<Triangulation::Vertex_handle> handles;
-        Triangulation::Face_handle hint;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const Triangulation::Vertex_handle v = triangulation.insert({points[i].x, points[i].y}, hint);
-            if (v->info().index) {
-                failCrossing();
-            }
-            v->info().index = static_cast<std::uint32_t>(places.size());
             places.push_back({k, i});
-            hint = v->face();
-            handles.push_back(v);
         }
-        try {
-            for (std::size_t i = 0; i < handles.size(); ++i) {
-                triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
-            }
-        } catch (const Triangulation::Intersection_of_constraints_exception&) {
-            failCrossing();
+    }
+    Triangulation triangulation;
+    std::uint32_t count = 0;
+    for (const std::vector<VertexHandle>& loop : insertPolygons(triangulation, polygons)) {
+        for (const VertexHandle v : loop) {
+            v->info().index = count++;
         }
     }
     markDomain(triangulation);
@@ -441,53 +428,6 @@ std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
 
 }  // namespace
 
-void markDomain(Triangulation& triangulation)
-{
-    for (auto f = triangulation.all_faces_begin(); f != triangulation.all_faces_end(); ++f) {
-        f->set_in_domain(false);
-        f->tds_data().clear();
-    }
-    // From the unbounded outside inward; crossing a constraint changes sides.
-    std::vector<Triangulation::Face_handle> outside{triangulation.infinite_face()};
-    std::vector<Triangulation::Face_handle> inside;
-    bool is_inside = false;
-    outside.front()->tds_data().mark_processed();
-    while (!outside.empty()) {
-        std::vector<Triangulation::Face_handle> stack = std::move(outside);
-        outside.clear();
-        for (const auto& f : stack) {
-            f->set_in_domain(is_inside);
-        }
-        while (!stack.empty()) {
-            const Triangulation::Face_handle f = stack.back();
-            stack.pop_back();
-            for (int i = 0; i < 3; ++i) {
-                const Triangulation::Face_handle neighbour = f->neighbor(i);
-                if (!neighbour->tds_data().is_clear()) {
-                    continue;
-                }
-                if (f->is_constrained(i)) {
-                    outside.push_back(neighbour);
-                    continue;
-                }
-                neighbour->tds_data().mark_processed();
-                neighbour->set_in_domain(is_inside);
-                stack.push_back(neighbour);
-            }
-        }
-        // A face may have been reached from several sides.
-        std::vector<Triangulation::Face_handle> fresh;
-        for (const auto& f : outside) {
-            if (f->tds_data().is_clear()) {
-                f->tds_data().mark_processed();
-                fresh.push_back(f);
-            }
-        }
-        outside = std::move(fresh);
-        is_inside = !is_inside;
-    }
-}
-
 RimSampler::RimSampler(const Footprint& footprint) : loops_{footprint.rim}
 {
     loops_.insert(loops_.end(), footprint.holes.begin(), footprint.holes.end());
@@ -537,7 +477,7 @@ std::vector<RimPolygon> RimSampler::sample(double edge) const
             changed = followLoop(samplings[k], meets[k]) || changed;
         }
         if (!changed) {
-            failCrossing();
+            throwCrossing();
         }
     }
 }

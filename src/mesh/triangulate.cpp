@@ -50,7 +50,6 @@ constexpr double kFinest = 0.03;
 constexpr double kRoot3 = std::numbers::sqrt3;
 
 using Point = Triangulation::Point;
-using VertexHandle = Triangulation::Vertex_handle;
 using FaceHandle = Triangulation::Face_handle;
 using Edge = Triangulation::Edge;
 using Corners = std::array<VertexHandle, 3>;
@@ -199,20 +198,9 @@ private:
 class Mesh {
 public:
     /// @param finest  length below which nothing is refined [m]
-    Mesh(const std::vector<RimPolygon>& polygons, double finest) : finest_(finest)
+    Mesh(const std::vector<RimPolygon>& polygons, double finest)
+        : finest_(finest), loops_(insertPolygons(triangulation_, polygons))
     {
-        for (const RimPolygon& polygon : polygons) {
-            std::vector<VertexHandle> loop;
-            FaceHandle hint;
-            for (const Vec2 p : polygon) {
-                loop.push_back(triangulation_.insert(Point(p.x, p.y), hint));
-                hint = loop.back()->face();
-            }
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                triangulation_.insert_constraint(loop[i], loop[(i + 1) % loop.size()]);
-            }
-            starts_.push_back(loop);
-        }
     }
 
     void insert(const Lattice& lattice)
@@ -456,7 +444,7 @@ private:
 
     Triangulation triangulation_;
     double finest_;
-    std::vector<std::vector<VertexHandle>> starts_;
+    std::vector<std::vector<VertexHandle>> loops_;  ///< the rim's vertices as they were given
 };
 
 PlanarMesh Mesh::extract() const
@@ -470,7 +458,7 @@ PlanarMesh Mesh::extract() const
         mesh.vertices.push_back({v->point().x(), v->point().y()});
     };
     mesh.loop_starts.push_back(0);
-    for (const std::vector<VertexHandle>& loop : starts_) {
+    for (const std::vector<VertexHandle>& loop : loops_) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const VertexHandle end = loop[(i + 1) % loop.size()];
             for (VertexHandle v = loop[i]; v != end; v = nextToward(v, end)) {

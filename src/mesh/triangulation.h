@@ -8,6 +8,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
+
+#include "droplet/vector.h"
 
 namespace droplet {
 
@@ -26,6 +29,17 @@ using TriangulationData =
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, TriangulationData,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+using VertexHandle = Triangulation::Vertex_handle;
+
+/// Inserts closed polygons as constraints, in time that does not depend on their shape.
+/// @return       every polygon's vertices, in order
+/// @throws Error InvalidArgument if polygons cross or touch
+std::vector<std::vector<VertexHandle>> insertPolygons(Triangulation& triangulation,
+                                                      const std::vector<std::vector<Vec2>>& polygons);
+
+/// The error for loops that cross or touch.
+[[noreturn]] void throwCrossing();
 
 /// Marks the faces inside the constraints by the even-odd rule.
 void markDomain(Triangulation& triangulation);
