@@ -63,7 +63,7 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
     }
     Triangulation triangulation;
     std::uint32_t count = 0;
-    for (const std::vector<VertexHandle>& loop : insertPolygons(triangulation, polygons)) {
+    for (const std::vector<VertexHandle>& loop : insert(triangulation, polygons).loops) {
         for (const VertexHandle v : loop) {
             v->info().index = count++;
         }
