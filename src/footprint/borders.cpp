@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Border following after S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by border
-// following" (1985). Departure: where they mark followed pixels in the image, the ends of every row's runs of liquid
-// are marked. A border passes each of those once, and the first it has in reading order is an end of a run: so the
-// pixels are read once and neither copied nor written.
+// following" (1985). Departure: what has been followed is marked not in the image but in a list of the ends of every
+// row's runs of liquid, each of which one border passes once. A border begins at the first of its own, so that all are
+// found from the list: the pixels are read once and neither copied nor written.
 
 #include "footprint/borders.h"
 
