@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
@@ -58,9 +58,8 @@ public:
                 rows_[row].widest = std::max(rows_[row].widest, right - left);
             }
         }
-        tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
-            std::sort(rows_[row].entries.begin(), rows_[row].entries.end());
-        });
+        tbb::parallel_for(std::size_t{0}, rows,
+                          [&](std::size_t row) { std::sort(rows_[row].entries.begin(), rows_[row].entries.end()); });
     }
 
     /// The loop whose edge is met first going left from a point, other than the loop excepted.
@@ -93,7 +92,10 @@ private:
         double right = 0.0;  ///< the edge's right end
         std::size_t edge = 0;
 
-        friend auto operator<=>(const Entry&, const Entry&) = default;
+        friend bool operator<(const Entry& a, const Entry& b)
+        {
+            return std::tie(a.right, a.edge) < std::tie(b.right, b.edge);
+        }
     };
 
     struct Row {

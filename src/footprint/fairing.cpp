@@ -165,8 +165,10 @@ void measureVariations(const Polygon& polygon, const FairingOptions& options, st
     }
     for (std::size_t gap = 0; gap < options.breaks.size(); ++gap) {
         if (options.breaks[gap] != 0) {
+            std::size_t i = gap;
             for (std::size_t k = 0; k < kHalfBand; ++k) {
-                terms[(gap + kHalfBand * n - k) % n] = {};
+                terms[i] = {};
+                i = (i > 0 ? i : n) - 1;
             }
         }
     }
@@ -188,14 +190,15 @@ void assemble(const SlotLoop& loop, const Polygon& polygon, const std::vector<Va
         rows[i].band[0] = cost.hessian;
         rows[i].right = -cost.gradient;
     }
+    const auto toward = [&](std::size_t i) { return loop[i < n ? i : i - n].toward; };
     // Derivatives of the curvature at slots i, i + 1, i + 2 with respect to their places.
     const auto derivatives = [&](std::size_t i) {
         const Vec2 ab = polygon.points[i + 1] - polygon.points[i];
         const Vec2 bc = polygon.points[i + 2] - polygon.points[i + 1];
-        const Vec2 b = loop[(i + 1) % n].toward;
+        const Vec2 b = toward(i + 1);
         const double scale = polygon.scales[i];
-        return std::array<double, 3>{-scale * cross(loop[i].toward, bc), scale * (cross(b, bc) - cross(ab, b)),
-                                     scale * cross(ab, loop[(i + 2) % n].toward)};
+        return std::array<double, 3>{-scale * cross(toward(i), bc), scale * (cross(b, bc) - cross(ab, b)),
+                                     scale * cross(ab, toward(i + 2))};
     };
     std::array<double, 3> here = derivatives(0);
     for (std::size_t i = 0; i < n; ++i) {

@@ -93,34 +93,28 @@ TEST(Fairing, NoSlotCanBeMovedForABetterCurve)
     }
 }
 
-// Where the curve may turn sharply, neither side feels the other.
-TEST(Fairing, BreaksPartTheLoop)
+// With a break at each corner, a square is four straight sides; without, its corners are rounded off.
+TEST(Fairing, CurvesMayTurnAtBreaks)
 {
-    const SlotLoop loop = slotsOf(ellipseMask(120, 40.0, 33.0));
-    FairingOptions options{{}, 10.0};
-    options.breaks.assign(loop.size(), 0);
-    options.breaks[0] = 1;
-    options.breaks[loop.size() / 2] = 1;
-    SlotLoop measured = loop;
-    // Pulling at slots of the one half, next to its ends and inside.
-    for (const std::size_t i : {std::size_t{1}, loop.size() / 4, loop.size() / 2}) {
-        measured[i].measured = loop[i].t + 0.3;
-        measured[i].spread = 0.05;
+    const SlotLoop square = slotsOf(testing::hardMask(60, 60, testing::rectangle({30, 30}, {20, 20}, 0.0)));
+    FairingOptions options;
+    for (std::size_t i = 0; i < square.size(); ++i) {
+        options.breaks.push_back(square[i].toward == square[(i + 1) % square.size()].toward ? 0 : 1);
     }
-    SlotLoop one = loop;
-    fair(one, options);
-    fair(measured, options);
-    double near = 0.0;
-    for (std::size_t i = 1; i <= loop.size() / 2; ++i) {
-        near = std::max(near, std::abs(one[i].t - measured[i].t));
+    ASSERT_EQ(std::accumulate(options.breaks.begin(), options.breaks.end(), 0), 4);
+    for (const std::size_t by : {std::size_t{0}, std::size_t{1}, std::size_t{2}, square.size() - 1}) {
+        FairingOptions broken = options;
+        std::rotate(broken.breaks.begin(), broken.breaks.begin() + static_cast<std::ptrdiff_t>(by),
+                    broken.breaks.end());
+        const SlotLoop loop = turned(square, by);
+        SlotLoop sharp = loop;
+        fair(sharp, broken);
+        EXPECT_LT(farthestApart(sharp, loop), 1e-12);
+        EXPECT_NEAR(totalStrain(sharp, broken), 0.0, 1e-12);
+        SlotLoop round = loop;
+        fair(round);
+        EXPECT_GT(farthestApart(round, loop), 0.1);
     }
-    double far = 0.0;
-    for (std::size_t i = loop.size() / 2 + 1; i < loop.size(); ++i) {
-        far = std::max(far, std::abs(one[i].t - measured[i].t));
-    }
-    EXPECT_GT(near, 0.2);
-    // Within a thousandth of the least cost, which rises by at least 8/2 times the square of a slot's way from its best.
-    EXPECT_LT(far, std::sqrt(1e-3 / 4.0));
 }
 
 }  // namespace
