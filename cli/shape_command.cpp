@@ -339,7 +339,7 @@ void save(const droplet::Surface& surface, const ShapeOptions& options, StageClo
     writeOutput(options.output, options.files, [&](std::ostream& out) {
         CountingBuffer buffer(out);
         std::ostream counted(&buffer);
-        droplet::writeSurface(surface, counted, options.format, options.material);
+        droplet::writeSurface(surface, counted, options.format, {options.material, report.output.topology.closed});
         if (!counted.flush()) {
             out.setstate(std::ios::badbit);  // whoever opened it knows the cause
             return;
