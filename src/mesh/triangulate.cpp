@@ -166,8 +166,11 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
         throw Error(ErrorCode::InvalidArgument, "edge " + std::to_string(*options.edge) +
                                                     " m must be longer: it would take more than 4e9 triangles");
     }
+    // Half as long again as of equilateral triangles: the rim's band has more of them than its area's share.
+    const double widest =
+        1.5 * options.edge.value_or(std::sqrt(4.0 * total_area / (kRoot3 * static_cast<double>(options.triangles))));
     std::vector<std::optional<RimSampler>> made(domain.droplets.size());
-    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) { made[k].emplace(domain.droplets[k]); });
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) { made[k].emplace(domain.droplets[k], widest); });
     std::vector<RimSampler> samplers;
     samplers.reserve(made.size());
     for (std::optional<RimSampler>& sampler : made) {
