@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   torture [--every N] [--limit SECONDS] [--workers N] [--failures FOLDER]
+//   torture [...] FILE|FOLDER...
+//
+// Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
+// theme, of noise and of drawings; else of the pictures named, each filled in every way. Each must give sound droplets
+// or be refused with a reason, within 2 s of processor time. Every hundredth goes through the command, too. One line
+// tells of every corpus, one of every failure, whose picture is kept in the folder: `torture FILE` tries it again.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "droplet/units.h"
+#include "torture/corpus.h"
+#include "torture/trial.h"
+#include "torture/workers.h"
+
+namespace droplet::torture {
+namespace {
+
+struct Options {
+    std::vector<std::filesystem::path> paths;
+    std::size_t every = 1;  ///< only each so manieth item
+    double limit = 2.0;     ///< [s]
+    std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
+    std::filesystem::path failures = "failures";
+};
+
+/// What a corpus came to.
+class Tally {
+public:
+    void add(const std::string& item, const Verdict& verdict)
+    {
+        ++items_;
+        droplets_ += verdict.droplets;
+        triangles_ += verdict.triangles;
+        if (verdict.seconds > slowest_.value) {
+            slowest_ = {verdict.seconds, item};
+        }
+        if (verdict.min_angle < sharpest_.value) {
+            sharpest_ = {verdict.min_angle, item};
+        }
+        if (verdict.outcome == Outcome::Refused) {
+            // Up to the colon: what comes after it are numbers.
+            ++refused_[verdict.message.substr(0, verdict.message.find(':'))];
+        }
+        failed_ += verdict.outcome == Outcome::Failed ? 1 : 0;
+    }
+
+    void print(const std::string& corpus) const
+    {
+        std::printf("%s: %zu items, %zu droplets, %zu triangles; slowest %.2f s (%s)", corpus.c_str(), items_, droplets_,
+                    triangles_, slowest_.value, slowest_.item.c_str());
+        if (!sharpest_.item.empty()) {
+            std::printf("; smallest angle %.3g degrees (%s)", sharpest_.value / kDegree, sharpest_.item.c_str());
+        }
+        for (const auto& [reason, count] : refused_) {
+            std::printf("; %zu refused, %s", count, reason.c_str());
+        }
+        std::printf("; %zu failed\n", failed_);
+        std::fflush(stdout);
+    }
+
+    [[nodiscard]] std::size_t failed() const { return failed_; }
+
+private:
+    struct Extreme {
+        double value;
+        std::string item;
+    };
+    std::size_t items_ = 0;
+    std::size_t droplets_ = 0;
+    std::size_t triangles_ = 0;
+    std::size_t failed_ = 0;
+    Extreme slowest_{0.0, ""};
+    Extreme sharpest_{std::numeric_limits<double>::infinity(), ""};
+    std::map<std::string, std::size_t> refused_;
+};
+
+/// Keeps a failing picture under its name, in a folder of its corpus.
+std::filesystem::path keep(const Item& item, const Corpus& corpus, const std::filesystem::path& folder)
+{
+    std::string name = corpus.name + "_" + item.name;
+    std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '_');
+    std::filesystem::create_directories(folder);
+    std::ofstream file(folder / name, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(item.bytes.data()), static_cast<std::streamsize>(item.bytes.size()));
+    return folder / name;
+}
+
+/// A verdict late enough is a failure, however good.
+Verdict judged(Verdict verdict, double limit)
+{
+    if (verdict.outcome != Outcome::Failed && verdict.seconds > limit) {
+        verdict.outcome = Outcome::Failed;
+        verdict.message = "took " + std::to_string(verdict.seconds) + " s of processor time";
+    }
+    return verdict;
+}
+
+/// @return the number of failures
+std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
+{
+    constexpr std::size_t kCommand = 100;
+    const std::size_t fills = all_fills ? kFills : 1;
+    const std::size_t count = (corpus.count + options.every - 1) / options.every;
+    const auto item_of = [&](std::size_t task) { return corpus.item(task / fills * options.every); };
+    const auto work = [&](std::size_t task) {
+        // One thread, so that processor time is what it takes, and cores are shared out among items.
+        const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+        const Item item = item_of(task);
+        Verdict verdict = judged(tryLibrary(item, fillOf(task)), options.limit);
+        if (verdict.outcome != Outcome::Failed && task % kCommand == 0) {
+            const Verdict command = judged(tryCommand(item), options.limit);
+            if (command.outcome != verdict.outcome) {
+                verdict.outcome = Outcome::Failed;
+                verdict.message = "the command does otherwise: " + command.message;
+            }
+        }
+        return verdict;
+    };
+    Tally tally;
+    const auto done = [&](std::size_t task, const Verdict& verdict) {
+        const Item item = item_of(task);
+        tally.add(item.name, verdict);
+        if (verdict.outcome == Outcome::Failed) {
+            std::printf("FAILED %s, fill %zu: %s\n", keep(item, corpus, options.failures).c_str(), task % kFills,
+                        verdict.message.c_str());
+        }
+    };
+    WorkOptions work_options;
+    work_options.workers = options.workers;
+    work_options.processor_limit = 10.0 * options.limit;
+    workThrough(count * fills, work, done, work_options);
+    tally.print(corpus.name);
+    return tally.failed();
+}
+
+int runAll(const Options& options)
+{
+    std::size_t failed = 0;
+    if (!options.paths.empty()) {
+        failed = run(files(options.paths), options, true);
+    } else {
+        for (const auto& corpus : {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns,
+                                   encodedNoise}) {
+            failed += run(corpus(), options, false);
+        }
+    }
+    return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace droplet::torture
+
+int main(int argc, char** argv)
+{
+    droplet::torture::Options options;
+    CLI::App app("Makes droplets of thousands of pictures that mean no good");
+    app.add_option("paths", options.paths, "pictures, or folders of them, in place of the usual ones");
+    app.add_option("--every", options.every, "take only each so manieth item")->check(CLI::PositiveNumber);
+    app.add_option("--limit", options.limit, "processor time an item may take [s]")->check(CLI::PositiveNumber);
+    app.add_option("--workers", options.workers, "processes at a time")->check(CLI::PositiveNumber);
+    app.add_option("--failures", options.failures, "folder that keeps pictures of failures");
+    CLI11_PARSE(app, argc, argv);
+    // Expectations are looked at outside of tests.
+    testing::InitGoogleTest();
+    try {
+        return droplet::torture::runAll(options);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "torture: %s\n", error.what());
+        return 1;
+    }
+}
