@@ -47,15 +47,15 @@ void addLines(std::vector<Drawing>& drawings)
                          return std::abs(q.x) < 25.0 && std::abs(q.y) < 0.5 * width;
                      });
         }
-        addShape(drawings, "grating_" + std::to_string(degrees) + "deg", kSide, kSide, [=](Vec2 p) {
-            return wrapped(turned(p, angle).x, 4.0) < 2.0;
-        });
+        addShape(drawings, "grating_" + std::to_string(degrees) + "deg", kSide, kSide,
+                 [=](Vec2 p) { return wrapped(turned(p, angle).x, 4.0) < 2.0; });
         addShape(drawings, "wedge_" + std::to_string(degrees) + "deg", kSide, kSide, [=](Vec2 p) {
             const Vec2 q = turned(p - Vec2{30.0, 30.0}, angle);
             return q.x > -20.0 && q.x < 20.0 && std::abs(q.y) < 0.1 * (q.x + 20.0);
         });
-        addShape(drawings, "half_plane_" + std::to_string(degrees) + "deg", kSide, kSide,
-                 [=](Vec2 p) { return turned(p - Vec2{30.0, 30.0}, angle).x > 0.3; });
+        addShape(drawings, "half_plane_" + std::to_string(degrees) + "deg", kSide, kSide, [=](Vec2 p) {
+            return turned(p - Vec2{30.0, 30.0}, angle).x > 0.3;
+        });
     }
 }
 
@@ -74,8 +74,9 @@ void addSpirals(std::vector<Drawing>& drawings)
                 const double arm = pitch * std::log(length(d) + 1e-9) - std::atan2(d.y, d.x) / (2.0 * kPi);
                 return length(d) < 48.0 && wrapped(arm, 1.0) < share;
             });
-            addShape(drawings, "rings_" + name, 100, 100,
-                     [=](Vec2 p) { return wrapped(length(p - Vec2{50.0, 50.0}), pitch) < share * pitch; });
+            addShape(drawings, "rings_" + name, 100, 100, [=](Vec2 p) {
+                return wrapped(length(p - Vec2{50.0, 50.0}), pitch) < share * pitch;
+            });
             addShape(drawings, "square_rings_" + name, 60, 60, [=](Vec2 p) {
                 const double r = std::max(std::abs(p.x - 30.0), std::abs(p.y - 30.0));
                 return wrapped(r, pitch) < share * pitch;
@@ -90,8 +91,7 @@ void addCombs(std::vector<Drawing>& drawings)
         for (int gap = 1; gap <= 4; ++gap) {
             const std::string name = std::to_string(tooth) + "_" + std::to_string(gap);
             const auto teeth = [=](double x) { return floored(x) % (tooth + gap) < tooth; };
-            addShape(drawings, "comb_" + name, 64, 30,
-                     [=](Vec2 p) { return p.y < 3.0 || (p.y < 27.0 && teeth(p.x)); });
+            addShape(drawings, "comb_" + name, 64, 30, [=](Vec2 p) { return p.y < 3.0 || (p.y < 27.0 && teeth(p.x)); });
             addShape(drawings, "comb_leaning_" + name, 64, 30,
                      [=](Vec2 p) { return p.y < 3.0 || (p.y < 27.0 && teeth(p.x + p.y)); });
             addShape(drawings, "two_combs_" + name, 64, 40, [=](Vec2 p) {
@@ -205,24 +205,25 @@ void addPlateaus(std::vector<Drawing>& drawings)
         add("plateau_waves_" + name,
             [=](int x, int y) { return 0.5 + levels * kStep * std::sin(0.9 * x) * std::sin(1.1 * y + 0.3 * x); });
         add("plateau_with_pit_" + name, [=](int x, int y) {
-            return x == 20 && y == 20 ? 0.0 : 0.5 + (std::abs(x - 20) < 12 && std::abs(y - 20) < 9 ? levels : -levels) * kStep;
+            return x == 20 && y == 20
+                       ? 0.0
+                       : 0.5 + (std::abs(x - 20) < 12 && std::abs(y - 20) < 9 ? levels : -levels) * kStep;
         });
     }
     for (const double slope : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
         const std::string name = number(slope);
         add("gradient_across_" + name, [=](int x, int) { return 0.5 + slope * (x - 19.7); });
         add("gradient_slanted_" + name, [=](int x, int y) { return 0.5 + slope * (x - 0.3 * y - 11.1); });
-        add("gradient_round_" + name,
-            [=](int x, int y) { return 0.5 + slope * (12.3 - length(Vec2{x - 19.5, y - 19.5})); });
-        add("gradient_saddle_" + name,
-            [=](int x, int y) { return 0.5 + slope * 0.1 * (x - 19.5) * (y - 19.5); });
+        add("gradient_round_" + name, [=](int x, int y) {
+            return 0.5 + slope * (12.3 - length(Vec2{x - 19.5, y - 19.5}));
+        });
+        add("gradient_saddle_" + name, [=](int x, int y) { return 0.5 + slope * 0.1 * (x - 19.5) * (y - 19.5); });
         add("gradient_saddle_on_pixel_" + name, [=](int x, int y) { return 0.5 + slope * (x - 20) * (y - 20); });
     }
     add("cone_of_angle", [](int x, int y) { return (std::atan2(y - 19.5, x - 19.5) + kPi) / (2.0 * kPi); });
     add("moire", [](int x, int y) { return 0.5 + 0.5 * std::sin(0.11 * (x * x + y * y)); });
-    add("zone_plate", [](int x, int y) {
-        return 0.5 + 0.5 * std::cos(0.05 * ((x - 20.2) * (x - 20.2) + (y - 19.9) * (y - 19.9)));
-    });
+    add("zone_plate",
+        [](int x, int y) { return 0.5 + 0.5 * std::cos(0.05 * ((x - 20.2) * (x - 20.2) + (y - 19.9) * (y - 19.9))); });
 }
 
 /// What printers and screens make of grey.
@@ -311,8 +312,20 @@ void addNearMisses(std::vector<Drawing>& drawings)
 
 void addSizes(std::vector<Drawing>& drawings)
 {
-    for (const auto& [width, height] : {std::pair{1, 1}, {1, 2}, {2, 1}, {2, 2}, {3, 1}, {1, 4}, {3, 3}, {1, 100},
-                                        {100, 1}, {2, 1000}, {1, 20000}, {20000, 1}, {20000, 2}, {3, 7000}}) {
+    for (const auto& [width, height] : {std::pair{1, 1},
+                                        {1, 2},
+                                        {2, 1},
+                                        {2, 2},
+                                        {3, 1},
+                                        {1, 4},
+                                        {3, 3},
+                                        {1, 100},
+                                        {100, 1},
+                                        {2, 1000},
+                                        {1, 20000},
+                                        {20000, 1},
+                                        {20000, 2},
+                                        {3, 7000}}) {
         const std::string name = std::to_string(width) + "x" + std::to_string(height);
         const int w = width;
         const int h = height;
@@ -328,12 +341,15 @@ void addSizes(std::vector<Drawing>& drawings)
         add("dash", [](int x, int y) { return (x + y) % 2 == 0 ? 1.0 : 0.0; });
     }
     constexpr int kLarge = 1500;
-    addShape(drawings, "lost_in_the_desert", kLarge, kLarge,
-             [](Vec2 p) { return length(p - Vec2{1234.0, 77.0}) < 2.0 || length(p - Vec2{300.0, 900.0}) < 1.7; });
-    addShape(drawings, "holes_in_the_sea", kLarge, kLarge,
-             [](Vec2 p) { return length(p - Vec2{1234.0, 77.0}) > 2.0 && length(p - Vec2{300.0, 900.0}) > 1.7; });
-    addShape(drawings, "frame", kLarge, kLarge,
-             [](Vec2 p) { return std::min({p.x, p.y, kLarge - p.x, kLarge - p.y}) < 1.0; });
+    addShape(drawings, "lost_in_the_desert", kLarge, kLarge, [](Vec2 p) {
+        return length(p - Vec2{1234.0, 77.0}) < 2.0 || length(p - Vec2{300.0, 900.0}) < 1.7;
+    });
+    addShape(drawings, "holes_in_the_sea", kLarge, kLarge, [](Vec2 p) {
+        return length(p - Vec2{1234.0, 77.0}) > 2.0 && length(p - Vec2{300.0, 900.0}) > 1.7;
+    });
+    addShape(drawings, "frame", kLarge, kLarge, [](Vec2 p) {
+        return std::min({p.x, p.y, kLarge - p.x, kLarge - p.y}) < 1.0;
+    });
     addShape(drawings, "hair", kLarge, kLarge, [](Vec2 p) { return std::abs(p.y - 3.0 - 0.99 * p.x) < 0.8; });
 }
 
@@ -367,7 +383,8 @@ Corpus patterns()
             const int y = floored((p.y - margin) / cell);
             return x >= 0 && y >= 0 && x < kCells && y < kCells && (pattern >> (kCells * y + x) & 1) != 0;
         };
-        drawings.push_back({"pattern_" + std::to_string(pattern), [=] { return testing::hardMask(side, side, inside); }});
+        drawings.push_back(
+            {"pattern_" + std::to_string(pattern), [=] { return testing::hardMask(side, side, inside); }});
     }
     return corpusOf("patterns", std::move(drawings));
 }

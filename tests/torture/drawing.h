@@ -25,7 +25,7 @@ inline Corpus corpusOf(const std::string& name, std::vector<Drawing> drawings)
 {
     const std::size_t count = drawings.size();
     return {name, count, [drawings = std::move(drawings)](std::size_t index) {
-                return greymapItem(drawings[index].name, drawings[index].draw());
+                return greymapItem(drawings[index].name + ".pgm", drawings[index].draw());
             }};
 }
 
@@ -38,7 +38,8 @@ inline Mask levelMask(int width, int height, const std::function<double(int x, i
     mask.coverage.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            mask.coverage.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(level(x, y), 0.0, 1.0))));
+            mask.coverage.push_back(
+                static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(level(x, y), 0.0, 1.0))));
         }
     }
     return mask;

@@ -45,56 +45,79 @@ encoded::Raster raster(int side, int channels, int bits, int character, Random& 
     return result;
 }
 
+using Make = std::function<Item()>;
+
+Item pngOf(const std::string& name, const encoded::Raster& samples, encoded::PngKind kind, bool transparent,
+           Random& random)
+{
+    png_color_16 dry{};
+    if (kind.colour_type == PNG_COLOR_TYPE_PALETTE) {
+        const auto byte = [&] { return static_cast<png_byte>(random.below(256)); };
+        for (unsigned k = 0; k <= samples.white(); ++k) {
+            kind.palette.push_back({byte(), byte(), byte()});
+            if (transparent) {
+                kind.palette_alpha.push_back(byte());
+            }
+        }
+    } else if (transparent) {
+        kind.transparent = &dry;
+    }
+    return {name, encodePng(samples, kind)};
+}
+
+void addPngs(std::vector<Make>& makes, const Kind& kind, int bits, bool interlaced, bool transparent)
+{
+    for (const int character : {0, 1, 2}) {
+        const std::uint64_t seed = makes.size();
+        makes.emplace_back([=] {
+            Random random(seed);
+            const encoded::Raster samples = raster(20 + random.below(30), kind.channels, bits, character, random);
+            const std::string name = std::string(kind.name) + std::to_string(bits) + (interlaced ? "_interlaced" : "") +
+                                     (transparent ? "_transparent" : "") + "_" + std::to_string(character) + ".png";
+            return pngOf(name, samples, {kind.colour_type, interlaced, {}, {}, nullptr}, transparent, random);
+        });
+    }
+}
+
+void addJpegs(std::vector<Make>& makes, int channels, int quality)
+{
+    for (const int character : {0, 1, 2}) {
+        const std::uint64_t seed = makes.size();
+        makes.emplace_back([=] {
+            Random random(seed);
+            const encoded::Raster samples = raster(20 + random.below(60), channels, 8, character, random);
+            encoded::JpegKind kind;
+            kind.quality = quality;
+            return Item{"jpeg" + std::to_string(channels) + "_quality" + std::to_string(quality) + "_" +
+                            std::to_string(character) + ".jpg",
+                        encodeJpeg(samples, kind)};
+        });
+    }
+}
+
 }  // namespace
 
 Corpus encodedNoise()
 {
-    struct Wish {
-        Kind kind;
-        int bits;
-        bool interlaced;
-        bool transparent;
-        int character;
-    };
-    std::vector<Wish> wishes;
+    std::vector<Make> makes;
     for (const Kind& kind : kinds()) {
         for (const int bits : kind.bits) {
             for (const bool interlaced : {false, true}) {
-                for (const bool transparent : {false, true}) {
-                    for (const int character : {0, 1, 2}) {
-                        if (!transparent || kind.channels % 2 == 1) {
-                            wishes.push_back({kind, bits, interlaced, transparent, character});
-                        }
-                    }
+                addPngs(makes, kind, bits, interlaced, false);
+                // Formats with alpha say nothing of transparency beside it.
+                if (kind.channels % 2 == 1) {
+                    addPngs(makes, kind, bits, interlaced, true);
                 }
             }
         }
     }
-    const std::size_t count = wishes.size();
-    return {"encoded noise", count, [wishes = std::move(wishes)](std::size_t index) {
-                const Wish& wish = wishes[index];
-                Random random(index);
-                const encoded::Raster samples =
-                    raster(20 + random.below(30), wish.kind.channels, wish.bits, wish.character, random);
-                encoded::PngKind kind{wish.kind.colour_type, wish.interlaced, {}, {}, nullptr};
-                png_color_16 transparent{};
-                if (wish.kind.colour_type == PNG_COLOR_TYPE_PALETTE) {
-                    const auto byte = [&] { return static_cast<png_byte>(random.below(256)); };
-                    for (unsigned k = 0; k <= samples.white(); ++k) {
-                        kind.palette.push_back({byte(), byte(), byte()});
-                        if (wish.transparent) {
-                            kind.palette_alpha.push_back(byte());
-                        }
-                    }
-                } else if (wish.transparent) {
-                    kind.transparent = &transparent;
-                }
-                const std::string name = std::string(wish.kind.name) + std::to_string(wish.bits) +
-                                         (wish.interlaced ? "_interlaced" : "") +
-                                         (wish.transparent ? "_transparent" : "") + "_" +
-                                         std::to_string(wish.character);
-                return Item{name, encodePng(samples, kind)};
-            }};
+    for (const int channels : {1, 3}) {
+        for (const int quality : {1, 10, 30, 60, 90}) {
+            addJpegs(makes, channels, quality);
+        }
+    }
+    const std::size_t count = makes.size();
+    return {"encoded noise", count, [makes = std::move(makes)](std::size_t index) { return makes[index](); }};
 }
 
 }  // namespace droplet::torture

@@ -3,7 +3,9 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 
@@ -90,7 +92,7 @@ Corpus glyphs(const std::string& name, bool hard, std::size_t step)
     return {name, (font->count() + step - 1) / step, [=](std::size_t index) {
                 const std::size_t glyph = index * step;
                 const FT_UInt size = kSizes[index % kSizes.size()];
-                return greymapItem("glyph_" + font->name(glyph) + "_" + std::to_string(size) + "px",
+                return greymapItem("glyph_" + font->name(glyph) + "_" + std::to_string(size) + "px.pgm",
                                    maskOf(font->render(glyph, size, hard), kMargins[index % kMargins.size()]));
             }};
 }

@@ -5,7 +5,7 @@
 //
 // Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
 // theme, of noise and of drawings; else of the pictures named, each filled in every way. Each must give sound droplets
-// or be refused with a reason, within 2 s of processor time. Every hundredth goes through the command, too. One line
+// or be refused with a reason, within 2 s of processor time. Every 101st goes through the command, too. One line
 // tells of every corpus, one of every failure, whose picture is kept in the folder: `torture FILE` tries it again.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -19,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,7 +43,7 @@ struct Options {
 /// What a corpus came to.
 class Tally {
 public:
-    void add(const std::string& item, const Verdict& verdict)
+    void add(std::size_t item, const Verdict& verdict)
     {
         ++items_;
         droplets_ += verdict.droplets;
@@ -60,12 +61,15 @@ public:
         failed_ += verdict.outcome == Outcome::Failed ? 1 : 0;
     }
 
-    void print(const std::string& corpus) const
+    void print(const Corpus& corpus) const
     {
-        std::printf("%s: %zu items, %zu droplets, %zu triangles; slowest %.2f s (%s)", corpus.c_str(), items_, droplets_,
-                    triangles_, slowest_.value, slowest_.item.c_str());
-        if (!sharpest_.item.empty()) {
-            std::printf("; smallest angle %.3g degrees (%s)", sharpest_.value / kDegree, sharpest_.item.c_str());
+        std::printf("%s: %zu items, %zu droplets, %zu triangles", corpus.name.c_str(), items_, droplets_, triangles_);
+        if (slowest_.item) {
+            std::printf("; slowest %.2f s (%s)", slowest_.value, corpus.item(*slowest_.item).name.c_str());
+        }
+        if (sharpest_.item) {
+            std::printf("; smallest angle %.3g degrees (%s)", sharpest_.value / kDegree,
+                        corpus.item(*sharpest_.item).name.c_str());
         }
         for (const auto& [reason, count] : refused_) {
             std::printf("; %zu refused, %s", count, reason.c_str());
@@ -79,22 +83,23 @@ public:
 private:
     struct Extreme {
         double value;
-        std::string item;
+        std::optional<std::size_t> item;
     };
     std::size_t items_ = 0;
     std::size_t droplets_ = 0;
     std::size_t triangles_ = 0;
     std::size_t failed_ = 0;
-    Extreme slowest_{0.0, ""};
-    Extreme sharpest_{std::numeric_limits<double>::infinity(), ""};
+    Extreme slowest_{0.0, {}};
+    Extreme sharpest_{std::numeric_limits<double>::infinity(), {}};
     std::map<std::string, std::size_t> refused_;
 };
 
-/// Keeps a failing picture under its name, in a folder of its corpus.
-std::filesystem::path keep(const Item& item, const Corpus& corpus, const std::filesystem::path& folder)
+/// Keeps a failing picture under its corpus' name and its own.
+std::filesystem::path keep(const Item& item, const std::string& corpus, const std::filesystem::path& folder)
 {
-    std::string name = corpus.name + "_" + item.name;
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '_');
+    std::string name = corpus + "_" + item.name;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '_');
     std::filesystem::create_directories(folder);
     std::ofstream file(folder / name, std::ios::binary);
     file.write(reinterpret_cast<const char*>(item.bytes.data()), static_cast<std::streamsize>(item.bytes.size()));
@@ -114,14 +119,14 @@ Verdict judged(Verdict verdict, double limit)
 /// @return the number of failures
 std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
 {
-    constexpr std::size_t kCommand = 100;
+    constexpr std::size_t kCommand = 101;  // prime to the cycles of sizes and fills
     const std::size_t fills = all_fills ? kFills : 1;
     const std::size_t count = (corpus.count + options.every - 1) / options.every;
-    const auto item_of = [&](std::size_t task) { return corpus.item(task / fills * options.every); };
+    const auto item_of = [&](std::size_t task) { return task / fills * options.every; };
     const auto work = [&](std::size_t task) {
         // One thread, so that processor time is what it takes, and cores are shared out among items.
         const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-        const Item item = item_of(task);
+        const Item item = corpus.item(item_of(task));
         Verdict verdict = judged(tryLibrary(item, fillOf(task)), options.limit);
         if (verdict.outcome != Outcome::Failed && task % kCommand == 0) {
             const Verdict command = judged(tryCommand(item), options.limit);
@@ -134,18 +139,17 @@ std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
     };
     Tally tally;
     const auto done = [&](std::size_t task, const Verdict& verdict) {
-        const Item item = item_of(task);
-        tally.add(item.name, verdict);
+        tally.add(item_of(task), verdict);
         if (verdict.outcome == Outcome::Failed) {
-            std::printf("FAILED %s, fill %zu: %s\n", keep(item, corpus, options.failures).c_str(), task % kFills,
-                        verdict.message.c_str());
+            const auto kept = keep(corpus.item(item_of(task)), corpus.name, options.failures);
+            std::printf("FAILED %s, fill %zu: %s\n", kept.c_str(), task % kFills, verdict.message.c_str());
         }
     };
     WorkOptions work_options;
     work_options.workers = options.workers;
     work_options.processor_limit = 10.0 * options.limit;
     workThrough(count * fills, work, done, work_options);
-    tally.print(corpus.name);
+    tally.print(corpus);
     return tally.failed();
 }
 
@@ -155,8 +159,8 @@ int runAll(const Options& options)
     if (!options.paths.empty()) {
         failed = run(files(options.paths), options, true);
     } else {
-        for (const auto& corpus : {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns,
-                                   encodedNoise}) {
+        for (const auto& corpus :
+             {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns, encodedNoise}) {
             failed += run(corpus(), options, false);
         }
     }

@@ -35,9 +35,9 @@ std::vector<double> mountains(int cells, double hurst, Random& random)
         const int half = step / 2;
         for (int y = half; y < side; y += step) {
             for (int x = half; x < side; x += step) {
-                at(x, y) = displaced(at(x - half, y - half) + at(x + half, y - half) + at(x - half, y + half) +
-                                         at(x + half, y + half),
-                                     4);
+                at(x, y) = displaced(
+                    at(x - half, y - half) + at(x + half, y - half) + at(x - half, y + half) + at(x + half, y + half),
+                    4);
             }
         }
         for (int y = 0; y < side; y += half) {
@@ -188,10 +188,8 @@ Corpus whiteNoise()
         for (const bool hard : {true, false}) {
             const std::uint64_t seed = drawings.size();
             const std::string name = std::to_string(percent) + "percent_" + (hard ? "hard" : "grey");
-            drawings.push_back(
-                {"noise_160px_" + name, [=] { return white(160, 160, percent / 100.0, hard, seed); }});
-            drawings.push_back(
-                {"noise_3x2000px_" + name, [=] { return white(3, 2000, percent / 100.0, hard, seed); }});
+            drawings.push_back({"noise_160px_" + name, [=] { return white(160, 160, percent / 100.0, hard, seed); }});
+            drawings.push_back({"noise_3x2000px_" + name, [=] { return white(3, 2000, percent / 100.0, hard, seed); }});
         }
     }
     return corpusOf("white noise", std::move(drawings));

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <initializer_list>
 
-#include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "support/command.h"
@@ -52,10 +51,9 @@ double childrensSeconds()
 
 void expectFinite(const ShapeFigures& figures)
 {
-    for (const double number :
-         {figures.footprint_area, figures.rim_length, figures.volume, figures.height_max, figures.liquid_area,
-          figures.surface_energy, figures.gravity_energy, figures.slope_max, figures.contact_angle.min,
-          figures.contact_angle.mean, figures.contact_angle.max}) {
+    for (const double number : {figures.footprint_area, figures.rim_length, figures.volume, figures.height_max,
+                                figures.liquid_area, figures.surface_energy, figures.gravity_energy, figures.slope_max,
+                                figures.contact_angle.min, figures.contact_angle.mean, figures.contact_angle.max}) {
         EXPECT_TRUE(std::isfinite(number)) << number << " among the figures";
     }
     EXPECT_LE(figures.contact_angle.min, figures.contact_angle.max);
@@ -76,28 +74,10 @@ void expectFilled(const Droplet& droplet, const Fill& fill)
 }
 
 /// Every border of the mask is a loop, or was dropped as a speck.
-void expectEveryBorder(const Mask& mask, const Droplet& droplet)
+void expectEveryBorder(const Droplet& droplet, const Mask& mask)
 {
     const testing::Counts counts = testing::flooded(mask);
     EXPECT_EQ(droplet.outline.loops.size() + droplet.outline.specks_dropped, counts.droplets + counts.holes);
-}
-
-/// What the expectations in `check` find wrong, in one line; empty if nothing is.
-template <typename Check>
-std::string complaints(const Check& check)
-{
-    ::testing::TestPartResultArray results;
-    {
-        const ::testing::ScopedFakeTestPartResultReporter reporter(
-            ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
-        check();
-    }
-    std::string text;
-    for (int i = 0; i < results.size(); ++i) {
-        text += (text.empty() ? "" : "; ") + std::string(results.GetTestPartResult(i).message());
-    }
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
 }
 
 }  // namespace
@@ -111,6 +91,26 @@ Fill fillOf(std::size_t turn)
         {FillBy::Height, 0.5 * kMillimetre, FillSharing::Total},
     }};
     return kAll[turn % kFills];
+}
+
+std::string flawsOf(const Droplet& droplet, const Mask& mask, const Fill& fill)
+{
+    ::testing::TestPartResultArray results;
+    {
+        const ::testing::ScopedFakeTestPartResultReporter reporter(
+            ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
+        testing::expectSound(droplet);
+        expectFinite(droplet.total);
+        std::for_each(droplet.figures.begin(), droplet.figures.end(), expectFinite);
+        expectFilled(droplet, fill);
+        expectEveryBorder(droplet, mask);
+    }
+    std::string flaws;
+    for (int i = 0; i < results.size(); ++i) {
+        flaws += (flaws.empty() ? "" : "; ") + std::string(results.GetTestPartResult(i).message());
+    }
+    std::replace(flaws.begin(), flaws.end(), '\n', ' ');
+    return flaws;
 }
 
 Verdict tryLibrary(const Item& item, const Fill& fill)
@@ -132,13 +132,7 @@ Verdict tryLibrary(const Item& item, const Fill& fill)
             verdict.triangles += mesh.triangles.size();
             verdict.min_angle = std::min(verdict.min_angle, minAngle(mesh));
         }
-        verdict.message = complaints([&] {
-            testing::expectSound(droplet);
-            expectFinite(droplet.total);
-            std::for_each(droplet.figures.begin(), droplet.figures.end(), expectFinite);
-            expectFilled(droplet, fill);
-            expectEveryBorder(mask, droplet);
-        });
+        verdict.message = flawsOf(droplet, mask, fill);
         verdict.outcome = verdict.message.empty() ? Outcome::Droplets : Outcome::Failed;
     } catch (const Error& error) {
         verdict.seconds = processorSeconds() - begin;
@@ -159,9 +153,11 @@ Verdict tryCommand(const Item& item)
     testing::writeFile(input, std::string(reinterpret_cast<const char*>(item.bytes.data()), item.bytes.size()));
 
     const double begin = childrensSeconds();
-    const testing::CommandResult result =
-        testing::runDroplet({"--quiet", "--triangles", std::to_string(kTriangles), "--channel",
-                             isGreymap(item) ? "luma" : "auto", input.string(), output.string()});
+    // Whoever runs us may be ended before it, and would leave it running for ever.
+    constexpr const char* kPatience = "60";  // [s]
+    const testing::CommandResult result = testing::runProgram(
+        {"timeout", kPatience, DROPLET_COMMAND, "--quiet", "--triangles", std::to_string(kTriangles), "--channel",
+         isGreymap(item) ? "luma" : "auto", input.string(), output.string()});
     Verdict verdict;
     verdict.seconds = childrensSeconds() - begin;
     const bool written = std::filesystem::exists(output) && std::filesystem::file_size(output) > 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "droplet/droplet.h"
+#include "droplet/footprint/mask.h"
 #include "droplet/shape/fill.h"
 #include "torture/corpus.h"
 
@@ -30,6 +32,10 @@ struct Verdict {
 /// The ways in which items take turns to be filled, the default first.
 inline constexpr std::size_t kFills = 4;
 Fill fillOf(std::size_t turn);
+
+/// What is wrong with droplets made of a mask, in one line: whether they are sound, filled as asked, all figures
+/// finite, and every border of the mask is a loop or was dropped as a speck. Empty if nothing is.
+std::string flawsOf(const Droplet& droplet, const Mask& mask, const Fill& fill);
 
 /// Takes an item from its bytes to the surface, all options but the fill and the number of triangles (5k) as they are
 /// by default, and proves the surface sound and the fill reached.

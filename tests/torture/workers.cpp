@@ -49,8 +49,7 @@ Record recordOf(const Verdict& verdict)
 
 Verdict verdictOf(const Record& record)
 {
-    return {record.outcome,   record.droplets, record.triangles, record.seconds, record.min_angle,
-            record.message.data()};
+    return {record.outcome, record.droplets, record.triangles, record.seconds, record.min_angle, record.message.data()};
 }
 
 void require(bool success, const char* what)
@@ -96,7 +95,7 @@ public:
     Worker(const std::function<Verdict(std::size_t)>& work, const WorkOptions& options)
     {
         std::array<int, 2> ends{};
-        require(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends.data()) == 0, "socketpair");
+        require(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) == 0, "socketpair");
         std::fflush(nullptr);
         process_ = fork();
         require(process_ >= 0, "fork");
@@ -203,7 +202,7 @@ void workThrough(std::size_t count, const std::function<Verdict(std::size_t inde
                 workers[k].reset();
                 continue;
             }
-            if (fallen) {
+            if (late || fallen) {
                 workers[k] = std::make_unique<Worker>(work, options);
             }
             workers[k]->give(next++);
