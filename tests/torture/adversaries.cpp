@@ -246,10 +246,10 @@ void addDithers(std::vector<Drawing>& drawings)
     drawings.push_back({"diffused", [] {
                             // R. W. Floyd and L. Steinberg, "An adaptive algorithm for spatial grayscale" (1976).
                             constexpr int kSide = 64;
-                            std::vector<double> error(kSide * (kSide + 2), 0.0);
+                            std::vector<double> error(std::size_t{kSide} * (kSide + 2), 0.0);
                             return levelMask(kSide, kSide, [&](int x, int y) {
                                 const auto at = [&](int u, int v) -> double& {
-                                    return error[static_cast<std::size_t>(v * kSide + u)];
+                                    return error[static_cast<std::size_t>(v) * kSide + static_cast<std::size_t>(u)];
                                 };
                                 const double grey = static_cast<double>(x) / kSide + at(x, y);
                                 const double level = grey >= 0.5 ? 1.0 : 0.0;
@@ -326,11 +326,11 @@ void addSizes(std::vector<Drawing>& drawings)
                                         {20000, 1},
                                         {20000, 2},
                                         {3, 7000}}) {
-        const std::string name = std::to_string(width) + "x" + std::to_string(height);
+        const std::string size = "_" + std::to_string(width) + "x" + std::to_string(height);
         const int w = width;
         const int h = height;
         const auto add = [&](const std::string& kind, const std::function<double(int, int)>& level) {
-            drawings.push_back({kind + "_" + name, [=] { return levelMask(w, h, level); }});
+            drawings.push_back({kind + size, [=] { return levelMask(w, h, level); }});
         };
         add("dry", [](int, int) { return 0.0; });
         add("liquid", [](int, int) { return 1.0; });

@@ -51,8 +51,10 @@ inline Mask coarseMask(int width, int height, const testing::Inside& inside)
     constexpr int kSamples = 4;
     return levelMask(width, height, [&](int x, int y) {
         int count = 0;
-        for (int k = 0; k < kSamples * kSamples; ++k) {
-            count += inside({x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples}) ? 1 : 0;
+        for (int row = 0; row < kSamples; ++row) {
+            for (int column = 0; column < kSamples; ++column) {
+                count += inside({x + (column + 0.5) / kSamples, y + (row + 0.5) / kSamples}) ? 1 : 0;
+            }
         }
         return static_cast<double>(count) / (kSamples * kSamples);
     });

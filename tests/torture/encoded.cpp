@@ -33,7 +33,8 @@ encoded::Raster raster(int side, int channels, int bits, int character, Random& 
 {
     encoded::Raster result{side, side, channels, bits, {}};
     for (int i = 0; i < side * side; ++i) {
-        const double r = std::hypot(i % side - 0.5 * side, i / side - 0.47 * side);
+        const int row = i / side;
+        const double r = std::hypot(i % side - 0.5 * side, row - 0.47 * side);
         const double disc = 0.5 + 0.4 * (0.35 * side - r);
         for (int c = 0; c < channels; ++c) {
             const double noise = random.real();

@@ -4,9 +4,10 @@
 //   torture [...] FILE|FOLDER...
 //
 // Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
-// theme, of noise and of drawings; else of the pictures named, each filled in every way. Each must give sound droplets
-// or be refused with a reason, within 2 s of processor time. Every 101st goes through the command, too. One line
-// tells of every corpus, one of every failure, whose picture is kept in the folder: `torture FILE` tries it again.
+// theme, of noise and of drawings; else of the files named. Each must give sound droplets or be refused with a reason,
+// within 2 s of processor time. Pictures take turns in how they are filled, and every 101st goes through the command,
+// too. One line tells of every corpus, one of every failure, whose picture is kept in the folder: `torture FILE` tries
+// it again, filled in every way.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -143,6 +144,7 @@ std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
         if (verdict.outcome == Outcome::Failed) {
             const auto kept = keep(corpus.item(item_of(task)), corpus.name, options.failures);
             std::printf("FAILED %s, fill %zu: %s\n", kept.c_str(), task % kFills, verdict.message.c_str());
+            std::fflush(stdout);
         }
     };
     WorkOptions work_options;
@@ -153,26 +155,24 @@ std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
     return tally.failed();
 }
 
-int runAll(const Options& options)
+std::size_t runAll(const Options& options)
 {
-    std::size_t failed = 0;
     if (!options.paths.empty()) {
-        failed = run(files(options.paths), options, true);
-    } else {
-        for (const auto& corpus :
-             {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns, encodedNoise}) {
-            failed += run(corpus(), options, false);
-        }
+        const bool folders = std::any_of(options.paths.begin(), options.paths.end(),
+                                         [](const auto& path) { return std::filesystem::is_directory(path); });
+        return run(files(options.paths), options, !folders);
     }
-    return failed == 0 ? 0 : 1;
+    std::size_t failed = 0;
+    for (const auto& corpus :
+         {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns, encodedNoise}) {
+        failed += run(corpus(), options, false);
+    }
+    return failed;
 }
 
-}  // namespace
-}  // namespace droplet::torture
-
-int main(int argc, char** argv)
+int start(int argc, char** argv)
 {
-    droplet::torture::Options options;
+    Options options;
     CLI::App app("Makes droplets of thousands of pictures that mean no good");
     app.add_option("paths", options.paths, "pictures, or folders of them, in place of the usual ones");
     app.add_option("--every", options.every, "take only each so manieth item")->check(CLI::PositiveNumber);
@@ -181,9 +181,17 @@ int main(int argc, char** argv)
     app.add_option("--failures", options.failures, "folder that keeps pictures of failures");
     CLI11_PARSE(app, argc, argv);
     // Expectations are looked at outside of tests.
-    testing::InitGoogleTest();
+    ::testing::InitGoogleTest();
+    return runAll(options) == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace droplet::torture
+
+int main(int argc, char** argv)
+{
     try {
-        return droplet::torture::runAll(options);
+        return droplet::torture::start(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "torture: %s\n", error.what());
         return 1;

@@ -177,6 +177,7 @@ void workThrough(std::size_t count, const std::function<Verdict(std::size_t inde
     }
     while (!workers.empty()) {
         std::vector<pollfd> events;
+        events.reserve(workers.size());
         for (const auto& worker : workers) {
             events.push_back({worker->socket(), POLLIN, 0});
         }

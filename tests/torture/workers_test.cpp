@@ -51,7 +51,7 @@ Verdict misbehave(std::size_t index)
 TEST(Workers, TellOfEveryItemWhateverBecameOfIt)
 {
     constexpr std::size_t kCount = 40;
-    for (const std::size_t team : {1, 3, 100}) {
+    for (const std::size_t team : {1U, 3U, 100U}) {
         SCOPED_TRACE(team);
         std::map<std::size_t, Verdict> verdicts;
         WorkOptions options;
