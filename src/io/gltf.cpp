@@ -9,15 +9,19 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
+#include <streambuf>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "droplet/error.h"
 #include "droplet/version.h"
 #include "io/axes.h"
-#include "io/little_endian.h"
+#include "io/byte_stream.h"
 
 namespace droplet {
 namespace {
@@ -82,6 +86,15 @@ void checkFileSize(const Surface& surface, bool binary)
     }
 }
 
+// Before the first byte is written; of positions the bounds tell, and normals are unit.
+void checkUvs(const Surface& surface)
+{
+    for (const Vec2& uv : surface.uvs) {
+        toFloat(uv.x);
+        toFloat(uv.y);
+    }
+}
+
 tinygltf::Value::Array colourValue(const std::array<double, 3>& colour)
 {
     return {tinygltf::Value(colour[0]), tinygltf::Value(colour[1]), tinygltf::Value(colour[2])};
@@ -115,100 +128,49 @@ tinygltf::Material makeMaterial(const Look& look, const Surface& surface, bool c
     return material;
 }
 
-// Appends one array to the buffer, with the view and the accessor on it; returns the accessor.
-class BufferBuilder {
-public:
-    BufferBuilder(tinygltf::Model& model, std::size_t bytes) : model_(model)
-    {
-        model_.buffers.emplace_back();
-        data().reserve(bytes);
-    }
+std::size_t bufferBytes(const tinygltf::Model& model)
+{
+    return model.bufferViews.empty() ? 0 : model.bufferViews.back().byteOffset + model.bufferViews.back().byteLength;
+}
 
-    std::vector<unsigned char>& data() { return model_.buffers.front().data; }
+// Puts an array behind the last one in the buffer; returns the accessor on it.
+int addArray(tinygltf::Model& model, int target, int component_type, int type, std::size_t count)
+{
+    const int element_bytes = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)) *
+                              tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = bufferBytes(model);
+    view.byteLength = count * static_cast<std::size_t>(element_bytes);
+    view.target = target;
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size());
+    accessor.componentType = component_type;
+    accessor.type = type;
+    accessor.count = count;
+    model.bufferViews.push_back(std::move(view));
+    model.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model.accessors.size()) - 1;
+}
 
-    int finish(int target, int component_type, int type, std::size_t count)
-    {
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = begin_;
-        view.byteLength = data().size() - begin_;
-        view.target = target;
-        begin_ = data().size();
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-        accessor.componentType = component_type;
-        accessor.type = type;
-        accessor.count = count;
-        model_.bufferViews.push_back(std::move(view));
-        model_.accessors.push_back(std::move(accessor));
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
+int addVertexArray(tinygltf::Model& model, int type, std::size_t count)
+{
+    return addArray(model, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);
+}
 
-private:
-    tinygltf::Model& model_;
-    std::size_t begin_ = 0;
-};
-
-// Positions within half an ulp of float: of a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest mesh
-// that fits a file. What little closer vertices would merge to stays closed, as faces go by index and welded copies
-// round alike; normals are stored, so no flat triangle asks for one.
-int addPositions(BufferBuilder& buffer, tinygltf::Model& model, const Surface& surface)
+// Bounds of the floats, exactly: rounding keeps the order of numbers.
+void addBounds(tinygltf::Accessor& accessor, const std::vector<Vec3>& positions)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    std::vector<double> low(3, kInfinity);
-    std::vector<double> high(3, -kInfinity);
-    for (const Vec3& position : surface.positions) {
+    Vec3 low{kInfinity, kInfinity, kInfinity};
+    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
+    for (const Vec3& position : positions) {
         const Vec3 up = yUp(position);
-        const std::array<double, 3> coordinates = {up.x, up.y, up.z};
-        for (std::size_t k = 0; k < 3; ++k) {
-            appendFloat(buffer.data(), coordinates[k]);
-            // The bounds must be those of the floats, exactly.
-            const double rounded = static_cast<double>(toFloat(coordinates[k]));
-            low[k] = std::min(low[k], rounded);
-            high[k] = std::max(high[k], rounded);
-        }
+        low = {std::min(low.x, up.x), std::min(low.y, up.y), std::min(low.z, up.z)};
+        high = {std::max(high.x, up.x), std::max(high.y, up.y), std::max(high.z, up.z)};
     }
-    const int accessor = buffer.finish(TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                       surface.positions.size());
-    model.accessors.back().minValues = std::move(low);
-    model.accessors.back().maxValues = std::move(high);
-    return accessor;
-}
-
-int addNormals(BufferBuilder& buffer, const Surface& surface)
-{
-    for (const Vec3& normal : surface.normals) {
-        const Vec3 up = yUp(normal);
-        appendFloat(buffer.data(), up.x);
-        appendFloat(buffer.data(), up.y);
-        appendFloat(buffer.data(), up.z);
-    }
-    return buffer.finish(TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                         surface.normals.size());
-}
-
-// glTF's texture origin is the upper left, as the mask's.
-int addUvs(BufferBuilder& buffer, const Surface& surface)
-{
-    for (const Vec2& uv : surface.uvs) {
-        appendFloat(buffer.data(), uv.x);
-        appendFloat(buffer.data(), uv.y);
-    }
-    return buffer.finish(TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2,
-                         surface.uvs.size());
-}
-
-int addIndices(BufferBuilder& buffer, const Surface& surface)
-{
-    const bool wide = wideIndices(surface);
-    for (const Triangle& triangle : surface.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            appendBytes(buffer.data(), vertex, wide ? 4 : 2);
-        }
-    }
-    return buffer.finish(TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
-                         wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                         TINYGLTF_TYPE_SCALAR, 3 * surface.triangles.size());
+    accessor.minValues = {toFloat(low.x), toFloat(low.y), toFloat(low.z)};
+    accessor.maxValues = {toFloat(high.x), toFloat(high.y), toFloat(high.z)};
 }
 
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
@@ -222,14 +184,18 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
         model.extensionsUsed.push_back(extension);
     }
 
-    BufferBuilder buffer(model, kVertexBytes * surface.positions.size() + 12 * surface.triangles.size());
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
-    primitive.attributes["POSITION"] = addPositions(buffer, model, surface);
-    primitive.attributes["NORMAL"] = addNormals(buffer, surface);
-    primitive.attributes["TEXCOORD_0"] = addUvs(buffer, surface);
-    primitive.indices = addIndices(buffer, surface);
+    const std::size_t vertices = surface.positions.size();
+    primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
+    addBounds(model.accessors.back(), surface.positions);
+    primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
+    primitive.attributes["TEXCOORD_0"] = addVertexArray(model, TINYGLTF_TYPE_VEC2, vertices);
+    primitive.indices =
+        addArray(model, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                 wideIndices(surface) ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                 TINYGLTF_TYPE_SCALAR, 3 * surface.triangles.size());
 
     tinygltf::Mesh mesh;
     mesh.name = "droplet";
@@ -246,6 +212,125 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     return model;
 }
 
+// tinygltf makes the JSON, but of a model without a buffer: it would hold the buffer's bytes three times before the
+// first one is written. Only their number, and where the bytes themselves stand in text, is added.
+nlohmann::json jsonOf(const tinygltf::Model& model)
+{
+    constexpr bool kPretty = false;
+    constexpr bool kBinary = false;
+    std::stringstream text;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, kPretty, kBinary);
+    nlohmann::json json = nlohmann::json::parse(text);
+    json["buffers"] = {{{"byteLength", bufferBytes(model)}}};
+    return json;
+}
+
+// Positions within half an ulp of float: of a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest mesh
+// that fits a file. What little closer vertices would merge to stays closed, as faces go by index and welded copies
+// round alike; normals are stored, so no flat triangle asks for one.
+void writeBuffer(const Surface& surface, ByteStream& bytes)
+{
+    for (const Vec3& position : surface.positions) {
+        const Vec3 up = yUp(position);
+        bytes.f32(up.x, up.y, up.z);
+    }
+    for (const Vec3& normal : surface.normals) {
+        const Vec3 up = yUp(normal);
+        bytes.f32(up.x, up.y, up.z);
+    }
+    for (const Vec2& uv : surface.uvs) {  // glTF's texture origin is the upper left, as the mask's
+        bytes.f32(uv.x, uv.y);
+    }
+    for (const auto& [a, b, c] : surface.triangles) {
+        if (wideIndices(surface)) {
+            bytes.u32(a, b, c);
+        } else {
+            bytes.u16(a, b, c);
+        }
+    }
+}
+
+constexpr std::size_t padding(std::size_t bytes)
+{
+    return (4 - bytes % 4) % 4;
+}
+
+// GLB file format: a header of three words, then chunks of whole words, JSON filled up with spaces, the buffer with 0.
+void writeBinary(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
+{
+    std::string json = jsonOf(model).dump();
+    json.append(padding(json.size()), ' ');
+    const std::string zeros(padding(bufferBytes(model)), '\0');
+    const std::size_t buffer_bytes = bufferBytes(model) + zeros.size();
+    constexpr std::size_t kHeaders = 12 + 8 + 8;
+    bytes.text("glTF");
+    bytes.u32(2, kHeaders + json.size() + buffer_bytes, json.size());
+    bytes.text("JSON");
+    bytes.text(json);
+    bytes.u32(buffer_bytes);
+    bytes.text("BIN");
+    bytes.u8(0);
+    writeBuffer(surface, bytes);
+    bytes.text(zeros);
+}
+
+// Encodes what it is given: S. Josefsson, RFC 4648 (2006), section 4.
+class Base64Buffer : public std::streambuf {
+public:
+    explicit Base64Buffer(ByteStream& text) : text_(text) {}
+
+    void finish()
+    {
+        if (filled_ > 0) {
+            const int missing = 3 - filled_;
+            group_ <<= 8 * missing;
+            text_.u8(sign(18), sign(12), missing == 1 ? sign(6) : '=', '=');
+        }
+    }
+
+protected:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override
+    {
+        for (std::streamsize i = 0; i < count; ++i) {
+            group_ = group_ << 8 | static_cast<unsigned char>(bytes[i]);
+            if (++filled_ == 3) {
+                text_.u8(sign(18), sign(12), sign(6), sign(0));
+                filled_ = 0;
+            }
+        }
+        return count;
+    }
+
+private:
+    [[nodiscard]] char sign(int shift) const
+    {
+        constexpr const char* kSigns = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        return kSigns[group_ >> shift & 63U];
+    }
+
+    ByteStream& text_;
+    std::uint32_t group_ = 0;
+    int filled_ = 0;
+};
+
+void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
+{
+    nlohmann::json json = jsonOf(model);
+    const std::string uri = "data:application/octet-stream;base64,";
+    json["buffers"][0]["uri"] = uri;
+    const std::string text = json.dump(2);
+    const std::size_t buffer_begin = text.find(uri) + uri.size();
+    bytes.text(std::string_view(text).substr(0, buffer_begin));
+    Base64Buffer base64(bytes);
+    std::ostream encoded(&base64);
+    ByteStream buffer(encoded);
+    writeBuffer(surface, buffer);
+    buffer.finish();
+    base64.finish();
+    bytes.text(std::string_view(text).substr(buffer_begin));
+    bytes.text("\n");
+}
+
 }  // namespace
 
 Material materialNamed(std::string_view name)
@@ -260,14 +345,19 @@ Material materialNamed(std::string_view name)
     throw Error(ErrorCode::InvalidArgument, "material \"" + std::string(name) + "\" is unknown; known are" + known);
 }
 
-void writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
+std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
     checkFileSize(surface, options.binary);
     surface.validate();
+    checkUvs(surface);
     const tinygltf::Model model = makeModel(surface, options);
-    constexpr bool kPretty = true;
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, kPretty, options.binary);
-    out.flush();  // its result is always true; only the stream knows, and only once its buffer is gone
+    ByteStream bytes(out);
+    if (options.binary) {
+        writeBinary(surface, model, bytes);
+    } else {
+        writeText(surface, model, bytes);
+    }
+    return bytes.finish();
 }
 
 }  // namespace droplet

@@ -6,10 +6,8 @@
 // its options in a global, STL prints on stderr; all drop triangles its half-edges cannot hold.
 #include "droplet/io/mesh_files.h"
 
-#include <array>
 #include <charconv>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <ostream>
 #include <string>
@@ -20,13 +18,12 @@
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "io/axes.h"
-#include "io/little_endian.h"
+#include "io/byte_stream.h"
 
 namespace droplet {
 namespace {
 
-constexpr int kSignificantDigits = 9;                 // as many as tell any two floats apart
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes gathered before the stream is bothered
+constexpr int kSignificantDigits = 9;  // as many as tell any two floats apart
 constexpr std::size_t kStlHeaderBytes = 80;
 
 Vec3 millimetres(Vec3 a)
@@ -40,59 +37,21 @@ Vec2 fromBelow(Vec2 uv)
     return {uv.x, 1.0 - uv.y};
 }
 
-// Passes on what was gathered once it is worth it.
-class Chunks {
-public:
-    explicit Chunks(std::ostream& out) : out_(out) { bytes_.reserve(2 * kChunk); }
-
-    std::string& bytes()
-    {
-        if (bytes_.size() >= kChunk) {
-            passOn();
-        }
-        return bytes_;
-    }
-
-    void finish()
-    {
-        passOn();
-        out_.flush();
-    }
-
-private:
-    void passOn()
-    {
-        out_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
-        bytes_.clear();
-    }
-
-    std::ostream& out_;
-    std::string bytes_;
-};
-
-void appendText(std::string& text, double value)
+template <class... Numbers>
+void writeLine(ByteStream& bytes, std::string_view key, Numbers... values)
 {
-    std::array<char, 32> digits{};  // sign, 9 digits, point, exponent of three digits
-    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general,
-                                      kSignificantDigits);
-    text.append(digits.data(), result.ptr);
+    const auto write = [&](double value) {
+        bytes.u8(' ');
+        bytes.digits(value, std::chars_format::general, kSignificantDigits);
+    };
+    bytes.text(key);
+    (write(values), ...);
+    bytes.u8('\n');
 }
 
-void appendLine(std::string& text, std::string_view key, std::initializer_list<double> values)
+void writeVec3(ByteStream& bytes, Vec3 a)
 {
-    text += key;
-    for (const double value : values) {
-        text += ' ';
-        appendText(text, value);
-    }
-    text += '\n';
-}
-
-void appendVec3(std::string& bytes, Vec3 a)
-{
-    appendFloat(bytes, a.x);
-    appendFloat(bytes, a.y);
-    appendFloat(bytes, a.z);
+    bytes.f32(a.x, a.y, a.z);
 }
 
 // Number of every welded vertex in order of first appearance, for each vertex of the surface.
@@ -131,42 +90,41 @@ std::string signature()
 
 }  // namespace
 
-void writeObj(const Surface& surface, std::ostream& out)
+std::uint64_t writeObj(const Surface& surface, std::ostream& out)
 {
     surface.validate();
     const Welded welded = weldVertices(surface);
-    Chunks chunks(out);
-    chunks.bytes() += "# " + signature() + "\n# unit: millimetre, up: +Y, front: +Z\no droplet\n";
+    ByteStream bytes(out);
+    bytes.text("# " + signature() + "\n# unit: millimetre, up: +Y, front: +Z\no droplet\n");
     for (const std::uint32_t i : welded.first) {
         const Vec3 at = yUp(millimetres(surface.positions[i]));
-        appendLine(chunks.bytes(), "v", {at.x, at.y, at.z});
+        writeLine(bytes, "v", at.x, at.y, at.z);
     }
     for (const Vec2& uv : surface.uvs) {
         const Vec2 texture = fromBelow(uv);
-        appendLine(chunks.bytes(), "vt", {texture.x, texture.y});
+        writeLine(bytes, "vt", texture.x, texture.y);
     }
     for (const Vec3& normal : surface.normals) {
         const Vec3 up = yUp(normal);
-        appendLine(chunks.bytes(), "vn", {up.x, up.y, up.z});
+        writeLine(bytes, "vn", up.x, up.y, up.z);
     }
     for (const Triangle& triangle : surface.triangles) {
-        std::string& text = chunks.bytes();
-        text += 'f';
+        bytes.u8('f');
         for (const std::uint32_t vertex : triangle) {
-            const std::string own = std::to_string(vertex + std::uint64_t{1});
-            text += ' ';
-            text += std::to_string(welded.number[vertex] + std::uint64_t{1});
-            text += '/';
-            text += own;
-            text += '/';
-            text += own;
+            const std::uint64_t own = vertex + std::uint64_t{1};
+            bytes.u8(' ');
+            bytes.digits(welded.number[vertex] + std::uint64_t{1});
+            bytes.u8('/');
+            bytes.digits(own);
+            bytes.u8('/');
+            bytes.digits(own);
         }
-        text += '\n';
+        bytes.u8('\n');
     }
-    chunks.finish();
+    return bytes.finish();
 }
 
-void writePly(const Surface& surface, std::ostream& out)
+std::uint64_t writePly(const Surface& surface, std::ostream& out)
 {
     surface.validate();
     const Welded welded = weldVertices(surface);
@@ -174,59 +132,52 @@ void writePly(const Surface& surface, std::ostream& out)
         throw Error(ErrorCode::InvalidArgument,
                     "surface has " + std::to_string(welded.first.size()) + " places; PLY indices reach 2147483647");
     }
-    Chunks chunks(out);
-    chunks.bytes() += "ply\nformat binary_little_endian 1.0\ncomment " + signature() +
-                      "\ncomment unit: metre, up: z\n"
-                      "element vertex " +
-                      std::to_string(welded.first.size()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\n"
-                      "property float nx\nproperty float ny\nproperty float nz\n"
-                      "property float s\nproperty float t\n"
-                      "element face " +
-                      std::to_string(surface.triangles.size()) +
-                      "\nproperty list uchar int vertex_indices\nend_header\n";
+    ByteStream bytes(out);
+    bytes.text("ply\nformat binary_little_endian 1.0\ncomment " + signature() +
+               "\ncomment unit: metre, up: z\n"
+               "element vertex " +
+               std::to_string(welded.first.size()) +
+               "\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float nx\nproperty float ny\nproperty float nz\n"
+               "property float s\nproperty float t\n"
+               "element face " +
+               std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
     for (const std::uint32_t i : welded.first) {
-        std::string& bytes = chunks.bytes();
-        appendVec3(bytes, surface.positions[i]);
-        appendVec3(bytes, surface.normals[i]);
+        writeVec3(bytes, surface.positions[i]);
+        writeVec3(bytes, surface.normals[i]);
         const Vec2 texture = fromBelow(surface.uvs[i]);
-        appendFloat(bytes, texture.x);
-        appendFloat(bytes, texture.y);
+        bytes.f32(texture.x, texture.y);
     }
-    for (const Triangle& triangle : surface.triangles) {
-        std::string& bytes = chunks.bytes();
-        bytes.push_back(3);
-        for (const std::uint32_t vertex : triangle) {
-            appendU32(bytes, welded.number[vertex]);
-        }
+    for (const auto& [a, b, c] : surface.triangles) {
+        bytes.u8(3);
+        bytes.u32(welded.number[a], welded.number[b], welded.number[c]);
     }
-    chunks.finish();
+    return bytes.finish();
 }
 
-void writeStl(const Surface& surface, std::ostream& out)
+std::uint64_t writeStl(const Surface& surface, std::ostream& out)
 {
     surface.validate();
     if (surface.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
                                                     " triangles; STL counts up to 4294967295");
     }
-    Chunks chunks(out);
+    ByteStream bytes(out);
     std::string header = signature() + ", millimetres, z up";  // must not begin with "solid", the mark of text
     header.resize(kStlHeaderBytes, ' ');
-    chunks.bytes() += header;
-    appendU32(chunks.bytes(), static_cast<std::uint32_t>(surface.triangles.size()));
+    bytes.text(header);
+    bytes.u32(surface.triangles.size());
     for (const auto& [a, b, c] : surface.triangles) {
-        std::string& bytes = chunks.bytes();
         const Vec3 at_a = millimetres(surface.positions[a]);
         const Vec3 at_b = millimetres(surface.positions[b]);
         const Vec3 at_c = millimetres(surface.positions[c]);
-        appendVec3(bytes, facetNormal(at_a, at_b, at_c));
-        appendVec3(bytes, at_a);
-        appendVec3(bytes, at_b);
-        appendVec3(bytes, at_c);
-        appendU16(bytes, 0);  // no attribute
+        writeVec3(bytes, facetNormal(at_a, at_b, at_c));
+        writeVec3(bytes, at_a);
+        writeVec3(bytes, at_b);
+        writeVec3(bytes, at_c);
+        bytes.u16(0);  // no attribute
     }
-    chunks.finish();
+    return bytes.finish();
 }
 
 }  // namespace droplet

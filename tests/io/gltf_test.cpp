@@ -19,6 +19,7 @@
 #include "droplet/error.h"
 #include "droplet/io/output.h"
 #include "droplet/version.h"
+#include "support/pieces.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -26,13 +27,15 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::kExtent;
+using testing::Pieces;
 using testing::roundDroplet;
 
 std::string written(const Surface& surface, const GltfOptions& options = {})
 {
     std::ostringstream out;
-    writeGltf(surface, out, options);
+    const std::uint64_t bytes = writeGltf(surface, out, options);
     EXPECT_TRUE(out.good());
+    EXPECT_EQ(bytes, out.str().size());
     return out.str();
 }
 
@@ -194,6 +197,29 @@ TEST_P(Gltf, TheSameSurfaceGivesTheSameBytes)
     EXPECT_EQ(written(roundDroplet(), options), written(roundDroplet(), options));
 }
 
+TEST_P(Gltf, IsByteForByteWhatTinygltfWrites)
+{
+    for (const Surface& surface : {roundDroplet(), strip(5), strip(70'000)}) {
+        for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
+            const std::string bytes = written(surface, {.binary = GetParam(), .material = materialNamed(name)});
+            const tinygltf::Model model = parsed(bytes, GetParam());
+            std::ostringstream again;
+            tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, again, true, GetParam());
+            EXPECT_TRUE(bytes == again.str()) << name;
+        }
+    }
+}
+
+TEST_P(Gltf, IsNeverHeldWhole)
+{
+    const Surface surface = strip(70'000);
+    Pieces pieces;
+    std::ostream out(&pieces);
+    writeGltf(surface, out, {.binary = GetParam()});
+    EXPECT_GT(pieces.taken().size(), 3'000'000U);
+    EXPECT_LE(pieces.largest(), 65'536U);
+}
+
 TEST_P(Gltf, NamesItsMakerAndNoTime)
 {
     const tinygltf::Model model = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
@@ -221,6 +247,7 @@ TEST_P(Gltf, RefusesWhatIsNotFinite)
         [](Surface& s) { s.positions[0].x = 1e39; },  // finite, but not as a float
         [](Surface& s) { s.normals[3].x = kNan; },
         [](Surface& s) { s.uvs[3].y = kNan; },
+        [](Surface& s) { s.uvs.back().y = -1e39; },
         [](Surface& s) { s.mean_height = kNan; },
     };
     for (std::size_t i = 0; i < spoils.size(); ++i) {
@@ -292,6 +319,21 @@ TEST(GltfText, HoldsTheSameBufferAsTheBinary)
     EXPECT_EQ(from_text.buffers.at(0).data, from_binary.buffers.at(0).data);
     EXPECT_EQ(from_text.accessors, from_binary.accessors);
     EXPECT_EQ(from_text.materials, from_binary.materials);
+}
+
+// Base64 fills up what is no multiple of three bytes.
+TEST(GltfText, HoldsBuffersOfAnyLength)
+{
+    std::vector<std::size_t> fills(3);
+    for (std::uint32_t vertices = 3; vertices < 12; ++vertices) {
+        const std::string text = written(strip(vertices), {.binary = false});
+        const tinygltf::Model from_text = parsed(text, false);
+        EXPECT_EQ(from_text.buffers.at(0).data, parsed(written(strip(vertices)), true).buffers.at(0).data);
+        const auto end = text.find('"', text.find("base64,"));
+        ++fills.at(
+            static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '=')));
+    }
+    EXPECT_THAT(fills, ::testing::Each(3));
 }
 
 class GltfMaterial : public ::testing::Test {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -28,13 +29,14 @@ using ::testing::HasSubstr;
 using testing::RoundDroplet;
 using testing::roundDroplet;
 
-using Writer = void (*)(const Surface&, std::ostream&);
+using Writer = std::uint64_t (*)(const Surface&, std::ostream&);
 
 std::string written(Writer writer, const Surface& surface)
 {
     std::ostringstream out;
-    writer(surface, out);
+    const std::uint64_t bytes = writer(surface, out);
     EXPECT_TRUE(out.good());
+    EXPECT_EQ(bytes, out.str().size());
     return out.str();
 }
 

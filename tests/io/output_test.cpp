@@ -179,7 +179,7 @@ protected:
 
 TEST_F(Output, WritesEveryByteAndCountsThem)
 {
-    for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 1'000'000U}) {
+    for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 9'500'000U}) {
         std::string bytes(size, ' ');
         for (std::size_t i = 0; i < size; ++i) {
             bytes[i] = static_cast<char>(i * 31);
@@ -204,7 +204,8 @@ TEST_F(Output, WritesAWholeSurfaceInEveryFormat)
     const Surface surface = testing::roundDroplet();
     for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl}) {
         std::ostringstream expected;
-        writeSurface(surface, expected, format);
+        const std::uint64_t size = writeSurface(surface, expected, format);
+        EXPECT_EQ(size, expected.str().size());
         const auto bytes = writeWhole(target, [&](std::ostream& out) { writeSurface(surface, out, format); });
         EXPECT_EQ(bytes, expected.str().size());
         EXPECT_EQ(contentOf(target), expected.str());
@@ -644,10 +645,26 @@ TEST(WriteSurface, GivesVolumeToClosedSurfacesOnly)
     }
 }
 
+TEST(WriteSurface, DoesNotLookAgainAtWhatIsKnown)
+{
+    const Surface closed = testing::roundDroplet();
+    for (const Format format : {Format::Glb, Format::Gltf}) {
+        std::ostringstream unknown;
+        std::ostringstream known;
+        std::ostringstream said_open;
+        writeSurface(closed, unknown, format);
+        writeSurface(closed, known, format, {.closed = true});
+        writeSurface(closed, said_open, format, {.closed = false});
+        EXPECT_EQ(unknown.str(), known.str());
+        EXPECT_THAT(known.str(), HasSubstr("KHR_materials_volume"));
+        EXPECT_THAT(said_open.str(), Not(HasSubstr("KHR_materials_volume")));
+    }
+}
+
 TEST(WriteSurface, PassesTheMaterialOn)
 {
     std::ostringstream out;
-    writeSurface(testing::roundDroplet(), out, Format::Gltf, Material::Mercury);
+    writeSurface(testing::roundDroplet(), out, Format::Gltf, {.material = Material::Mercury});
     EXPECT_THAT(out.str(), HasSubstr("\"name\": \"mercury\""));
 }
 

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -30,8 +32,55 @@ struct Expected {
     std::size_t loops;
 };
 
+// A manifold's Euler number, components and boundary loops once more, by half-edges.
+Expected byHalfEdges(const Surface& surface)
+{
+    OpenMesh::TriConnectivity mesh;
+    std::map<std::uint32_t, OpenMesh::VertexHandle> handles;
+    for (const Triangle& triangle : surface.triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            auto& handle = handles[surface.weld[vertex]];
+            handle = handle.is_valid() ? handle : mesh.new_vertex();
+        }
+        const auto handle = [&](std::uint32_t vertex) { return handles.at(surface.weld[vertex]); };
+        EXPECT_TRUE(mesh.add_face(handle(triangle[0]), handle(triangle[1]), handle(triangle[2])).is_valid());
+    }
+    Expected found{static_cast<long>(mesh.n_vertices() + mesh.n_faces()) - static_cast<long>(mesh.n_edges()), 0, 0};
+    std::set<int> seen_vertices;
+    for (const auto start : mesh.vertices()) {
+        std::vector<OpenMesh::VertexHandle> open;
+        if (seen_vertices.insert(start.idx()).second) {
+            ++found.components;
+            open.push_back(start);
+        }
+        while (!open.empty()) {
+            const OpenMesh::VertexHandle at = open.back();
+            open.pop_back();
+            for (auto next = mesh.cvv_begin(at); next.is_valid(); ++next) {
+                if (seen_vertices.insert(next->idx()).second) {
+                    open.push_back(*next);
+                }
+            }
+        }
+    }
+    std::set<int> seen_boundary;
+    for (const auto start : mesh.halfedges()) {
+        if (mesh.is_boundary(start) && seen_boundary.count(start.idx()) == 0) {
+            ++found.loops;
+            for (OpenMesh::HalfedgeHandle at = start; seen_boundary.insert(at.idx()).second;) {
+                at = mesh.next_halfedge_handle(at);
+            }
+        }
+    }
+    return found;
+}
+
 void expectManifold(const Surface& surface, const Expected& expected)
 {
+    const Expected half_edges = byHalfEdges(surface);
+    EXPECT_EQ(half_edges.euler, expected.euler);
+    EXPECT_EQ(half_edges.components, expected.components);
+    EXPECT_EQ(half_edges.loops, expected.loops);
     const Topology found = topology(surface);
     EXPECT_TRUE(found.manifold);
     EXPECT_EQ(found.closed, expected.loops == 0);
@@ -228,10 +277,87 @@ TEST(Topology, AgreesWithTheDefinitionOnEverySmallSoup)
             ASSERT_EQ(found.euler,
                       static_cast<long>(vertices.size() + triangles.size()) - static_cast<long>(edges.size()));
             ASSERT_EQ(found.closed, 2 * edges.size() == 3 * triangles.size());
+            const Expected half_edges = byHalfEdges(soup(triangles, kVertices));
+            ASSERT_EQ(found.euler, half_edges.euler);
+            ASSERT_EQ(found.components, half_edges.components);
+            ASSERT_EQ(found.boundary_loops, half_edges.loops);
         }
     }
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     EXPECT_GT(manifolds, 500);
+}
+
+// A vertex of few triangles is looked at in another way than one of many.
+TEST(Topology, AgreesWithTheDefinitionAroundVerticesOfAnyValence)
+{
+    std::mt19937 random(3);
+    std::map<bool, int> runs;
+    for (std::uint32_t valence = 2; valence <= 30; ++valence) {
+        for (int run = 0; run < 200; ++run) {
+            // A wheel around vertex 0, spoilt in up to two places.
+            std::vector<Triangle> triangles;
+            for (std::uint32_t k = 0; k < valence; ++k) {
+                triangles.push_back({0, 1 + k, 1 + (k + 1) % valence});
+            }
+            for (auto spoils = random() % 3; spoils > 0 && !triangles.empty(); --spoils) {
+                const auto at = static_cast<std::ptrdiff_t>(random() % triangles.size());
+                const auto other = 1 + static_cast<std::uint32_t>(random() % valence);
+                switch (random() % 4) {
+                    case 0:  // a gap
+                        triangles.erase(triangles.begin() + at);
+                        break;
+                    case 1:
+                        triangles.push_back(triangles[static_cast<std::size_t>(at)]);
+                        break;
+                    case 2:
+                        triangles[static_cast<std::size_t>(at)][1 + random() % 2] = other;
+                        break;
+                    default:
+                        triangles.push_back({0, other, 1 + static_cast<std::uint32_t>(random() % valence)});
+                }
+            }
+            if (triangles.empty()) {
+                continue;
+            }
+            std::shuffle(triangles.begin(), triangles.end(), random);
+            const Surface surface = soup(triangles, valence + 1);
+            const Topology found = topology(surface);
+            ASSERT_EQ(found.manifold, manifoldByDefinition(triangles)) << "valence " << valence << ", run " << run;
+            ASSERT_EQ(isClosed(surface), found.closed);
+            if (found.manifold) {
+                const Expected half_edges = byHalfEdges(surface);
+                ASSERT_EQ(found.euler, half_edges.euler);
+                ASSERT_EQ(found.components, half_edges.components);
+                ASSERT_EQ(found.boundary_loops, half_edges.loops);
+                ASSERT_EQ(found.closed, half_edges.loops == 0);
+            }
+            ++runs[found.manifold];
+        }
+    }
+    EXPECT_GT(runs[true], 1000);
+    EXPECT_GT(runs[false], 1000);
+}
+
+TEST(Topology, ManyThreadsFindTheSame)
+{
+    // Every ring of triangles is a component of its own, of two boundary loops.
+    Surface surface = roundDroplet({.inner = 1e-3, .open = true});
+    for (int k = 0; k < 8; ++k) {
+        surface = together(surface, surface);
+    }
+    ASSERT_GT(surface.positions.size(), 12'000U);
+    for (const std::size_t threads : {1U, 4U}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        const Topology found = topology(surface);
+        EXPECT_TRUE(found.manifold);
+        EXPECT_EQ(found.euler, 0);
+        EXPECT_EQ(found.components, 256U);
+        EXPECT_EQ(found.boundary_loops, 512U);
+        // Trouble in the last of all parts.
+        Surface spoilt = surface;
+        std::swap(spoilt.triangles.back()[0], spoilt.triangles.back()[1]);
+        EXPECT_FALSE(topology(spoilt).manifold);
+    }
 }
 
 TEST(EnclosedVolume, OfAPyramidIsAThirdOfBaseTimesHeight)
@@ -307,6 +433,31 @@ TEST(Surface, RefusesWhatBreaksItsInvariants)
         }
         EXPECT_THROW(topology(surface), Error);
         EXPECT_THROW(isClosed(surface), Error);
+    }
+}
+
+TEST(Surface, NamesTheFirstFaultOfAllAtAnyNumberOfThreads)
+{
+    Surface surface = roundDroplet({.rings = 100, .segments = 300});
+    const std::size_t count = surface.positions.size();
+    ASSERT_GT(count, 60'000U);
+    const auto complaint = [&] {
+        try {
+            surface.validate();
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    surface.triangles[50'001][1] = surface.triangles[100'001][2] = static_cast<std::uint32_t>(count);
+    for (const std::size_t threads : {1U, 4U}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_THAT(complaint(), ::testing::HasSubstr("surface.triangles[50001]"));
+    }
+    surface.uvs[41'234].y = surface.uvs[59'999].x = surface.normals[50'000].z = std::numeric_limits<double>::infinity();
+    for (const std::size_t threads : {1U, 4U}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_THAT(complaint(), ::testing::HasSubstr("surface.uvs[41234]"));
     }
 }
 

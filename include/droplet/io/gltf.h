@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <string_view>
 
@@ -27,7 +28,8 @@ struct GltfOptions {
 /// are used where known. Colour by depth is given at the mean height; an open surface has it as plain tint.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
+/// @return       bytes handed to the stream
 /// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or the file would reach 2 GiB
-void writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
+std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string_view>
 
 #include "droplet/io/gltf.h"
@@ -22,10 +23,16 @@ Format formatNamed(std::string_view name);
 /// Lower-case name of a format, also its extension without the dot.
 const char* name(Format format);
 
+/// What beside the surface decides what a glTF file says; other formats carry neither.
+struct WriteOptions {
+    Material material = Material::Water;
+    std::optional<bool> closed = {};  ///< isClosed(surface), where that is known already
+};
+
 /// Writes a surface to a stream in the given format.
-/// @param material  look of a glTF material; other formats carry none
-/// @throws Error    InvalidArgument as the writers of each format
-void writeSurface(const Surface& surface, std::ostream& out, Format format, Material material = Material::Water);
+/// @return       bytes handed to the stream, which is left failed if it did not take everything
+/// @throws Error InvalidArgument as the writers of each format
+std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format format, const WriteOptions& options = {});
 
 /// How an existing output is treated.
 struct OutputOptions {

@@ -37,12 +37,12 @@ struct Topology {
     std::size_t boundary_loops = 0;
 };
 
-/// Examines a surface with half-edges.
-/// @throws Error InvalidArgument for an invalid surface
+/// Examines how triangles lie around every vertex.
+/// @throws Error InvalidArgument for an invalid surface, or one of more than 1 431 655 765 triangles
 Topology topology(const Surface& surface);
 
-/// Whether a surface is a manifold without boundary: topology(surface).closed, at a tenth of the work.
-/// @throws Error InvalidArgument for an invalid surface
+/// Whether a surface is a manifold without boundary: topology(surface).closed alone.
+/// @throws Error InvalidArgument as topology
 bool isClosed(const Surface& surface);
 
 /// Volume enclosed by a closed surface, by the divergence theorem on z [m³]; of an open one, the volume between it and

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "droplet/error.h"
+
+namespace droplet {
+
+[[noreturn]] inline void refuseFloat(double value)
+{
+    throw Error(ErrorCode::InvalidArgument, "surface holds " + std::to_string(value) + ", which a 32-bit float cannot");
+}
+
+/// The nearest float. @throws Error InvalidArgument beyond float's range
+inline float toFloat(double value)
+{
+    if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+        refuseFloat(value);
+    }
+    return static_cast<float>(value);
+}
+
+/// Hands bytes to a stream through one fixed buffer, so that no file is ever held whole. Numbers go little-endian
+/// whatever the machine's own order. After finish() the stream knows whether it took everything.
+class ByteStream {
+public:
+    explicit ByteStream(std::ostream& out) : out_(out), buffer_(kCapacity) {}
+    ByteStream(const ByteStream&) = delete;
+    ByteStream& operator=(const ByteStream&) = delete;
+
+    template <class... Numbers>
+    void u8(Numbers... values)
+    {
+        put<1>(static_cast<std::uint32_t>(values)...);
+    }
+
+    template <class... Numbers>
+    void u16(Numbers... values)
+    {
+        put<2>(static_cast<std::uint32_t>(values)...);
+    }
+
+    template <class... Numbers>
+    void u32(Numbers... values)
+    {
+        put<4>(static_cast<std::uint32_t>(values)...);
+    }
+
+    template <class... Numbers>
+    void f32(Numbers... values)
+    {
+        put<4>(std::bit_cast<std::uint32_t>(toFloat(values))...);
+    }
+
+    void text(std::string_view text)
+    {
+        while (!text.empty()) {
+            const std::string_view part = text.substr(0, kCapacity);
+            std::memcpy(room(part.size()), part.data(), part.size());
+            used_ += part.size();
+            text.remove_prefix(part.size());
+        }
+    }
+
+    /// An integer, or a number of that many significant digits, as text in any locale.
+    template <class Number, class... Format>
+    void digits(Number value, Format... format)
+    {
+        char* const begin = room(kLongestNumber);
+        used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value, format...).ptr - begin);
+    }
+
+    /// @return bytes handed over in all
+    std::uint64_t finish()
+    {
+        handOver();
+        out_.flush();
+        return count_;
+    }
+
+private:
+    // Beyond 64 KiB nothing is gained, and as much stays in the processor's second cache.
+    static constexpr std::size_t kCapacity = std::size_t{1} << 16;
+    static constexpr std::size_t kLongestNumber = 32;  // sign, digits, point, exponent of three digits
+
+    template <std::size_t Bytes, class... Numbers>
+    void put(Numbers... values)
+    {
+        char* at = room(Bytes * sizeof...(values));
+        const auto store = [&](std::uint32_t value) {
+            for (std::size_t i = 0; i < Bytes; ++i) {  // compilers make one store of it
+                at[i] = static_cast<char>(value >> (8 * i));
+            }
+            at += Bytes;
+        };
+        (store(values), ...);
+        used_ += Bytes * sizeof...(values);
+    }
+
+    /// Where that many bytes, at most kCapacity, may be put; used_ is still to be raised.
+    char* room(std::size_t bytes)
+    {
+        if (bytes > kCapacity - used_) {
+            handOver();
+        }
+        return buffer_.data() + used_;
+    }
+
+    void handOver()
+    {
+        out_.write(buffer_.data(), static_cast<std::streamsize>(used_));
+        count_ += used_;
+        used_ = 0;
+    }
+
+    std::ostream& out_;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
+    std::uint64_t count_ = 0;
+};
+
+}  // namespace droplet
