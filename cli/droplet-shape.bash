@@ -18,6 +18,8 @@ _droplet_shape()
         --liquid) choices='water ethanol glycerol mercury honey' ;;
         --material) choices='water ink mercury honey plain' ;;
         --format) choices='glb gltf obj ply stl' ;;
+        --grading) choices='1 2 4 8 16 32 64' ;;
+        --solver) choices='auto llt cholmod multigrid' ;;
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --triangles | --edge | --threads | -j)
@@ -30,8 +32,8 @@ _droplet_shape()
                 choices='--width --pixel-size --channel --threshold --invert --speck-size
                     --contact-angle --volume --height --fill
                     --liquid --surface-tension --density --gravity
-                    --triangles --edge --open --material --format
-                    --json --no-clobber --threads --quiet --verbose --progress --config --help --version'
+                    --triangles --edge --grading --open --material --format
+                    --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
             fi
             ;;
     esac

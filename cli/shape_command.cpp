@@ -21,7 +21,6 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <streambuf>
 #include <string>
 #include <vector>
 
@@ -80,43 +79,6 @@ private:
     Clock::time_point since_ = start_;
     std::optional<Stage> current_;
     std::array<double, droplet::kStageCount> times_{};
-};
-
-/// Hands bytes on to a stream and counts them.
-class CountingBuffer : public std::streambuf {
-public:
-    explicit CountingBuffer(std::ostream& target) : target_(target) { setp(buffer_.data(), buffer_.data() + kSize); }
-
-    [[nodiscard]] std::uint64_t count() const { return count_; }
-
-protected:
-    int_type overflow(int_type byte) override
-    {
-        if (!handOn()) {
-            return traits_type::eof();
-        }
-        if (!traits_type::eq_int_type(byte, traits_type::eof())) {
-            sputc(traits_type::to_char_type(byte));
-        }
-        return traits_type::not_eof(byte);
-    }
-
-    int sync() override { return handOn() && target_.flush() ? 0 : -1; }
-
-private:
-    bool handOn()
-    {
-        const std::streamsize pending = pptr() - pbase();
-        target_.write(pbase(), pending);
-        count_ += static_cast<std::uint64_t>(pending);
-        setp(buffer_.data(), buffer_.data() + kSize);
-        return target_.good();
-    }
-
-    static constexpr std::size_t kSize = std::size_t{1} << 16;
-    std::ostream& target_;
-    std::array<char, kSize> buffer_{};
-    std::uint64_t count_ = 0;
 };
 
 bool isStream(const std::string& path)
@@ -337,14 +299,11 @@ void writeOutput(const std::string& path, const droplet::OutputOptions& files,
 void save(const droplet::Surface& surface, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
 {
     writeOutput(options.output, options.files, [&](std::ostream& out) {
-        CountingBuffer buffer(out);
-        std::ostream counted(&buffer);
-        droplet::writeSurface(surface, counted, options.format, {options.material, report.output.topology.closed});
-        if (!counted.flush()) {
-            out.setstate(std::ios::badbit);  // whoever opened it knows the cause
-            return;
+        report.output.bytes =
+            droplet::writeSurface(surface, out, options.format, {options.material, report.output.topology.closed});
+        if (!out) {
+            return;  // whoever opened it knows the cause
         }
-        report.output.bytes = buffer.count();
         report.time = clock.times();
         report.time_total = clock.total();
         report.peak_memory = peakMemory();
@@ -404,8 +363,8 @@ int runShape(int argc, const char* const* argv)
     const droplet::Mask mask = readInput(options);
     refuseTooShortEdge(mask, options);
     const Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, options.droplet, begin); });
-    droplet::Report report = describe(mask, droplet, options);
     begin(Stage::Write);
+    droplet::Report report = describe(mask, droplet, options);
     save(droplet.surface, options, clock, report);
     progress.finish();
     tell(report, options);

@@ -310,6 +310,9 @@ private:
         constexpr const char* kGroup = "Surface";
         add(kGroup, "--triangles", "N", "about so many on the footprint: 5000, 5k, 1M [40k]");
         add(kGroup, "--edge", "LENGTH", "or length of their edges");
+        add(kGroup, "--grading", "N",
+            "edges far from the rim up to N times as long as there:\n"
+            "1, 2, 4, 8, 16, 32, 64 [1]");
         addFlag(kGroup, "--open", "leave out the flat base");
         add(kGroup, "--material", "NAME", "look in glTF: water, ink, mercury, honey, plain\n[water]");
         add(kGroup, "--format", "NAME",
@@ -322,6 +325,10 @@ private:
         constexpr const char* kGroup = "Run";
         add(kGroup, "--json", "FILE", "write a report; - is standard output");
         addFlag(kGroup, "--no-clobber", "do not replace existing files");
+        add(kGroup, "--solver", "NAME",
+            "of the linear system: auto, whichever is fastest; llt,\n"
+            "Eigen's factorisation; cholmod, CHOLMOD's; multigrid,\n"
+            "by iteration [auto]");
         add(kGroup, "-j,--threads", "N", "use at most N threads [all cores]");
         addFlag(kGroup, "-q,--quiet", "say nothing but errors");
         addFlag(kGroup, "-v,--verbose", "say more: every droplet, times, memory");
@@ -563,6 +570,10 @@ void readSurface(const CommandLine& line, ShapeOptions& options)
     if (const auto edge = line.value("--edge")) {
         options.droplet.mesh.edge = quantity(*edge, kLength);
     }
+    if (const auto grading = line.value("--grading")) {
+        options.droplet.mesh.grading =
+            choice<int>(*grading, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
+    }
     options.droplet.open = line.flag("--open");
 }
 
@@ -576,6 +587,12 @@ void readRun(const CommandLine& line, ShapeOptions& options)
         options.config = config->text;
     }
     options.files.no_clobber = line.flag("--no-clobber");
+    if (const auto solver = line.value("--solver")) {
+        options.droplet.solve.solver = choice<droplet::Solver>(*solver, {{"auto", droplet::Solver::Auto},
+                                                                         {"llt", droplet::Solver::Llt},
+                                                                         {"cholmod", droplet::Solver::Cholmod},
+                                                                         {"multigrid", droplet::Solver::Multigrid}});
+    }
     if (const auto threads = line.value("--threads")) {
         options.threads = count(*threads, kMostThreads, "1024");
     }

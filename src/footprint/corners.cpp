@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 namespace droplet {
@@ -59,23 +60,51 @@ private:
     bool forward_;
 };
 
-/// The point a given way along the loop from a slot.
-Vec2 pointAlong(const SlotLoop& loop, std::size_t start, bool forward, double way)
-{
-    Walker walker(loop, start, forward);
-    Vec2 here = walker.point();
-    for (std::size_t count = 0; count < loop.size(); ++count) {
-        walker.step();
-        const Vec2 next = walker.point();
-        const double piece = length(next - here);
-        if (piece >= way) {
-            return here + (way / piece) * (next - here);
+/// The points of a loop and the lengths of the pieces between them, measured once.
+class Path {
+public:
+    explicit Path(const SlotLoop& loop)
+    {
+        points_.reserve(loop.size());
+        for (const Slot& slot : loop) {
+            points_.push_back(slot.point());
         }
-        way -= piece;
-        here = next;
+        pieces_.reserve(loop.size());
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            pieces_.push_back(length(points_[next(i)] - points_[i]));
+        }
     }
-    return here;
-}
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+    [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < points_.size() ? i + 1 : 0; }
+    [[nodiscard]] std::size_t previous(std::size_t i) const { return (i > 0 ? i : points_.size()) - 1; }
+    [[nodiscard]] std::size_t step(std::size_t i, bool forward) const { return forward ? next(i) : previous(i); }
+
+    /// Length of the piece that a step from a point takes.
+    [[nodiscard]] double piece(std::size_t i, bool forward) const { return pieces_[forward ? i : previous(i)]; }
+
+    [[nodiscard]] double perimeter() const { return std::accumulate(pieces_.begin(), pieces_.end(), 0.0); }
+
+    /// The point a given way along the path from one of its own.
+    [[nodiscard]] Vec2 along(std::size_t start, bool forward, double way) const
+    {
+        std::size_t here = start;
+        for (std::size_t count = 0; count < points_.size(); ++count) {
+            const double piece_length = piece(here, forward);
+            const std::size_t there = step(here, forward);
+            if (piece_length >= way) {
+                return points_[here] + (way / piece_length) * (points_[there] - points_[here]);
+            }
+            way -= piece_length;
+            here = there;
+        }
+        return points_[here];
+    }
+
+private:
+    std::vector<Vec2> points_;
+    std::vector<double> pieces_;
+};
 
 double angleBetween(Vec2 from, Vec2 to)
 {
@@ -153,15 +182,29 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
 }
 
 /// The line through the chord before or after a turn, with what lies between the chord and the turn left out.
-Line fitChord(const SlotLoop& loop, std::size_t start, bool forward, const Chord& chord)
+Line fitChord(const Path& path, std::size_t start, bool forward, const Chord& chord)
 {
     std::vector<Vec2> points;
     constexpr int kPoints = 9;
     points.reserve(kPoints);
     for (int k = 0; k < kPoints; ++k) {
-        points.push_back(pointAlong(loop, start, forward, chord.gap + k * chord.length / (kPoints - 1)));
+        points.push_back(path.along(start, forward, chord.gap + k * chord.length / (kPoints - 1)));
     }
     return fitLine(points, points.back(), points.front());
+}
+
+/// The turn from the chord before a gap to the chord after it; none where it is less than a corner is tried for.
+double turnBetweenChords(const Path& path, std::size_t gap, const Chord& chord)
+{
+    const double far = chord.gap + chord.length;
+    const std::size_t next = path.next(gap);
+    const Vec2 before = path.along(gap, false, chord.gap) - path.along(gap, false, far);
+    const Vec2 after = path.along(next, true, far) - path.along(next, true, chord.gap);
+    // Most turn by less than half a radian, which is told without an arc tangent.
+    const double ahead = dot(before, after);
+    const double aside = std::abs(cross(before, after));
+    static_assert(kTryTurn > 0.5);
+    return aside < 0.5 * ahead ? 0.0 : std::atan2(aside, ahead);
 }
 
 /// How badly a line fits a slot, at most 1 [px].
@@ -194,12 +237,12 @@ std::optional<Vec2> sharedPixel(const SlotLoop& loop, const Turn& turn)
 }
 
 /// The turn near a gap at which the slots change best from the line before it to the line after it.
-Turn locate(const SlotLoop& loop, std::size_t near, const Chord& chord)
+Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chord& chord)
 {
     const std::size_t n = loop.size();
     const Turn fallback{near, (near + 1) % n};
-    const Line before = fitChord(loop, near, false, chord);
-    const Line after = fitChord(loop, (near + 1) % n, true, chord);
+    const Line before = fitChord(path, near, false, chord);
+    const Line after = fitChord(path, (near + 1) % n, true, chord);
     const std::optional<Vec2> tip = meet(before, after);
     constexpr std::size_t kSlots = 5;  // 3 to 4 px: further off, the chords themselves lie
     if (!tip || n < 4 * kSlots) {
@@ -475,20 +518,13 @@ private:
 std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known)
 {
     const std::size_t n = loop.size();
-    double perimeter = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        perimeter += length(loop[(i + 1) % n].point() - loop[i].point());
-    }
-    if (perimeter < 4.0 * (chord.length + chord.gap)) {
+    const Path path(loop);
+    if (path.perimeter() < 4.0 * (chord.length + chord.gap)) {
         return known;
     }
     std::vector<double> sharpness(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t j = (i + 1) % n;
-        const double far = chord.gap + chord.length;
-        const Vec2 before = pointAlong(loop, i, false, chord.gap) - pointAlong(loop, i, false, far);
-        const Vec2 after = pointAlong(loop, j, true, far) - pointAlong(loop, j, true, chord.gap);
-        sharpness[i] = std::abs(angleBetween(before, after));
+        sharpness[i] = turnBetweenChords(path, i, chord);
     }
     // Slots too near to a turn already known.
     std::vector<std::uint8_t> taken(n, 0);
@@ -498,9 +534,8 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
             double way = 0.0;
             for (std::size_t count = 0; count < n && way < chord.length + 2.0 * chord.gap; ++count) {
                 taken[k] = 1;
-                const std::size_t next = forward ? (k + 1) % n : (k + n - 1) % n;
-                way += length(loop[next].point() - loop[k].point());
-                k = next;
+                way += path.piece(k, forward);
+                k = path.step(k, forward);
             }
         }
     }
@@ -515,25 +550,24 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
             std::size_t j = i;
             double way = 0.0;
             while (sharpest) {
-                const std::size_t next = forward ? (j + 1) % n : (j + n - 1) % n;
-                way += length(loop[next].point() - loop[j].point());
-                if (way > chord.gap + 1.0 || next == i) {
+                way += path.piece(j, forward);
+                j = path.step(j, forward);
+                if (way > chord.gap + 1.0 || j == i) {
                     break;
                 }
-                j = next;
                 sharpest = forward ? sharpness[i] >= sharpness[j] : sharpness[i] > sharpness[j];
             }
         }
         if (!sharpest) {
             continue;
         }
-        const Turn turn = locate(loop, i, chord);
+        const Turn turn = locate(loop, path, i, chord);
         bool free = true;
-        for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % n) {
+        for (std::size_t k = turn.first; k != turn.last; k = path.next(k)) {
             free = free && taken[k] == 0;
         }
         if (free) {
-            for (std::size_t k = turn.first; k != turn.last; k = (k + 1) % n) {
+            for (std::size_t k = turn.first; k != turn.last; k = path.next(k)) {
                 taken[k] = 1;
             }
             turns.push_back(turn);
@@ -543,11 +577,15 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
     return turns;
 }
 
-Turn relocated(const SlotLoop& loop, const Turn& turn)
+std::vector<Turn> relocated(const SlotLoop& loop, std::vector<Turn> turns)
 {
     // Well away from the turn, which is drawn toward where it was thought to be.
     constexpr Chord kSides{3.0, 1.5};
-    return locate(loop, turn.first, kSides);
+    const Path path(loop);
+    for (Turn& turn : turns) {
+        turn = locate(loop, path, turn.first, kSides);
+    }
+    return turns;
 }
 
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots)

@@ -16,6 +16,8 @@ namespace droplet {
 struct Turn {
     std::size_t first = 0;
     std::size_t last = 0;
+
+    friend constexpr bool operator==(const Turn&, const Turn&) = default;
 };
 
 /// How a turn is measured: between chords of some length on either side of it, some way from it [px].
@@ -28,8 +30,8 @@ struct Chord {
 /// @param known  turns already found to be corners: they are returned too, and others only away from them
 std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known);
 
-/// The turn moved, by a slot or a few, to where the sides of a faired loop say it is.
-Turn relocated(const SlotLoop& loop, const Turn& turn);
+/// The turns moved, by a slot or a few, to where the sides of a faired loop say they are.
+std::vector<Turn> relocated(const SlotLoop& loop, std::vector<Turn> turns);
 
 /// One flag per slot: 1 where a turn lies between this slot and the next.
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots);

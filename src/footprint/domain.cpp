@@ -5,11 +5,15 @@
 
 #include "droplet/footprint/domain.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
@@ -23,12 +27,17 @@ struct Edge {
     std::size_t loop = 0;
 };
 
-/// Edges of all loops, found by the height of a horizontal line.
+/// Edges of all loops, found by the height of a horizontal line, then from right to left.
 class EdgeRows {
 public:
     explicit EdgeRows(const std::vector<Loop>& loops)
     {
         double top = -std::numeric_limits<double>::infinity();
+        std::size_t count = 0;
+        for (const Loop& loop : loops) {
+            count += loop.points.size();
+        }
+        edges_.reserve(count);
         for (std::size_t k = 0; k < loops.size(); ++k) {
             const std::vector<Vec2>& points = loops[k].points;
             for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,10 +52,14 @@ public:
         per_unit_ = top > bottom_ ? static_cast<double>(rows) / (top - bottom_) : 0.0;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             const auto [low, high] = std::minmax(edges_[e].from.y, edges_[e].to.y);
+            const auto [left, right] = std::minmax(edges_[e].from.x, edges_[e].to.x);
             for (std::size_t row = rowOf(low); row <= rowOf(high); ++row) {
-                rows_[row].push_back(e);
+                rows_[row].entries.push_back({right, e});
+                rows_[row].widest = std::max(rows_[row].widest, right - left);
             }
         }
+        tbb::parallel_for(std::size_t{0}, rows,
+                          [&](std::size_t row) { std::sort(rows_[row].entries.begin(), rows_[row].entries.end()); });
     }
 
     /// The loop whose edge is met first going left from a point, other than the loop excepted.
@@ -54,8 +67,12 @@ public:
     {
         std::optional<std::size_t> found;
         double nearest = -std::numeric_limits<double>::infinity();
-        for (const std::size_t e : rows_[rowOf(point.y)]) {
-            const Edge& edge = edges_[e];
+        const Row& row = rows_[rowOf(point.y)];
+        // Edges that end further to the right begin to the right of the point.
+        const Entry rightmost{point.x + row.widest, edges_.size()};
+        for (auto entry = std::upper_bound(row.entries.begin(), row.entries.end(), rightmost);
+             entry != row.entries.begin() && std::prev(entry)->right >= nearest; --entry) {
+            const Edge& edge = edges_[std::prev(entry)->edge];
             // Half-open in height, so that a line through a vertex meets one of its two edges.
             if (edge.loop == excepted || (edge.from.y > point.y) == (edge.to.y > point.y)) {
                 continue;
@@ -71,6 +88,21 @@ public:
     }
 
 private:
+    struct Entry {
+        double right = 0.0;  ///< the edge's right end
+        std::size_t edge = 0;
+
+        friend bool operator<(const Entry& a, const Entry& b)
+        {
+            return std::tie(a.right, a.edge) < std::tie(b.right, b.edge);
+        }
+    };
+
+    struct Row {
+        std::vector<Entry> entries;
+        double widest = 0.0;  ///< of any edge, from left to right
+    };
+
     [[nodiscard]] std::size_t rowOf(double y) const
     {
         const auto row = static_cast<std::size_t>(std::max(0.0, (y - bottom_) * per_unit_));
@@ -78,7 +110,7 @@ private:
     }
 
     std::vector<Edge> edges_;
-    std::vector<std::vector<std::size_t>> rows_;
+    std::vector<Row> rows_;
     double bottom_ = std::numeric_limits<double>::infinity();
     double per_unit_ = 0.0;
 };
@@ -123,18 +155,21 @@ Domain split(const Outline& outline)
         return domain;
     }
     // From left to right, a hole met on the way has its droplet already.
-    std::sort(holes.begin(), holes.end(),
-              [&](std::size_t a, std::size_t b) { return leftmost(loops[a]).x < leftmost(loops[b]).x; });
-    const EdgeRows rows(loops);
+    std::vector<std::pair<Vec2, std::size_t>> from_left;
+    from_left.reserve(holes.size());
     for (const std::size_t hole : holes) {
-        const std::optional<std::size_t> neighbour = rows.firstLeftOf(leftmost(loops[hole]), hole);
+        from_left.emplace_back(leftmost(loops[hole]), hole);
+    }
+    std::sort(from_left.begin(), from_left.end(), [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
+    const EdgeRows rows(loops);
+    for (const auto& [point, hole] : from_left) {
+        const std::optional<std::size_t> neighbour = rows.firstLeftOf(point, hole);
         if (!neighbour) {
             throw Error(ErrorCode::InvalidInput, "a hole of the outline lies in no rim");
         }
         droplet_of[hole] = droplet_of[*neighbour];
     }
     // Holes in the order of the outline, whatever order they were sorted out in.
-    std::sort(holes.begin(), holes.end());
     for (const std::size_t hole : holes) {
         domain.droplets[droplet_of[hole]].holes.push_back(loops[hole]);
     }

@@ -9,7 +9,7 @@
 
 #include "footprint/fairing.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,35 +26,54 @@ constexpr double kFreeRadius = 4.0;
 /// Most Gauss–Newton steps; discs and squares settle in half a dozen.
 constexpr int kSteps = 20;
 
+/// Most halvings of a step that makes the curve worse.
+constexpr int kHalvings = 6;
+
 /// Lengths enter curvatures no shorter than about this [px]: crossings next to a pixel centre nearly coincide.
 constexpr double kShortest = 0.05;
 
-/// Share of the fairness left where the curvature is κ.
-double stiffness(double curvature)
-{
-    const double square = kFreeRadius * kFreeRadius * curvature * curvature;
-    return 1.0 / (1.0 + square * square);
-}
+/// Rows of the normal equations reach this far to either side: a variation of curvature spans four vertices.
+constexpr std::size_t kHalfBand = 3;
+
+/// Coupling around the loop, relative to the diagonal, below which elimination no longer carries it along.
+constexpr double kNoCoupling = 1e-40;
 
 double smoothLength(Vec2 a)
 {
     return std::sqrt(dot(a, a) + kShortest * kShortest);
 }
 
-/// Curvature at the middle of three vertices and its derivatives with respect to their places in their slots.
-struct Curvature {
-    double value = 0.0;
-    std::array<double, 3> derivative{};
-};
-
-Curvature curvature(const Slot& a, const Slot& b, const Slot& c)
+/// Half the square of how unlikely a slot's place is; in a hard mask, minus the logarithm of its density over that at
+/// the middle.
+double placeStrain(const Slot& slot)
 {
-    const Vec2 ab = b.point() - a.point();
-    const Vec2 bc = c.point() - b.point();
-    const double scale = 2.0 / (smoothLength(ab) * smoothLength(bc) * smoothLength(ab + bc));
-    return {scale * cross(ab, bc),
-            {-scale * cross(a.toward, bc), scale * (cross(b.toward, bc) - cross(ab, b.toward)),
-             scale * cross(ab, c.toward)}};
+    if (!slot.measured) {
+        return -std::log(4.0 * slot.t * (1.0 - slot.t));
+    }
+    const double deviation = (slot.t - *slot.measured) / slot.spread;
+    return 0.5 * deviation * deviation;
+}
+
+double totalPlaceStrain(const SlotLoop& loop)
+{
+    // One logarithm for many slots: a product of 64 densities, none below 0.07, is far from underflow.
+    constexpr int kFactors = 64;
+    double sum = 0.0;
+    double density = 1.0;
+    int factors = 0;
+    for (const Slot& slot : loop) {
+        if (slot.measured) {
+            sum += placeStrain(slot);
+            continue;
+        }
+        density *= 4.0 * slot.t * (1.0 - slot.t);
+        if (++factors == kFactors) {
+            sum -= std::log(density);
+            density = 1.0;
+            factors = 0;
+        }
+    }
+    return sum - std::log(density);
 }
 
 /// Gradient and curvature of the cost of a vertex's place in its slot.
@@ -65,155 +84,299 @@ struct PlaceCost {
 
 PlaceCost placeCost(const Slot& slot)
 {
-    const double below = slot.t;
-    const double above = 1.0 - slot.t;
-    PlaceCost cost{-1.0 / below + 1.0 / above, 1.0 / (below * below) + 1.0 / (above * above)};
     if (slot.measured) {
         const double weight = 1.0 / (slot.spread * slot.spread);
-        cost = {weight * (slot.t - *slot.measured), weight};
+        return {weight * (slot.t - *slot.measured), weight};
     }
-    return cost;
+    const double below = 1.0 / slot.t;
+    const double above = 1.0 / (1.0 - slot.t);
+    return {above - below, below * below + above * above};
 }
 
-/// The normal equations of one loop: a band of half-width 3 that wraps around.
-class BandSystem {
-public:
-    explicit BandSystem(std::size_t size) : size_(static_cast<Eigen::Index>(size)), gradient_(size_)
-    {
-        std::vector<Eigen::Triplet<double>> entries;
-        entries.reserve(size * 4);
-        for (Eigen::Index column = 0; column < size_; ++column) {
-            for (Eigen::Index offset = 0; offset <= 3; ++offset) {
-                const Eigen::Index row = (column + offset) % size_;
-                entries.emplace_back(std::max(row, column), std::min(row, column), 0.0);
-            }
-        }
-        matrix_.resize(size_, size_);
-        matrix_.setFromTriplets(entries.begin(), entries.end());
-        solver_.analyzePattern(matrix_);
-        // Where entry (column + offset, column) of the band stands in the sparse matrix.
-        place_.resize(size * 4);
-        for (Eigen::Index column = 0; column < size_; ++column) {
-            for (Eigen::Index offset = 0; offset <= 3; ++offset) {
-                const Eigen::Index row = (column + offset) % size_;
-                double& entry = matrix_.coeffRef(std::max(row, column), std::min(row, column));
-                place_[static_cast<std::size_t>(column * 4 + offset)] = &entry - matrix_.valuePtr();
-            }
-        }
-    }
-
-    void clear()
-    {
-        std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-        gradient_.setZero();
-    }
-
-    void add(std::size_t i, std::size_t offset, double value) { matrix_.valuePtr()[place_[i * 4 + offset]] += value; }
-    void addGradient(std::size_t i, double value) { gradient_[static_cast<Eigen::Index>(i)] += value; }
-
-    /// The Newton step; empty if round-off spoils the factorisation.
-    Eigen::VectorXd step()
-    {
-        solver_.factorize(matrix_);
-        if (solver_.info() != Eigen::Success) {
-            return {};
-        }
-        return solver_.solve(-gradient_);
-    }
-
-private:
-    Eigen::Index size_;
-    Eigen::SparseMatrix<double> matrix_;
-    Eigen::VectorXd gradient_;
-    std::vector<std::ptrdiff_t> place_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
+/// A polygon's vertices and what the functional needs of them.
+///
+/// Every vector wraps around: after the last of n entries the first few stand once more.
+struct Polygon {
+    std::vector<Vec2> points;
+    std::vector<double> edges;   ///< smooth length of the edge to the next vertex
+    std::vector<double> scales;  ///< 2/(product of the sides) of vertices i, i + 1, i + 2: curvature per cross product
+    std::vector<double> bends;   ///< their (Menger) curvature
 };
 
-void addPlaceCosts(const SlotLoop& loop, BandSystem& system)
+template <class Value>
+void wrap(std::vector<Value>& values)
 {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const PlaceCost cost = placeCost(loop[i]);
-        system.add(i, 0, cost.hessian);
-        system.addGradient(i, cost.gradient);
+    const std::size_t n = values.size() - kHalfBand;
+    for (std::size_t k = 0; k < kHalfBand; ++k) {
+        values[n + k] = values[k];
     }
+}
+
+void measure(const SlotLoop& loop, Polygon& polygon)
+{
+    const std::size_t n = loop.size();
+    polygon.points.resize(n + kHalfBand);
+    polygon.edges.resize(n + kHalfBand);
+    polygon.scales.resize(n + kHalfBand);
+    polygon.bends.resize(n + kHalfBand);
+    for (std::size_t i = 0; i < n; ++i) {
+        polygon.points[i] = loop[i].point();
+    }
+    wrap(polygon.points);
+    for (std::size_t i = 0; i < n; ++i) {
+        polygon.edges[i] = smoothLength(polygon.points[i + 1] - polygon.points[i]);
+    }
+    wrap(polygon.edges);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 a = polygon.points[i];
+        const Vec2 b = polygon.points[i + 1];
+        const Vec2 c = polygon.points[i + 2];
+        polygon.scales[i] = 2.0 / (polygon.edges[i] * polygon.edges[i + 1] * smoothLength(c - a));
+        polygon.bends[i] = polygon.scales[i] * cross(b - a, c - b);
+    }
+    wrap(polygon.scales);
+    wrap(polygon.bends);
 }
 
 /// The term of the functional between slots i + 1 and i + 2, from the curvatures at both.
 struct Variation {
     double weight = 0.0;
     double difference = 0.0;
-    std::array<double, 4> row{};  ///< derivatives of the difference for slots i … i + 3
 };
-
-std::vector<Variation> variations(const SlotLoop& loop, const FairingOptions& options)
-{
-    const std::size_t n = loop.size();
-    const auto broken = [&](std::size_t i) { return !options.breaks.empty() && options.breaks[i % n] != 0; };
-    std::vector<Curvature> bend(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        bend[i] = curvature(loop[i], loop[(i + 1) % n], loop[(i + 2) % n]);
-    }
-    std::vector<Variation> terms(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (broken(i) || broken(i + 1) || broken(i + 2)) {
-            continue;
-        }
-        const Curvature& here = bend[i];
-        const Curvature& next = bend[(i + 1) % n];
-        const double ds = smoothLength(loop[(i + 2) % n].point() - loop[(i + 1) % n].point());
-        const double mean = 0.25 * (bend[(i + n - 1) % n].value + here.value + next.value + bend[(i + 2) % n].value);
-        terms[i] = {options.fairness * stiffness(mean) / ds,
-                    next.value - here.value,
-                    {-here.derivative[0], next.derivative[0] - here.derivative[1],
-                     next.derivative[1] - here.derivative[2], next.derivative[2]}};
-    }
-    return terms;
-}
-
-void addVariations(const std::vector<Variation>& terms, BandSystem& system)
-{
-    const std::size_t n = terms.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const Variation& term = terms[i];
-        for (std::size_t a = 0; a < 4; ++a) {
-            system.addGradient((i + a) % n, term.weight * term.difference * term.row[a]);
-            for (std::size_t b = a; b < 4; ++b) {
-                system.add((i + a) % n, b - a, term.weight * term.row[a] * term.row[b]);
-            }
-        }
-    }
-}
-
-double placeStrain(const Slot& slot)
-{
-    return slot.measured ? 0.5 * std::pow((slot.t - *slot.measured) / slot.spread, 2.0)
-                         : -std::log(4.0 * slot.t * (1.0 - slot.t));
-}
 
 double variationStrain(const Variation& term)
 {
     return 0.5 * term.weight * term.difference * term.difference;
 }
 
-double totalStrain(const SlotLoop& loop, const std::vector<Variation>& terms)
+void measureVariations(const Polygon& polygon, const FairingOptions& options, std::vector<Variation>& terms)
 {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        sum += placeStrain(loop[i]) + variationStrain(terms[i]);
+    const std::size_t n = polygon.bends.size() - kHalfBand;
+    constexpr double kSquare = kFreeRadius * kFreeRadius;
+    terms.resize(n);
+    double before = polygon.bends[n - 1];
+    for (std::size_t i = 0; i < n; ++i) {
+        const double here = polygon.bends[i];
+        const double next = polygon.bends[i + 1];
+        const double mean = 0.25 * (before + here + next + polygon.bends[i + 2]);
+        const double freedom = kSquare * mean * mean;
+        terms[i] = {options.fairness / (polygon.edges[i + 1] * (1.0 + freedom * freedom)), next - here};
+        before = here;
     }
-    return sum;
+    for (std::size_t gap = 0; gap < options.breaks.size(); ++gap) {
+        if (options.breaks[gap] != 0) {
+            std::size_t i = gap;
+            for (std::size_t k = 0; k < kHalfBand; ++k) {
+                terms[i] = {};
+                i = (i > 0 ? i : n) - 1;
+            }
+        }
+    }
 }
 
-/// The loop moved along a part of the step, every slot at most nine tenths of the way to its end.
-SlotLoop moved(const SlotLoop& loop, const Eigen::VectorXd& step, double part)
+/// A row of the normal equations: the vertex's own coefficient and those of the next three, then the right-hand side.
+struct Row {
+    std::array<double, kHalfBand + 1> band{};
+    double right = 0.0;
+};
+
+/// The normal equations of one Gauss–Newton step: a band of half-width 3 that wraps around.
+void assemble(const SlotLoop& loop, const Polygon& polygon, const std::vector<Variation>& terms, std::vector<Row>& rows)
 {
-    SlotLoop result = loop;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const double d = part * step[static_cast<Eigen::Index>(i)];
-        const double room = d > 0 ? 1.0 - kSlotMargin - loop[i].t : loop[i].t - kSlotMargin;
-        result[i].t += std::copysign(std::min(std::abs(d), 0.9 * std::max(room, 0.0)), d);
+    const std::size_t n = loop.size();
+    rows.assign(n + kHalfBand, {});
+    for (std::size_t i = 0; i < n; ++i) {
+        const PlaceCost cost = placeCost(loop[i]);
+        rows[i].band[0] = cost.hessian;
+        rows[i].right = -cost.gradient;
     }
-    return result;
+    const auto toward = [&](std::size_t i) { return loop[i < n ? i : i - n].toward; };
+    // Derivatives of the curvature at slots i, i + 1, i + 2 with respect to their places.
+    const auto derivatives = [&](std::size_t i) {
+        const Vec2 ab = polygon.points[i + 1] - polygon.points[i];
+        const Vec2 bc = polygon.points[i + 2] - polygon.points[i + 1];
+        const Vec2 b = toward(i + 1);
+        const double scale = polygon.scales[i];
+        return std::array<double, 3>{-scale * cross(toward(i), bc), scale * (cross(b, bc) - cross(ab, b)),
+                                     scale * cross(ab, toward(i + 2))};
+    };
+    std::array<double, 3> here = derivatives(0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::array<double, 3> next = i + 1 < n ? derivatives(i + 1) : derivatives(0);
+        const Variation& term = terms[i];
+        const std::array<double, 4> slope{-here[0], next[0] - here[1], next[1] - here[2], next[2]};
+        for (std::size_t a = 0; a <= kHalfBand; ++a) {
+            const double weighted = term.weight * slope[a];
+            rows[i + a].right -= weighted * term.difference;
+            for (std::size_t b = a; b <= kHalfBand; ++b) {
+                rows[i + a].band[b - a] += weighted * slope[b];
+            }
+        }
+        here = next;
+    }
+    for (std::size_t k = 0; k < kHalfBand; ++k) {
+        for (std::size_t offset = 0; offset <= kHalfBand; ++offset) {
+            rows[k].band[offset] += rows[n + k].band[offset];
+        }
+        rows[k].right += rows[n + k].right;
+    }
+    rows.resize(n);
+}
+
+/// Solves the normal equations by LDLᵀ, row after row but for the last six, which are left as a dense block. The
+/// coupling around the loop, of the first three rows to the last three, moves along for as long as there is any of it:
+/// it dies out like the influence of one vertex on another.
+class BandSolver {
+public:
+    /// @param rows  at least 8; destroyed
+    /// @return      the Newton step; empty if round-off spoils the factorisation
+    const std::vector<double>& solve(std::vector<Row>& rows)
+    {
+        solution_.clear();
+        if (eliminate(rows)) {
+            substitute(rows);
+        }
+        return solution_;
+    }
+
+private:
+    static constexpr std::size_t kDense = 2 * kHalfBand;
+    /// A row's coupling to the last three.
+    using Around = std::array<double, kHalfBand>;
+
+    [[nodiscard]] bool eliminate(std::vector<Row>& rows)
+    {
+        const std::size_t n = rows.size();
+        std::array<Around, kHalfBand> around{};  // of rows k, k + 1, k + 2
+        for (std::size_t k = 0; k < kHalfBand; ++k) {
+            for (std::size_t q = k; q < kHalfBand; ++q) {
+                around[k][q] = rows[n - kHalfBand + q].band[k + kHalfBand - q];
+            }
+        }
+        around_.clear();
+        dense_.setZero();
+        dense_right_.setZero();
+        bool coupled = true;
+        for (std::size_t k = 0; k + kDense < n; ++k) {
+            Row& row = rows[k];
+            if (!(row.band[0] > 0.0)) {
+                return false;
+            }
+            const double inverse = 1.0 / row.band[0];
+            const Row factor{{inverse, row.band[1] * inverse, row.band[2] * inverse, row.band[3] * inverse}, row.right};
+            for (std::size_t a = 1; a <= kHalfBand; ++a) {
+                for (std::size_t b = a; b <= kHalfBand; ++b) {
+                    rows[k + a].band[b - a] -= factor.band[a] * row.band[b];
+                }
+                rows[k + a].right -= factor.band[a] * row.right;
+            }
+            if (coupled) {
+                coupled = carryAround(around, factor, row.band[0]);
+            }
+            row = factor;
+        }
+        fillDense(rows, around);
+        return true;
+    }
+
+    /// Eliminates one row from what is coupled around the loop.
+    /// @return whether anything is left that is
+    bool carryAround(std::array<Around, kHalfBand>& around, const Row& factor, double pivot)
+    {
+        const Around here = around[0];
+        around = {around[1], around[2], Around{}};
+        Around& factors = around_.emplace_back();
+        double most = 0.0;
+        for (std::size_t q = 0; q < kHalfBand; ++q) {
+            factors[q] = here[q] * factor.band[0];
+            for (std::size_t p = 0; p <= q; ++p) {
+                dense_(row(q), row(p)) -= factors[q] * here[p];
+            }
+            dense_right_[row(q)] -= factors[q] * factor.right;
+            for (std::size_t a = 0; a < kHalfBand; ++a) {
+                around[a][q] -= factor.band[a + 1] * here[q];
+                most = std::max(most, std::abs(around[a][q]));
+            }
+        }
+        if (most < kNoCoupling * pivot) {
+            around = {};
+            return false;
+        }
+        return true;
+    }
+
+    /// Adds what is left of the last six rows to what elimination took from the last three.
+    void fillDense(const std::vector<Row>& rows, const std::array<Around, kHalfBand>& around)
+    {
+        const std::size_t first = rows.size() - kDense;
+        for (std::size_t a = 0; a < kDense; ++a) {
+            for (std::size_t b = 0; b <= kHalfBand && a + b < kDense; ++b) {
+                dense_(static_cast<Eigen::Index>(a + b), static_cast<Eigen::Index>(a)) += rows[first + a].band[b];
+            }
+            dense_right_[static_cast<Eigen::Index>(a)] += rows[first + a].right;
+        }
+        for (std::size_t k = 0; k < kHalfBand; ++k) {
+            for (std::size_t q = 0; q < kHalfBand; ++q) {
+                dense_(row(q), static_cast<Eigen::Index>(k)) += around[k][q];
+            }
+        }
+    }
+
+    void substitute(const std::vector<Row>& rows)
+    {
+        const std::size_t n = rows.size();
+        const Dense last = dense_.selfadjointView<Eigen::Lower>().ldlt().solve(dense_right_);
+        solution_.resize(n);
+        std::copy(last.begin(), last.end(), solution_.end() - kDense);
+        for (std::size_t k = n - kDense; k-- > 0;) {
+            const std::array<double, kHalfBand + 1>& factor = rows[k].band;
+            double value = rows[k].right * factor[0];
+            for (std::size_t q = 0; k < around_.size() && q < kHalfBand; ++q) {
+                value -= around_[k][q] * solution_[n - kHalfBand + q];
+            }
+            for (std::size_t a = kHalfBand; a > 0; --a) {
+                value -= factor[a] * solution_[k + a];
+            }
+            solution_[k] = value;
+        }
+    }
+
+    /// Where the last three rows stand among the last six.
+    static Eigen::Index row(std::size_t q) { return static_cast<Eigen::Index>(q + kHalfBand); }
+
+    using Dense = Eigen::Matrix<double, kDense, 1>;
+    std::vector<Around> around_;
+    Eigen::Matrix<double, kDense, kDense> dense_;
+    Dense dense_right_;
+    std::vector<double> solution_;
+};
+
+/// A loop and its cost.
+struct Curve {
+    SlotLoop loop;
+    Polygon polygon;
+    std::vector<Variation> terms;
+    double strain = 0.0;
+
+    void measure(const FairingOptions& options)
+    {
+        droplet::measure(loop, polygon);
+        measureVariations(polygon, options, terms);
+        strain = totalPlaceStrain(loop);
+        for (const Variation& term : terms) {
+            strain += variationStrain(term);
+        }
+    }
+};
+
+/// Moves a loop along a part of the step, every slot at most nine tenths of the way to its end.
+void move(const SlotLoop& loop, const std::vector<double>& step, double part, SlotLoop& result)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const double d = part * step[i];
+        const double room = d > 0 ? 1.0 - kSlotMargin - loop[i].t : loop[i].t - kSlotMargin;
+        result[i].t = loop[i].t + std::copysign(std::min(std::abs(d), 0.9 * std::max(room, 0.0)), d);
+    }
 }
 
 /// Least distance of neighbouring knots [px], by where they are measured: the curvature through two crossings next to
@@ -283,38 +446,36 @@ void fairKnots(SlotLoop& loop, const FairingOptions& options)
     if (loop.size() < 8) {
         return;
     }
-    BandSystem system(loop.size());
-    std::vector<Variation> terms = variations(loop, options);
-    double strain_here = totalStrain(loop, terms);
+    Curve here{loop, {}, {}, 0.0};
+    here.measure(options);
+    Curve there = here;
+    std::vector<Row> rows;
+    BandSolver solver;
     for (int k = 0; k < kSteps; ++k) {
-        system.clear();
-        addPlaceCosts(loop, system);
-        addVariations(terms, system);
-        const Eigen::VectorXd step = system.step();
-        if (step.size() == 0) {
-            return;
+        assemble(here.loop, here.polygon, here.terms, rows);
+        const std::vector<double>& step = solver.solve(rows);
+        if (step.empty()) {
+            break;
         }
         double part = 1.0;
-        SlotLoop trial = moved(loop, step, part);
-        std::vector<Variation> trial_terms = variations(trial, options);
-        double strain_there = totalStrain(trial, trial_terms);
-        for (int halvings = 0; halvings < 6 && strain_there > strain_here; ++halvings) {
+        for (int halvings = 0; halvings <= kHalvings; ++halvings) {
+            move(here.loop, step, part, there.loop);
+            there.measure(options);
+            if (!(there.strain > here.strain)) {
+                break;
+            }
             part *= 0.5;
-            trial = moved(loop, step, part);
-            trial_terms = variations(trial, options);
-            strain_there = totalStrain(trial, trial_terms);
         }
-        if (!(strain_there < strain_here)) {
-            return;
+        if (!(there.strain < here.strain)) {
+            break;
         }
-        const bool settled = strain_here - strain_there < 1e-3;
-        loop = std::move(trial);
-        terms = std::move(trial_terms);
-        strain_here = strain_there;
+        const bool settled = here.strain - there.strain < 1e-3;
+        std::swap(here, there);
         if (settled) {
-            return;
+            break;
         }
     }
+    loop = std::move(here.loop);
 }
 
 }  // namespace
@@ -345,7 +506,10 @@ std::vector<double> strain(const SlotLoop& loop, const FairingOptions& options)
 {
     const std::vector<std::size_t> indices = knots(loop);
     const SlotLoop carriers = select(loop, indices);
-    const std::vector<Variation> terms = variations(carriers, selectBreaks(options, indices));
+    Polygon polygon;
+    measure(carriers, polygon);
+    std::vector<Variation> terms;
+    measureVariations(polygon, selectBreaks(options, indices), terms);
     std::vector<double> result(loop.size(), 0.0);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         // Terms stand at the first of their four slots; the piece between the middle two begins at the second.

@@ -3,6 +3,7 @@
 #include "footprint/image.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,51 @@ std::uint16_t luma(const Sample* rgb)
 {
     return static_cast<std::uint16_t>((kScale<Sample> * (299U * rgb[0] + 587U * rgb[1] + 114U * rgb[2]) + 500U) /
                                       1000U);
+}
+
+/// Puts one level a pixel where a run goes. Runs without gaps, which nearly all are, have a loop of their own:
+/// compilers make vector instructions of it.
+template <class LevelOf>
+void putLevels(std::uint16_t* to, std::size_t step, std::size_t count, LevelOf level_of)
+{
+    if (step == 1) {
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i] = level_of(i);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        to[i * step] = level_of(i);
+    }
+}
+
+template <std::size_t kChannels, class Sample>
+void putPixels(Image& image, const PixelRun& run, std::span<const Sample> samples)
+{
+    // Drawings are of one colour over wide stretches, which needs but one look.
+    constexpr std::size_t kBlock = 64;
+    const std::size_t pixels = samples.size() / kChannels;
+    for (std::size_t first = 0; first < pixels; first += kBlock) {
+        const std::size_t count = std::min(kBlock, pixels - first);
+        const Sample* from = samples.data() + first * kChannels;
+        const bool is_plain = std::memcmp(from, from + kChannels, (count - 1) * kChannels * sizeof(Sample)) == 0;
+        const auto put = [&](std::uint16_t* plane, auto level_of) {
+            std::uint16_t* to = plane + run.first + first * run.step;
+            if (is_plain) {
+                putLevels(to, run.step, count, [plain = level_of(from)](std::size_t) { return plain; });
+            } else {
+                putLevels(to, run.step, count, [&](std::size_t i) { return level_of(from + i * kChannels); });
+            }
+        };
+        if constexpr (kChannels < 3) {
+            put(image.luma.data(), [](const Sample* pixel) { return level(pixel[0]); });
+        } else {
+            put(image.luma.data(), luma<Sample>);
+        }
+        if constexpr (kChannels % 2 == 0) {
+            put(image.alpha.data(), [](const Sample* pixel) { return level(pixel[kChannels - 1]); });
+        }
+    }
 }
 
 /// Where a turned image finds its pixels: (x, y) lies at origin + x right + y down in the stored one.
@@ -119,24 +165,15 @@ Image blankImage(int width, int height, bool with_alpha)
 template <class Sample>
 void putPixels(Image& image, const PixelRun& run, std::span<const Sample> samples)
 {
-    const auto channels = static_cast<std::size_t>(run.channels);
-    const std::size_t count = samples.size() / channels;
-    const Sample* from = samples.data();
-    std::uint16_t* to = image.luma.data() + run.first;
-    if (run.channels < 3) {
-        for (std::size_t i = 0; i < count; ++i) {
-            to[i * run.step] = level(from[i * channels]);
-        }
-    } else {
-        for (std::size_t i = 0; i < count; ++i) {
-            to[i * run.step] = luma(from + i * channels);
-        }
-    }
-    if (run.channels % 2 == 0) {
-        to = image.alpha.data() + run.first;
-        for (std::size_t i = 0; i < count; ++i) {
-            to[i * run.step] = level(from[i * channels + channels - 1]);
-        }
+    switch (run.channels) {
+        case 1:
+            return putPixels<1>(image, run, samples);
+        case 2:
+            return putPixels<2>(image, run, samples);
+        case 3:
+            return putPixels<3>(image, run, samples);
+        default:
+            return putPixels<4>(image, run, samples);
     }
 }
 

@@ -28,9 +28,23 @@ Histogram emptyHistogram()
 
 Histogram histogramOf(const std::vector<std::uint16_t>& plane)
 {
+    // Most of a mask is of one level over wide stretches, which compilers compare by vector instructions.
+    constexpr std::size_t kBlock = 64;
     Histogram histogram = emptyHistogram();
-    for (const std::uint16_t level : plane) {
-        ++histogram[level];
+    for (std::size_t first = 0; first < plane.size(); first += kBlock) {
+        const std::size_t end = std::min(first + kBlock, plane.size());
+        const std::uint16_t level = plane[first];
+        std::uint16_t others = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            others = static_cast<std::uint16_t>(others | (plane[i] ^ level));
+        }
+        if (others == 0) {
+            histogram[level] += end - first;
+            continue;
+        }
+        for (std::size_t i = first; i < end; ++i) {
+            ++histogram[plane[i]];
+        }
     }
     return histogram;
 }
@@ -133,13 +147,21 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
 /// Whether a picture says with its alpha where it is: some pixel is less than half opaque.
 bool usesAlpha(const std::vector<std::uint16_t>& alpha)
 {
-    return std::any_of(alpha.begin(), alpha.end(), [](std::int64_t level) { return 2 * level < kWhite; });
+    // Not std::any_of nor std::min_element, of which compilers make no vector instructions.
+    std::uint16_t least = kWhite;
+    for (const std::uint16_t level : alpha) {
+        least = std::min(least, level);
+    }
+    return 2 * std::int64_t{least} < kWhite;
 }
 
 /// The levels of an alpha channel. Drawn, not photographed, it has no strays.
 Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
 {
-    const std::int64_t most = *std::max_element(alpha.begin(), alpha.end());
+    std::uint16_t most = 0;
+    for (const std::uint16_t level : alpha) {
+        most = std::max(most, level);
+    }
     return {0, isClear(most) ? most : kWhite};
 }
 
@@ -159,6 +181,14 @@ void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool inve
 {
     const std::int64_t distance = std::abs(range.liquid - range.dry);
     const std::int64_t sign = range.liquid < range.dry ? -1 : 1;
+    if (distance == kWhite) {
+        if ((sign < 0) != invert) {
+            for (std::uint16_t& level : plane) {
+                level = static_cast<std::uint16_t>(kWhite - level);
+            }
+        }
+        return;
+    }
     std::vector<std::uint16_t> table(static_cast<std::size_t>(kWhite) + 1);
     for (std::int64_t level = 0; level <= kWhite; ++level) {
         const std::int64_t covered = std::clamp<std::int64_t>(sign * (level - range.dry), 0, distance);

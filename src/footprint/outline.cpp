@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tracing: border following after S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by
-// border following" (1985), as OpenCV's findContours has it, refined to the crossings of marching squares.
+// Tracing: borders of the thresholded mask, refined to the crossings of marching squares.
 // Sub-pixel place: the height function of volume-of-fluid methods (S. J. Cummins, M. M. Francois and D. B. Kothe,
 // "Estimating curvature from volume fractions", 2005): the coverage summed across the rim is its mean place, exact for
 // straight edges, where interpolating single pixels is up to 0.09 px off.
 
 #include "droplet/footprint/outline.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
+#include "footprint/borders.h"
 #include "footprint/corners.h"
 #include "footprint/fairing.h"
 #include "footprint/slot.h"
@@ -62,58 +63,24 @@ constexpr std::array<Chord, 2> kChords{{{2.0, 0.75}, {1.25, 0.5}}};
 constexpr double kCornerGain = 1000.0;
 constexpr double kCornerGainHard = 4.0;
 
-struct Step {
-    int x = 0;
-    int y = 0;
-};
-
-/// East, north, west, south; y down. Facing direction k + 1, the right hand points in direction k.
-constexpr std::array<Step, 4> kSteps{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
-
-/// A crossing from a liquid pixel into a dry neighbour.
-struct Crossing {
-    int x = 0;
-    int y = 0;
-    int direction = 0;
-
-    bool operator==(const Crossing&) const = default;
-};
-
 /// The mask with a dry frame around it, thresholded or as coverage.
 class Field {
 public:
-    Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold), level_(threshold * kFull) {}
+    Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold) {}
 
     [[nodiscard]] bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < mask_.width && y < mask_.height; }
-    [[nodiscard]] bool liquid(int x, int y) const { return inside(x, y) && mask_.at(x, y) >= level_; }
     [[nodiscard]] double coverage(int x, int y) const { return inside(x, y) ? mask_.at(x, y) / kFull : 0.0; }
     [[nodiscard]] bool grey(int x, int y) const
     {
         const double c = coverage(x, y);
         return c > kSaturated && c < 1.0 - kSaturated;
     }
-    [[nodiscard]] int width() const { return mask_.width; }
-    [[nodiscard]] int height() const { return mask_.height; }
     [[nodiscard]] double threshold() const { return threshold_; }
 
 private:
     const Mask& mask_;
     double threshold_;
-    double level_;
 };
-
-Crossing next(const Field& field, const Crossing& at)
-{
-    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
-    const int facing = (at.direction + 1) % 4;
-    const Step f = kSteps[static_cast<std::size_t>(facing)];
-    const bool ahead = field.liquid(at.x + f.x, at.y + f.y);
-    // Liquid is 8-connected: at a saddle it joins.
-    if (field.liquid(at.x + d.x + f.x, at.y + d.y + f.y)) {
-        return {at.x + d.x + f.x, at.y + d.y + f.y, (facing + 2) % 4};
-    }
-    return ahead ? Crossing{at.x + f.x, at.y + f.y, at.direction} : Crossing{at.x, at.y, facing};
-}
 
 /// Coverage summed from a pixel on, excluding it, in steps of `out` until it reaches `end` (0 or 1), counted as what is
 /// left to `end`; none if it does not get there monotonically.
@@ -149,7 +116,7 @@ std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
 /// The step across the slot, toward the drier side, if the rim runs more along the slot than across it.
 std::optional<Step> sidestep(const Field& field, const Crossing& at)
 {
-    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const Step d = at.toward();
     const Step f{-d.y, d.x};
     const auto pair = [&](int k) {
         return field.coverage(at.x + k * f.x, at.y + k * f.y) +
@@ -178,7 +145,7 @@ struct Reading {
 /// a twenty-fourth of the second difference between lines (the mean of a parabola over a pixel).
 std::optional<Reading> readAcross(const Field& field, const Crossing& at)
 {
-    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const Step d = at.toward();
     const std::optional<double> here = heightAlong(field, at.x, at.y, d);
     if (!here) {
         return std::nullopt;
@@ -195,7 +162,7 @@ std::optional<Reading> readAcross(const Field& field, const Crossing& at)
 /// it, `side` being the step toward dry, is at the slot's level.
 std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step side)
 {
-    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const Step d = at.toward();
     const std::optional<double> here = heightAlong(field, at.x, at.y, side);
     const std::optional<double> there = heightAlong(field, at.x + d.x, at.y + d.y, side);
     if (!here || !there || *here <= *there + 1e-6) {
@@ -220,7 +187,7 @@ std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step si
 /// Reads the place of a crossing off the grey levels around it.
 void measure(const Field& field, const Crossing& at, Slot& slot)
 {
-    const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    const Step d = at.toward();
     const double liquid = field.coverage(at.x, at.y);
     const double dry = field.coverage(at.x + d.x, at.y + d.y);
     slot.measured = (liquid - field.threshold()) / std::max(liquid - dry, 1e-9);
@@ -238,68 +205,26 @@ void measure(const Field& field, const Crossing& at, Slot& slot)
     slot.t = std::clamp(*slot.measured, 2.0 * kSlotMargin, 1.0 - 2.0 * kSlotMargin);
 }
 
-std::vector<Crossing> follow(const Field& field, const Crossing& start)
-{
-    std::vector<Crossing> loop;
-    Crossing at = start;
-    do {
-        loop.push_back(at);
-        at = next(field, at);
-    } while (!(at == start));
-    return loop;
-}
-
-/// All loops: OpenCV finds the border of every component and hole, from the first pixel of which the crossings follow.
-std::vector<std::vector<Crossing>> followAll(const Field& field)
-{
-    std::vector<std::vector<cv::Point>> borders;
-    std::vector<cv::Vec4i> hierarchy;
-    {
-        cv::Mat liquid(field.height(), field.width(), CV_8UC1);
-        for (int y = 0; y < field.height(); ++y) {
-            for (int x = 0; x < field.width(); ++x) {
-                liquid.at<std::uint8_t>(y, x) = field.liquid(x, y) ? 255 : 0;
-            }
-        }
-        cv::findContours(liquid, borders, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-    }
-    std::vector<std::vector<Crossing>> loops;
-    loops.reserve(borders.size());
-    for (std::size_t k = 0; k < borders.size(); ++k) {
-        // Found in raster order: a component by its first pixel, with dry to the west of it; a hole by the liquid pixel
-        // to the west of its first.
-        const bool is_hole = hierarchy[k][3] >= 0;
-        const cv::Point first = borders[k].front();
-        loops.push_back(follow(field, {first.x, first.y, is_hole ? 0 : 2}));
-    }
-    // In reading order of their first pixels, which is what people expect of droplets in a list.
-    std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
-        return std::tie(a.front().y, a.front().x, a.front().direction) <
-               std::tie(b.front().y, b.front().x, b.front().direction);
-    });
-    return loops;
-}
-
-bool looksAntiAliased(const Field& field, const std::vector<std::vector<Crossing>>& loops)
+bool looksAntiAliased(const Field& field, const std::vector<Border>& borders)
 {
     std::size_t grey = 0;
     std::size_t all = 0;
-    for (const auto& loop : loops) {
-        all += loop.size();
-        for (const Crossing& at : loop) {
-            const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    for (const Border& border : borders) {
+        all += border.size();
+        for (const Crossing& at : border) {
+            const Step d = at.toward();
             grey += field.grey(at.x, at.y) || field.grey(at.x + d.x, at.y + d.y) ? 1 : 0;
         }
     }
     return static_cast<double>(grey) > kAntiAliasedShare * static_cast<double>(all);
 }
 
-SlotLoop placeSlots(const Field& field, const std::vector<Crossing>& crossings, bool anti_aliased)
+SlotLoop placeSlots(const Field& field, const Border& border, bool anti_aliased)
 {
     SlotLoop loop;
-    loop.reserve(crossings.size());
-    for (const Crossing& at : crossings) {
-        const Step d = kSteps[static_cast<std::size_t>(at.direction)];
+    loop.reserve(border.size());
+    for (const Crossing& at : border) {
+        const Step d = at.toward();
         Slot slot{{at.x + 0.5, at.y + 0.5}, {static_cast<double>(d.x), static_cast<double>(d.y)}, 0.5, {}, 0.0};
         if (anti_aliased) {
             measure(field, at, slot);
@@ -407,18 +332,17 @@ PixelLoop withCorners(const CorneredLoop& cornered)
 }
 
 /// Fairs a loop smooth everywhere.
-CorneredLoop fairWhole(const SlotLoop& measured)
+CorneredLoop fairWhole(SlotLoop slots)
 {
-    CorneredLoop result{measured, {}};
-    fair(result.slots);
-    return result;
+    fair(slots);
+    return {std::move(slots), {}};
 }
 
 /// What fairing with corners needs of a loop at every turn.
 struct CornerSearch {
     const SlotLoop& measured;
-    Coverage coverage;
-    CorneredLoop smooth;
+    const Coverage& coverage;
+    SlotLoop smooth;
     std::vector<double> smooth_strain;
 };
 
@@ -449,55 +373,72 @@ CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
     const double least_gain = search.coverage ? kCornerGain : kCornerGainHard;
     // What was found in the rough curve may be a slot or two off: each round but the last tries failures elsewhere.
     constexpr int kRelocations = 2;
-    for (int round = 0; !turns.empty(); ++round) {
+    int relocations = 0;
+    while (!turns.empty()) {
         const std::vector<std::uint8_t> breaks = breaksAt(turns, search.measured.size());
         CorneredLoop result{search.measured, {}};
         loosenAt(result.slots, breaks);
         fair(result.slots, {.breaks = breaks});
         const std::vector<double> broken_strain = strain(result.slots, {.breaks = breaks});
         std::vector<Turn> kept;
-        std::vector<Turn> moved;
+        std::vector<Turn> failed;
         for (const Turn& turn : turns) {
-            const double gain = costAround(search.smooth.slots, search.smooth_strain, turn) -
-                                costAround(result.slots, broken_strain, turn);
+            const double gain =
+                costAround(search.smooth, search.smooth_strain, turn) - costAround(result.slots, broken_strain, turn);
             const std::optional<Corner> corner =
                 gain > least_gain ? findCorner(result.slots, breaks, turn, search.coverage) : std::nullopt;
             if (corner) {
                 result.corners.push_back(*corner);
                 kept.push_back(turn);
-            } else if (round < kRelocations) {
-                moved.push_back(relocated(result.slots, turn));
+            } else {
+                failed.push_back(turn);
             }
         }
-        if (kept.size() == turns.size()) {
+        if (failed.empty()) {
             return result;
         }
-        turns = apart(std::move(kept), moved, search.measured.size());
+        if (relocations < kRelocations) {
+            ++relocations;
+            std::vector<Turn> elsewhere = apart(kept, relocated(result.slots, failed), search.measured.size());
+            if (elsewhere != turns) {
+                turns = std::move(elsewhere);
+                continue;
+            }
+            // No turn has moved, and none would in another round.
+            relocations = kRelocations;
+        }
+        turns = std::move(kept);
     }
-    return search.smooth;
+    return {search.smooth, {}};
 }
 
 /// Fairs a loop smooth everywhere, then with corners wherever they explain the mask better by far.
 CorneredLoop fairWithCorners(const SlotLoop& measured, const Coverage& coverage)
 {
-    CornerSearch search{measured, coverage, fairWhole(measured), {}};
-    search.smooth_strain = strain(search.smooth.slots);
+    CornerSearch search{measured, coverage, measured, {}};
     SlotLoop rough = measured;
-    fair(rough, {.breaks = {}, .fairness = kDetectionFairness});
-    CorneredLoop best = search.smooth;
+    tbb::parallel_invoke(
+        [&] {
+            fair(search.smooth);
+            search.smooth_strain = strain(search.smooth);
+        },
+        [&] { fair(rough, {.breaks = {}, .fairness = kDetectionFairness}); });
+    std::optional<CorneredLoop> best;
     std::vector<Turn> known;
+    std::vector<Turn> tried;
     for (const Chord& chord : kChords) {
-        const std::vector<Turn> turns = sharpTurns(rough, chord, known);
-        if (turns.size() == known.size()) {
+        std::vector<Turn> turns = sharpTurns(rough, chord, known);
+        if (turns.size() == known.size() || turns == tried) {
             continue;
         }
         best = keepCorners(search, turns);
         known.clear();
-        for (const Corner& corner : best.corners) {
+        for (const Corner& corner : best->corners) {
             known.push_back(corner.turn);
         }
+        tried = std::move(turns);
     }
-    return best;
+    return best ? *std::move(best) : CorneredLoop{std::move(search.smooth), {}};
 }
 
 }  // namespace
@@ -534,8 +475,9 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     mask.validate();
     options.validate();
     const Field field(mask, options.threshold);
-    const std::vector<std::vector<Crossing>> crossings = followAll(field);
-    if (crossings.empty()) {
+    const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * kFull));
+    const std::vector<Border> borders = followBorders(mask, level);
+    if (borders.empty()) {
         throw Error(ErrorCode::InvalidInput,
                     "no liquid in the mask: no pixel reaches threshold " + std::to_string(options.threshold));
     }
@@ -543,23 +485,29 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     Outline outline;
     outline.pixel_size = options.pixel_size.value_or(options.width / mask.width);
     outline.extent = {mask.width * outline.pixel_size, mask.height * outline.pixel_size};
-    outline.anti_aliased = looksAntiAliased(field, crossings);
+    outline.anti_aliased = looksAntiAliased(field, borders);
 
     Coverage coverage;
     if (outline.anti_aliased) {
         coverage = [&field](int x, int y) { return field.coverage(x, y); };
     }
-    std::vector<CorneredLoop> faired;
-    for (const std::vector<Crossing>& crossing_loop : crossings) {
-        const SlotLoop slots = placeSlots(field, crossing_loop, outline.anti_aliased);
-        const double enclosed = std::abs(enclosedArea(slots));
-        if (enclosed < options.speck_size) {
-            ++outline.specks_dropped;
-            outline.largest_speck_px = std::max(outline.largest_speck_px, enclosed);
-            continue;
+    // Of specks the area alone; every loop on its own, so that order and number of threads do not matter.
+    std::vector<CorneredLoop> faired(borders.size());
+    std::vector<double> enclosed(borders.size());
+    tbb::parallel_for(std::size_t{0}, borders.size(), [&](std::size_t k) {
+        SlotLoop slots = placeSlots(field, borders[k], outline.anti_aliased);
+        enclosed[k] = std::abs(enclosedArea(slots));
+        if (enclosed[k] >= options.speck_size) {
+            faired[k] = options.corners ? fairWithCorners(slots, coverage) : fairWhole(std::move(slots));
         }
-        faired.push_back(options.corners ? fairWithCorners(slots, coverage) : fairWhole(slots));
+    });
+    for (const double area : enclosed) {
+        if (area < options.speck_size) {
+            ++outline.specks_dropped;
+            outline.largest_speck_px = std::max(outline.largest_speck_px, area);
+        }
     }
+    std::erase_if(faired, [](const CorneredLoop& loop) { return loop.slots.empty(); });
     removeTouchingCorners(faired);
     for (const CorneredLoop& cornered : faired) {
         PixelLoop pixels = withCorners(cornered);

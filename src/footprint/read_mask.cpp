@@ -43,7 +43,7 @@ std::vector<std::byte> readFile(const std::filesystem::path& path)
         throwUnreadable(path, errno);
     }
     std::vector<std::byte> bytes;
-    std::vector<std::byte> chunk(std::size_t{1} << 20);
+    std::vector<std::byte> chunk(std::size_t{1} << 16);
     while (true) {
         errno = 0;
         const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get());

@@ -3,16 +3,89 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "blocks.h"
 #include "droplet/error.h"
+#include "mesh/lattice_core.h"
+#include "mesh/regular_runs.h"
 
 namespace droplet {
+namespace {
+
+[[noreturn]] void fail(const std::string& message)
+{
+    throw Error(ErrorCode::InvalidArgument, message);
+}
+
+/// Whether runs are in order, at their places, and hold the last vertices.
+void validateRuns(const PlanarMesh& mesh)
+{
+    const Lattice& lattice = mesh.lattice;
+    if (!(lattice.edge > 0.0 && std::isfinite(lattice.edge))) {
+        fail("lattice.edge " + std::to_string(lattice.edge) + " m of the mesh must be positive");
+    }
+    std::uint32_t next = lattice.runs.front().vertex;
+    for (std::size_t k = 0; k < lattice.runs.size(); ++k) {
+        const LatticeRun& run = lattice.runs[k];
+        const LatticeRun& last = lattice.runs[k == 0 ? 0 : k - 1];
+        const std::int64_t last_end = std::int64_t{last.column} + last.count;
+        const bool ascends = k == 0 || run.row > last.row || (run.row == last.row && run.column > last_end);
+        if (!ascends || run.count == 0 || run.vertex != next || run.vertex < mesh.rimVertexCount() ||
+            run.count > mesh.vertices.size() - run.vertex) {
+            fail("lattice.runs[" + std::to_string(k) + "] of the mesh must follow the one before, with a gap");
+        }
+        next += run.count;
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            if (!(mesh.vertices[run.vertex + i] ==
+                  latticePoint(lattice.edge, run.row, run.column + static_cast<std::int32_t>(i)))) {
+                fail("vertex " + std::to_string(run.vertex + i) + " of the mesh must be at its lattice point");
+            }
+        }
+    }
+    if (next != mesh.vertices.size()) {
+        fail("lattice.runs of the mesh must hold its last vertices");
+    }
+}
+
+/// Whether every triangle of three neighbouring lattice points is there, the regular ones last.
+void validateLattice(const PlanarMesh& mesh)
+{
+    validateRuns(mesh);
+    const LatticeRegion region = regionOf(mesh.lattice);
+    const std::uint32_t first_vertex = mesh.lattice.runs.front().vertex;
+    const double just_longer = 1.01 * mesh.lattice.edge;  // the next distance on the lattice is √3 edges
+    std::vector<std::uint8_t> regular(mesh.vertices.size(), 0);
+    for (const RegularRun& run : regularRuns(mesh.lattice)) {
+        std::fill_n(regular.begin() + run.first, run.count, std::uint8_t{1});
+    }
+    std::size_t in_lattice = 0;
+    std::size_t all_regular = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle& t = mesh.triangles[i];
+        bool neighbours = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 side = mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]];
+            neighbours = neighbours && t[k] >= first_vertex && length(side) < just_longer;
+        }
+        const bool is_regular = regular[t[0]] + regular[t[1]] + regular[t[2]] == 3;
+        in_lattice += neighbours ? 1 : 0;
+        all_regular += is_regular ? 1 : 0;
+        if (is_regular != (i >= mesh.lattice.first_regular_triangle)) {
+            fail("lattice.first_regular_triangle of the mesh must part regular triangles from others");
+        }
+    }
+    if (in_lattice != countTriangles(region) || all_regular != countTriangles(eroded(region))) {
+        fail("neighbouring points of the mesh's lattice must form triangles");
+    }
+}
+
+}  // namespace
 
 void PlanarMesh::validate() const
 {
-    const auto fail = [](const std::string& message) { throw Error(ErrorCode::InvalidArgument, message); };
     if (loop_starts.size() < 2 || loop_starts.front() != 0 || loop_starts.back() > vertices.size()) {
         fail("loop_starts of the mesh must run from 0 to the number of rim vertices");
     }
@@ -39,6 +112,9 @@ void PlanarMesh::validate() const
         if (!(doubleArea(*this, t) > 0)) {
             fail("triangles of the mesh must be counter-clockwise with positive area");
         }
+        if (onRim(std::max({t[0], t[1], t[2]}))) {
+            fail("triangles of the mesh must not have all three vertices on the rim");
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t v = t[k];
             const std::uint32_t w = t[(k + 1) % 3];
@@ -47,6 +123,9 @@ void PlanarMesh::validate() const
                      " of the mesh are joined by an inner edge though both are on the rim");
             }
         }
+    }
+    if (!lattice.runs.empty()) {
+        validateLattice(*this);
     }
 }
 
@@ -83,16 +162,22 @@ double rimLength(const PlanarMesh& mesh)
 
 double minAngle(const PlanarMesh& mesh)
 {
-    double smallest = std::numbers::pi;
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec2 corner = mesh.vertices[t[k]];
-            const Vec2 u = mesh.vertices[t[(k + 1) % 3]] - corner;
-            const Vec2 v = mesh.vertices[t[(k + 2) % 3]] - corner;
-            smallest = std::min(smallest, std::atan2(std::abs(cross(u, v)), dot(u, v)));
-        }
-    }
-    return smallest;
+    // The smallest angle has the largest cotangent.
+    const std::vector<double> largest =
+        mapBlocks<double>(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+            double cotangent = 0.0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const Triangle& t = mesh.triangles[i];
+                const Vec2 a = mesh.vertices[t[0]];
+                const Vec2 b = mesh.vertices[t[1]];
+                const Vec2 c = mesh.vertices[t[2]];
+                const double twice = std::abs(cross(b - a, c - a));
+                const double cosine = std::max({dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c)});
+                cotangent = std::max(cotangent, cosine / twice);
+            }
+            return cotangent;
+        });
+    return std::atan2(1.0, *std::max_element(largest.begin(), largest.end()));
 }
 
 }  // namespace droplet

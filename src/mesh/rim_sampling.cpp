@@ -63,7 +63,7 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
     }
     Triangulation triangulation;
     std::uint32_t count = 0;
-    for (const std::vector<VertexHandle>& loop : insertPolygons(triangulation, polygons)) {
+    for (const std::vector<VertexHandle>& loop : insert(triangulation, polygons).loops) {
         for (const VertexHandle v : loop) {
             v->info().index = count++;
         }
@@ -98,6 +98,153 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
                 width = std::isinf(width) ? 2.0 * radius : std::max(width, 2.0 * radius);
             }
         }
+    }
+    return widths;
+}
+
+/// A loop with the way along it and the angle turned through, left or right, up to every point.
+struct Measured {
+    const std::vector<Vec2>* points = nullptr;
+    std::vector<double> arc;
+    std::vector<double> turned;
+};
+
+Measured measure(const Loop& loop)
+{
+    const std::vector<Vec2>& p = loop.points;
+    const std::size_t n = p.size();
+    Measured result{&p, arcLengths(p), {0.0}};
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 before = p[i] - p[i > 0 ? i - 1 : n - 1];
+        const Vec2 after = p[i + 1 < n ? i + 1 : 0] - p[i];
+        result.turned.push_back(result.turned.back() + std::abs(std::atan2(cross(before, after), dot(before, after))));
+    }
+    return result;
+}
+
+/// Consecutive points of a loop, within a circle.
+struct Stretch {
+    std::size_t loop = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    Vec2 centre;
+    double radius = 0.0;
+};
+
+std::vector<Stretch> stretchesOf(const std::vector<Measured>& loops)
+{
+    constexpr std::size_t kPoints = 16;
+    std::vector<Stretch> stretches;
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        const std::vector<Vec2>& points = *loops[k].points;
+        for (std::size_t begin = 0; begin < points.size(); begin += kPoints) {
+            const std::size_t end = std::min(begin + kPoints, points.size());
+            Stretch stretch{k, begin, end, points[begin + (end - begin) / 2], 0.0};
+            for (std::size_t i = begin; i < end; ++i) {
+                stretch.radius = std::max(stretch.radius, length(points[i] - stretch.centre));
+            }
+            stretches.push_back(stretch);
+        }
+    }
+    return stretches;
+}
+
+/// Whether a circle narrower than `widest` could touch two stretches of the rim at points that are far apart along it.
+class Narrowness {
+public:
+    Narrowness(const std::vector<Measured>& loops, double widest) : loops_(loops), widest_(widest) {}
+
+    [[nodiscard]] bool between(const Stretch& a, const Stretch& b) const
+    {
+        const double nearest = length(a.centre - b.centre) - a.radius - b.radius;
+        if (nearest > widest_ || (a.loop == b.loop && isStraight(a, b))) {
+            return false;
+        }
+        for (std::size_t i = a.begin; i < a.end; ++i) {
+            for (std::size_t j = b.begin; j < b.end; ++j) {
+                if (between(a.loop, i, b.loop, j)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    /// A curve that turns by less than θ < π is at most 1/cos(θ/2) times as long as its chord: so within 2·arccos(1/3)
+    /// no two points are farther apart along it than three chords, or kCornerReach radii.
+    [[nodiscard]] bool isStraight(const Stretch& a, const Stretch& b) const
+    {
+        static_assert(kCornerReach == 6.0);
+        constexpr double kTurn = 2.46;
+        const std::vector<double>& turned = loops_[a.loop].turned;
+        const double inside = std::max(turned[a.end], turned[b.end]) - std::min(turned[a.begin], turned[b.begin]);
+        const double outside =
+            turned.back() - (std::max(turned[a.begin], turned[b.begin]) - std::min(turned[a.end], turned[b.end]));
+        return inside < kTurn || outside < kTurn;
+    }
+
+    [[nodiscard]] bool between(std::size_t k, std::size_t i, std::size_t l, std::size_t j) const
+    {
+        const std::vector<Vec2>& points = *loops_[k].points;
+        const Vec2 across = (*loops_[l].points)[j] - points[i];
+        const double squared = dot(across, across);
+        if (squared > widest_ * widest_) {
+            return false;
+        }
+        if (k == l) {
+            const std::vector<double>& arc = loops_[k].arc;
+            const double way = std::abs(arc[i] - arc[j]);
+            const double apart = std::min(way, arc.back() - way);
+            // A chord is at most a diameter.
+            if (apart * apart <= 0.25 * kCornerReach * kCornerReach * squared) {
+                return false;
+            }
+        }
+        // Chords of a circle inside leave to the left, give or take the loop's roughness.
+        constexpr double kRough = 0.3;
+        const Vec2 along = points[i + 1 < points.size() ? i + 1 : 0] - points[i > 0 ? i - 1 : points.size() - 1];
+        const double left = cross(along, across);
+        return left >= 0.0 || left * left <= kRough * kRough * squared * dot(along, along);
+    }
+
+    const std::vector<Measured>& loops_;
+    double widest_;
+};
+
+/// Whether anywhere the liquid may be narrower than `widest`, as localWidths() would find.
+bool isNarrowSomewhere(const std::vector<Loop>& loops, double widest)
+{
+    std::vector<Measured> measured;
+    for (const Loop& loop : loops) {
+        measured.push_back(measure(loop));
+    }
+    std::vector<Stretch> stretches = stretchesOf(measured);
+    double largest = 0.0;
+    for (const Stretch& stretch : stretches) {
+        largest = std::max(largest, stretch.radius);
+    }
+    const double reach = widest + 2.0 * largest;
+    // From left to right, so that only those within reach are looked at.
+    std::stable_sort(stretches.begin(), stretches.end(),
+                     [](const Stretch& a, const Stretch& b) { return a.centre.x < b.centre.x; });
+    const Narrowness narrowness(measured, widest);
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+        for (std::size_t j = i; j < stretches.size() && stretches[j].centre.x - stretches[i].centre.x <= reach; ++j) {
+            if (std::abs(stretches[j].centre.y - stretches[i].centre.y) <= reach &&
+                (narrowness.between(stretches[i], stretches[j]) || narrowness.between(stretches[j], stretches[i]))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+std::vector<std::vector<double>> unknownWidths(const std::vector<Loop>& loops)
+{
+    std::vector<std::vector<double>> widths;
+    for (const Loop& loop : loops) {
+        widths.emplace_back(loop.points.size(), std::numeric_limits<double>::infinity());
     }
     return widths;
 }
@@ -428,10 +575,11 @@ std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
 
 }  // namespace
 
-RimSampler::RimSampler(const Footprint& footprint) : loops_{footprint.rim}
+RimSampler::RimSampler(const Footprint& footprint, double widest) : loops_{footprint.rim}, widest_(widest)
 {
     loops_.insert(loops_.end(), footprint.holes.begin(), footprint.holes.end());
-    widths_ = localWidths(loops_);
+    // Triangulating all points of the loops takes longer than all else on a coarse mesh of wide strokes.
+    widths_ = isNarrowSomewhere(loops_, widest) ? localWidths(loops_) : unknownWidths(loops_);
     double total = 0.0;
     std::size_t count = 0;
     for (const Loop& loop : loops_) {
@@ -444,6 +592,12 @@ RimSampler::RimSampler(const Footprint& footprint) : loops_{footprint.rim}
 
 std::vector<RimPolygon> RimSampler::sample(double edge) const
 {
+    if (edge > widest_) {
+        RimSampler all = *this;
+        all.widest_ = edge;
+        all.widths_ = localWidths(loops_);
+        return all.sample(edge);
+    }
     std::vector<Sampling> samplings(loops_.size());
     for (std::size_t k = 0; k < loops_.size(); ++k) {
         Sampling& sampling = samplings[k];

@@ -15,8 +15,9 @@ using RimPolygon = std::vector<Vec2>;
 /// liquid's local width, is worked out once.
 class RimSampler {
 public:
-    /// @throws Error InvalidArgument if loops cross or touch
-    explicit RimSampler(const Footprint& footprint);
+    /// @param widest  the longest edge that sample() is expected to be asked for [m]
+    /// @throws Error  InvalidArgument if loops cross or touch
+    RimSampler(const Footprint& footprint, double widest);
 
     /// Polygons along the loops, rim first: corners stay, edges are at most about `edge` long, shorter where the liquid
     /// is narrower or the rim curves more; the polygons do not cross and enclose the loops' area.
@@ -28,7 +29,9 @@ public:
 
 private:
     std::vector<Loop> loops_;
-    std::vector<std::vector<double>> widths_;  ///< of the liquid at every point of every loop [m]
+    double widest_;
+    std::vector<std::vector<double>> widths_;  ///< of the liquid at every point of every loop [m]; infinite where it is
+                                               ///< certainly more than widest_
     double finest_ = 0.0;
 };
 

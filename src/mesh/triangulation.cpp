@@ -17,37 +17,41 @@
 
 namespace droplet {
 
-std::vector<std::vector<VertexHandle>> insertPolygons(Triangulation& triangulation,
-                                                      const std::vector<std::vector<Vec2>>& polygons)
+Inserted insert(Triangulation& triangulation, const std::vector<std::vector<Vec2>>& polygons,
+                const std::vector<Vec2>& points)
 {
-    std::vector<Triangulation::Point> points;
+    std::vector<Triangulation::Point> all;
     for (const std::vector<Vec2>& polygon : polygons) {
         for (const Vec2 p : polygon) {
-            points.emplace_back(p.x, p.y);
+            all.emplace_back(p.x, p.y);
         }
     }
-    std::vector<std::size_t> order(points.size());
+    for (const Vec2 p : points) {
+        all.emplace_back(p.x, p.y);
+    }
+    std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Triangulation::Point>::type>;
-    CGAL::spatial_sort(order.begin(), order.end(), Traits(CGAL::make_property_map(points)));
-    std::vector<VertexHandle> vertices(points.size());
+    CGAL::spatial_sort(order.begin(), order.end(), Traits(CGAL::make_property_map(all)));
+    std::vector<VertexHandle> vertices(all.size());
     Triangulation::Face_handle hint;
     for (const std::size_t i : order) {
-        vertices[i] = triangulation.insert(points[i], hint);
+        vertices[i] = triangulation.insert(all[i], hint);
         hint = vertices[i]->face();
     }
-    if (triangulation.number_of_vertices() != points.size()) {
+    if (triangulation.number_of_vertices() != all.size()) {
         throwCrossing();
     }
-    std::vector<std::vector<VertexHandle>> loops;
-    std::size_t first = 0;
+    Inserted inserted;
+    auto next = vertices.begin();
     for (const std::vector<Vec2>& polygon : polygons) {
-        const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
-        loops.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(polygon.size()));
-        first += polygon.size();
+        const auto end = next + static_cast<std::ptrdiff_t>(polygon.size());
+        inserted.loops.emplace_back(next, end);
+        next = end;
     }
+    inserted.points.assign(next, vertices.end());
     try {
-        for (const std::vector<VertexHandle>& loop : loops) {
+        for (const std::vector<VertexHandle>& loop : inserted.loops) {
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 triangulation.insert_constraint(loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]);
             }
@@ -55,7 +59,7 @@ std::vector<std::vector<VertexHandle>> insertPolygons(Triangulation& triangulati
     } catch (const Triangulation::Intersection_of_constraints_exception&) {
         throwCrossing();
     }
-    return loops;
+    return inserted;
 }
 
 void throwCrossing()

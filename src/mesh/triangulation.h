@@ -18,7 +18,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// What a triangulation's vertex carries. A struct with a default: CGAL leaves plain numbers uninitialised.
 struct VertexTag {
-    std::optional<std::uint32_t> index;
+    std::optional<std::uint32_t> index;  ///< in the mesh that is made of it
+    bool is_core = false;                ///< a point of the lattice's core, which stays where it is
 };
 
 using TriangulationData =
@@ -32,11 +33,16 @@ using Triangulation =
 
 using VertexHandle = Triangulation::Vertex_handle;
 
-/// Inserts closed polygons as constraints, in time that does not depend on their shape.
-/// @return       every polygon's vertices, in order
-/// @throws Error InvalidArgument if polygons cross or touch
-std::vector<std::vector<VertexHandle>> insertPolygons(Triangulation& triangulation,
-                                                      const std::vector<std::vector<Vec2>>& polygons);
+/// What a triangulation was begun with.
+struct Inserted {
+    std::vector<std::vector<VertexHandle>> loops;  ///< every polygon's vertices, in order
+    std::vector<VertexHandle> points;              ///< in order
+};
+
+/// Inserts closed polygons as constraints, and points, in time that does not depend on their shape.
+/// @throws Error InvalidArgument if polygons cross or touch, or a point stands twice
+Inserted insert(Triangulation& triangulation, const std::vector<std::vector<Vec2>>& polygons,
+                const std::vector<Vec2>& points = {});
 
 /// The error for loops that cross or touch.
 [[noreturn]] void throwCrossing();

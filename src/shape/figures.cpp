@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "blocks.h"
 #include "shape/gradient.h"
 
 namespace droplet {
@@ -34,26 +36,48 @@ void measureRim(const PlanarMesh& mesh, const HeightField& field, ShapeFigures& 
 
 ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options)
 {
-    ShapeFigures figures;
-    double squares = 0.0;
-    double slope = 0.0;
-    for (const Triangle& t : mesh.triangles) {
-        const double area = 0.5 * doubleArea(mesh, t);
-        const double a = field.height[t[0]];
-        const double b = field.height[t[1]];
-        const double c = field.height[t[2]];
-        const Vec2 g = gradient(mesh, t, field.height);
-        figures.footprint_area += area;
-        figures.volume += area * (a + b + c) / 3.0;
-        figures.liquid_area += area * std::sqrt(1.0 + dot(g, g));
-        // ∫u² of a linear function over a triangle.
-        squares += area * (a * a + b * b + c * c + a * b + b * c + c * a) / 6.0;
-        slope = std::max(slope, length(g));
+    struct Sums {
+        double area = 0.0;
+        double volume = 0.0;
+        double liquid_area = 0.0;
+        double squares = 0.0;
+        double steepest = 0.0;
+    };
+    const std::vector<double>& u = field.height;
+    Sums total;
+    for (const Sums& block : mapBlocks<Sums>(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+             Sums sums;
+             for (std::size_t i = begin; i < end; ++i) {
+                 const Triangle& t = mesh.triangles[i];
+                 const double area = 0.5 * doubleArea(mesh, t);
+                 const double a = u[t[0]];
+                 const double b = u[t[1]];
+                 const double c = u[t[2]];
+                 const Vec2 g = gradient(mesh, t, u);
+                 const double slope = dot(g, g);
+                 sums.area += area;
+                 sums.volume += area * (a + b + c) / 3.0;
+                 sums.liquid_area += area * std::sqrt(1.0 + slope);
+                 // ∫u² of a linear function over a triangle.
+                 sums.squares += area * (a * a + b * b + c * c + a * b + b * c + c * a) / 6.0;
+                 sums.steepest = std::max(sums.steepest, slope);
+             }
+             return sums;
+         })) {
+        total.area += block.area;
+        total.volume += block.volume;
+        total.liquid_area += block.liquid_area;
+        total.squares += block.squares;
+        total.steepest = std::max(total.steepest, block.steepest);
     }
+    ShapeFigures figures;
+    figures.footprint_area = total.area;
+    figures.volume = total.volume;
+    figures.liquid_area = total.liquid_area;
     figures.height_max = *std::max_element(field.height.begin(), field.height.end());
     figures.surface_energy = options.liquid.surface_tension * figures.liquid_area;
-    figures.gravity_energy = 0.5 * options.liquid.density * options.gravity * squares;
-    figures.slope_max = std::atan(slope);
+    figures.gravity_energy = 0.5 * options.liquid.density * options.gravity * total.squares;
+    figures.slope_max = std::atan(std::sqrt(total.steepest));
     measureRim(mesh, field, figures);
     return figures;
 }

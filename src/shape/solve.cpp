@@ -9,72 +9,69 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "droplet/error.h"
-#include "shape/gradient.h"
+#include "shape/direct.h"
+#include "shape/hierarchy.h"
+#include "shape/multigrid.h"
+#include "shape/operator.h"
 
 namespace droplet {
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-using Vector = Eigen::VectorXd;
+/// Fewer unknowns are factored in less time than a hierarchy takes to build, if most of the mesh is its lattice; and if
+/// not, up to many more. Measured in bench/RESULTS.md.
+constexpr std::size_t kSmall = 500;
+constexpr std::size_t kSmallIrregular = 50'000;
 
-/// The equations of one droplet: unknowns are the heights at inner vertices.
+/// The linear system of one droplet, ready for the solver chosen.
 struct System {
-    Matrix matrix;      ///< σK + ρgM, lower triangle
-    Vector load;        ///< m = ∫φ at inner vertices: the right-hand side at unit pressure [m²]
-    Matrix rim_matrix;  ///< the same rows of the rim's vertices, columns of inner vertices
-    Vector rim_load;    ///< m at the rim's vertices
+    Solver solver = Solver::Llt;
+    std::optional<SparseSystem> sparse;
+    std::optional<Hierarchy> hierarchy;
 };
 
-System assemble(const PlanarMesh& mesh, const SolveOptions& options)
+Solver chooseSolver(const PlanarMesh& mesh)
 {
-    const double sigma = options.liquid.surface_tension;
-    const double weight = options.liquid.density * options.gravity;
-    const std::uint32_t rim = mesh.rimVertexCount();
-    const auto inner = static_cast<Eigen::Index>(mesh.vertices.size() - rim);
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<Eigen::Triplet<double>> rim_entries;
-    entries.reserve(6 * mesh.triangles.size());
+    const std::size_t unknowns = mesh.vertices.size() - mesh.rimVertexCount();
+    const std::size_t regular =
+        mesh.lattice.runs.empty() ? 0 : mesh.triangles.size() - mesh.lattice.first_regular_triangle;
+    const bool is_lattice = 2 * regular > mesh.triangles.size();
+    return unknowns < (is_lattice ? kSmall : kSmallIrregular) ? Solver::Llt : Solver::Multigrid;
+}
+
+System prepare(const PlanarMesh& mesh, const Operator& op, Solver wanted)
+{
     System system;
-    system.load = Vector::Zero(inner);
-    system.rim_load = Vector::Zero(rim);
-    for (const Triangle& t : mesh.triangles) {
-        const double area = 0.5 * doubleArea(mesh, t);
-        const std::array<Vec2, 3> hats = hatGradients(mesh, t);
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (mesh.onRim(t[a])) {
-                system.rim_load[t[a]] += area / 3.0;
-            } else {
-                system.load[t[a] - rim] += area / 3.0;
-            }
-            for (std::size_t b = 0; b < 3; ++b) {
-                if (mesh.onRim(t[b])) {
-                    continue;
-                }
-                // σ∫∇φa·∇φb + ρg∫φaφb; the mass of a triangle is A/6 on the diagonal, A/12 off it.
-                const double value = sigma * area * dot(hats[a], hats[b]) + weight * area / (a == b ? 6.0 : 12.0);
-                if (mesh.onRim(t[a])) {
-                    rim_entries.emplace_back(t[a], t[b] - rim, value);
-                } else if (t[a] >= t[b]) {
-                    entries.emplace_back(t[a] - rim, t[b] - rim, value);
-                }
-            }
-        }
+    system.solver = wanted == Solver::Auto ? chooseSolver(mesh) : wanted;
+    if (system.solver == Solver::Multigrid) {
+        system.hierarchy = buildHierarchy(mesh, op);
+    } else {
+        system.sparse = assemble(mesh, op);
     }
-    system.matrix.resize(inner, inner);
-    system.matrix.setFromTriplets(entries.begin(), entries.end());
-    system.rim_matrix.resize(rim, inner);
-    system.rim_matrix.setFromTriplets(rim_entries.begin(), rim_entries.end());
     return system;
+}
+
+const char* nameOf(Solver solver)
+{
+    switch (solver) {
+        case Solver::Llt:
+            return "simplicial-llt";
+        case Solver::Cholmod:
+            return "cholmod-supernodal";
+        case Solver::Multigrid:
+            return "multigrid-pcg";
+        case Solver::Auto:
+            break;
+    }
+    return "";
 }
 
 /// Half the length of the two rim edges at every rim vertex [m].
@@ -94,35 +91,63 @@ std::vector<double> rimWeights(const PlanarMesh& mesh)
 
 /// One droplet at unit pressure. Heights, slopes and volume are proportional to the pressure.
 struct UnitSolution {
-    bool factored = false;
-    double residual = 0.0;           ///< relative
-    Vector height;                   ///< at inner vertices [m/Pa]
-    Vector slope;                    ///< at rim vertices [1/Pa]
+    Solver solver = Solver::Llt;     ///< the one that solved it
+    LinearSolution linear;           ///< heights by σ [m²]
+    std::vector<double> slope;       ///< at rim vertices [1/Pa]
     std::vector<double> rim_weight;  ///< [m]
     double volume = 0.0;             ///< [m³/Pa]
     double height_max = 0.0;         ///< [m/Pa]
 };
 
-UnitSolution solveUnit(const PlanarMesh& mesh, const System& system, double sigma)
+/// Slopes, volume and height of what the linear system gave.
+void measureUnit(const PlanarMesh& mesh, const Operator& op, double sigma, UnitSolution& unit)
+{
+    const std::uint32_t rim = mesh.rimVertexCount();
+    const std::vector<double>& values = unit.linear.values;
+    const auto at = [&](std::uint32_t v) { return mesh.onRim(v) ? 0.0 : values[v - rim]; };
+    unit.slope.assign(rim, 0.0);
+    // Where there is a lattice, its triangles come last and none of them touches the rim.
+    const std::size_t near_rim =
+        mesh.lattice.runs.empty() ? mesh.triangles.size() : mesh.lattice.first_regular_triangle;
+    for (std::size_t i = 0; i < near_rim; ++i) {
+        const Triangle& t = mesh.triangles[i];
+        if (!mesh.onRim(std::min({t[0], t[1], t[2]}))) {
+            continue;
+        }
+        const auto matrix = elementMatrix(mesh, t, op);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (mesh.onRim(t[a])) {
+                // ∫∂u/∂n φ over the rim = (K + wM)u − λm/σ, outward; the slope is counted inward.
+                unit.slope[t[a]] += doubleArea(mesh, t) / 6.0 - matrix[a][0] * at(t[0]) - matrix[a][1] * at(t[1]) -
+                                    matrix[a][2] * at(t[2]);
+            }
+        }
+    }
+    unit.rim_weight = rimWeights(mesh);
+    for (std::uint32_t v = 0; v < rim; ++v) {
+        unit.slope[v] /= sigma * unit.rim_weight[v];
+    }
+    unit.volume = unit.linear.integral / sigma;
+    unit.height_max = *std::max_element(values.begin(), values.end()) / sigma;
+}
+
+UnitSolution solveUnit(const PlanarMesh& mesh, System&& system, const Operator& op, const SolveOptions& options)
 {
     UnitSolution unit;
-    const Eigen::SimplicialLLT<Matrix, Eigen::Lower> factor(system.matrix);
-    if (factor.info() != Eigen::Success) {
-        return unit;
+    unit.solver = system.solver;
+    if (system.hierarchy) {
+        unit.linear = solveByMultigrid(*system.hierarchy);
+        system.hierarchy.reset();
+        if (!unit.linear.converged && options.solver == Solver::Auto) {
+            unit.solver = Solver::Cholmod;
+            system.sparse = assemble(mesh, op);
+        }
     }
-    unit.height = factor.solve(system.load);
-    const auto symmetric = system.matrix.selfadjointView<Eigen::Lower>();
-    // One step of refinement: the factorisation of a fine mesh loses some digits.
-    unit.height += factor.solve(Vector(system.load - symmetric * unit.height));
-    unit.residual = Vector(system.load - symmetric * unit.height).norm() / system.load.norm();
-    unit.factored = true;
-    unit.volume = system.load.dot(unit.height);
-    unit.height_max = unit.height.maxCoeff();
-    unit.rim_weight = rimWeights(mesh);
-    // σ∫∂u/∂n φ over the rim = (σK + ρgM)u − λm, outward; the slope is counted inward.
-    unit.slope = system.rim_load - system.rim_matrix * unit.height;
-    for (Eigen::Index v = 0; v < unit.slope.size(); ++v) {
-        unit.slope[v] /= sigma * unit.rim_weight[static_cast<std::size_t>(v)];
+    if (system.sparse) {
+        unit.linear = unit.solver == Solver::Cholmod ? solveByCholmod(*system.sparse) : solveByLlt(*system.sparse);
+    }
+    if (unit.linear.converged) {
+        measureUnit(mesh, op, options.liquid.surface_tension, unit);
     }
     return unit;
 }
@@ -136,8 +161,8 @@ std::pair<double, double> meanAngle(const std::vector<UnitSolution>& units, cons
     double total = 0.0;
     for (const std::size_t k : group) {
         const UnitSolution& unit = units[k];
-        for (Eigen::Index v = 0; v < unit.slope.size(); ++v) {
-            const double weight = unit.rim_weight[static_cast<std::size_t>(v)];
+        for (std::size_t v = 0; v < unit.slope.size(); ++v) {
+            const double weight = unit.rim_weight[v];
             const double slope = pressure * unit.slope[v];
             angle += weight * std::atan(slope);
             derivative += weight * unit.slope[v] / (1.0 + slope * slope);
@@ -213,33 +238,42 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
     if (meshes.empty()) {
         throw Error(ErrorCode::InvalidArgument, "meshes must hold at least one droplet");
     }
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (meshes[k].vertices.size() <= meshes[k].rimVertexCount()) {
+            throw Error(ErrorCode::InvalidArgument, "meshes[" + std::to_string(k) + "] must have an inner vertex");
+        }
+    }
     if (progress) {
         progress(Stage::Assemble);
     }
+    const Operator op{options.liquid.density * options.gravity / options.liquid.surface_tension};
     std::vector<System> systems(meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) { systems[k] = assemble(meshes[k], options); });
+    tbb::parallel_for(std::size_t{0}, meshes.size(),
+                      [&](std::size_t k) { systems[k] = prepare(meshes[k], op, options.solver); });
 
     if (progress) {
         progress(Stage::Solve);
     }
     std::vector<UnitSolution> units(meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
-        units[k] = solveUnit(meshes[k], systems[k], options.liquid.surface_tension);
-        systems[k] = System{};
-    });
+    tbb::parallel_for(std::size_t{0}, meshes.size(),
+                      [&](std::size_t k) { units[k] = solveUnit(meshes[k], std::move(systems[k]), op, options); });
 
     Solution solution;
-    solution.report.method = "simplicial-llt";
-    solution.report.iterations = 1;
-    solution.report.converged = true;
+    SolveReport& report = solution.report;
+    report.converged = true;
+    std::size_t most = 0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        solution.report.unknowns += meshes[k].vertices.size() - meshes[k].rimVertexCount();
-        solution.report.residual = std::max(solution.report.residual, units[k].residual);
-        solution.report.converged = solution.report.converged && units[k].factored && units[k].volume > 0.0;
+        const std::size_t unknowns = meshes[k].vertices.size() - meshes[k].rimVertexCount();
+        report.unknowns += unknowns;
+        report.iterations = std::max(report.iterations, units[k].linear.iterations);
+        report.residual = std::max(report.residual, units[k].linear.residual);
+        report.converged = report.converged && units[k].linear.converged && units[k].volume > 0.0;
+        if (unknowns > most) {
+            most = unknowns;
+            report.method = nameOf(units[k].solver);
+        }
     }
-    // A million triangles leave 1e-12.
-    solution.report.converged = solution.report.converged && solution.report.residual < 1e-9;
-    if (!solution.report.converged) {
+    if (!report.converged) {
         return solution;
     }
 
@@ -259,8 +293,9 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         HeightField field;
         field.pressure = pressures[k];
         field.height.assign(meshes[k].vertices.size(), 0.0);
-        for (Eigen::Index v = 0; v < units[k].height.size(); ++v) {
-            field.height[rim + static_cast<std::size_t>(v)] = pressures[k] * units[k].height[v];
+        const double factor = pressures[k] / options.liquid.surface_tension;
+        for (std::size_t i = 0; i < units[k].linear.values.size(); ++i) {
+            field.height[rim + i] = factor * units[k].linear.values[i];
         }
         field.rim_slope.resize(rim);
         for (std::uint32_t v = 0; v < rim; ++v) {

@@ -83,7 +83,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
     const auto known = longOptions(help());
-    EXPECT_THAT(known, SizeIs(28));
+    EXPECT_THAT(known, SizeIs(30));
     EXPECT_EQ(longOptions(manual()), known);
     EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), [&] {
         auto with_syntax = known;
@@ -119,6 +119,9 @@ TEST(Documentation, DefaultsInTheHelpAreTheLibrarys)
     EXPECT_DOUBLE_EQ(parseQuantity(default_of("--gravity"), Dimension::Acceleration), options.solve.gravity);
     EXPECT_EQ(default_of("--triangles"), std::to_string(options.mesh.triangles / 1000) + "k");
     EXPECT_EQ(default_of("--channel"), "auto");
+    EXPECT_EQ(default_of("--grading"), std::to_string(options.mesh.grading));
+    EXPECT_EQ(default_of("--solver"), "auto");
+    EXPECT_EQ(options.solve.solver, Solver::Auto);
 }
 
 TEST(Documentation, HelpAndManualNameEveryLiquidAndUnit)
@@ -148,7 +151,8 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
         names.push_back(liquid.name);
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
-    for (const char* option : {"--channel", "--fill", "--liquid", "--material", "--format", "--progress"}) {
+    for (const char* option :
+         {"--channel", "--fill", "--liquid", "--material", "--format", "--progress", "--grading", "--solver"}) {
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
         for (const std::string& name : offered) {

@@ -158,7 +158,9 @@ TEST_F(ShapeCommandTest, ReportTellsWhatWasReadAndWritten)
     EXPECT_EQ(report["output"]["components"], 2);
     EXPECT_EQ(report["mesh"]["droplets"], 2);
     EXPECT_EQ(report["mesh"]["holes"], 1);
-    EXPECT_EQ(report["output"]["triangles"], 2 * report["mesh"]["triangles"].get<int>());
+    // The base has few triangles, but one at least for every vertex of the rim that it joins.
+    EXPECT_GT(report["output"]["triangles"], report["mesh"]["triangles"].get<int>());
+    EXPECT_LT(report["output"]["triangles"], 2 * report["mesh"]["triangles"].get<int>());
     EXPECT_EQ(report["solve"]["converged"], true);
     EXPECT_GT(report["peak_memory_bytes"], 1'000'000);
 }

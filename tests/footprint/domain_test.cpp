@@ -89,6 +89,47 @@ TEST(Domain, AreasOfATracedMaskAddUp)
     EXPECT_EQ(domain.droplets.size(), 6U);
 }
 
+/// Whether a loop winds around a point.
+bool encloses(const Loop& loop, Vec2 point)
+{
+    bool inside = false;
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+        const Vec2 a = loop.points[i];
+        const Vec2 b = loop.points[(i + 1) % loop.points.size()];
+        if ((a.y > point.y) != (b.y > point.y) && cross(b - a, point - a) * (b.y - a.y) > 0) {
+            inside = !inside;
+        }
+    }
+    return inside;
+}
+
+// Blobs with blobs in their holes, of all sizes: hundreds of loops, many edges to one height.
+TEST(Domain, EveryHoleLiesInTheSmallestRimAroundIt)
+{
+    const Mask mask = testing::hardMask(300, 300, [](Vec2 p) {
+        return std::sin(0.31 * p.x) + std::sin(0.37 * p.y) + std::sin(0.9 * p.x + 1.1 * p.y) +
+                   std::sin(0.05 * p.x * p.y / 40.0) >
+               -0.1;
+    });
+    const Domain domain = split(trace(mask));
+    std::size_t holes = 0;
+    for (const Footprint& footprint : domain.droplets) {
+        for (const Loop& hole : footprint.holes) {
+            ++holes;
+            const Footprint* smallest = nullptr;
+            for (const Footprint& other : domain.droplets) {
+                if (encloses(other.rim, hole.points.front()) &&
+                    (smallest == nullptr || signedArea(other.rim) < signedArea(smallest->rim))) {
+                    smallest = &other;
+                }
+            }
+            EXPECT_EQ(smallest, &footprint);
+        }
+    }
+    EXPECT_GT(holes, 50U);
+    EXPECT_GT(domain.droplets.size(), 5U);
+}
+
 TEST(Domain, RefusesHolesWithoutRim)
 {
     Outline outline;

@@ -2,6 +2,7 @@
 #include "droplet/footprint/outline.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -349,6 +350,28 @@ TEST(Outline, NeverCrossesItselfWhateverTheMask)
                 options.speck_size = 0.0;
                 EXPECT_FALSE(anyEdgesMeet(trace(noiseMask(50, density, hard, seed), options)))
                     << seed << " " << density;
+            }
+        }
+    }
+}
+
+TEST(Outline, IsTheSameWithAnyNumberOfThreads)
+{
+    for (const bool hard : {false, true}) {
+        const Mask mask = noiseMask(150, 0.6, hard, 5);
+        std::vector<Outline> outlines;
+        for (const std::size_t threads : {1U, 2U, 7U}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            outlines.push_back(trace(mask, inPixels()));
+        }
+        ASSERT_GT(outlines[0].loops.size(), 50U);
+        for (const Outline& other : outlines) {
+            ASSERT_EQ(other.loops.size(), outlines[0].loops.size());
+            EXPECT_EQ(other.specks_dropped, outlines[0].specks_dropped);
+            EXPECT_EQ(other.largest_speck_px, outlines[0].largest_speck_px);
+            for (std::size_t k = 0; k < other.loops.size(); ++k) {
+                EXPECT_EQ(other.loops[k].points, outlines[0].loops[k].points);
+                EXPECT_EQ(other.loops[k].corner, outlines[0].loops[k].corner);
             }
         }
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "droplet/droplet.h"
 
@@ -68,7 +69,8 @@ inline void expectSound(const Droplet& droplet, bool open = false)
         }
         // Round-off: products of coordinates up to the extent, in sums of as many terms as there are triangles.
         const double extent = droplet.domain.extent.x * droplet.domain.extent.y;
-        EXPECT_NEAR(area(mesh), around, 1e-12 * extent);
+        const auto terms = static_cast<double>(mesh.triangles.size());
+        EXPECT_NEAR(area(mesh), around, std::numeric_limits<double>::epsilon() * terms * extent);
         expectLiquid(mesh, droplet.solution.droplets[k]);
     }
     ASSERT_NO_THROW(droplet.surface.validate());

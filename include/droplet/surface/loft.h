@@ -18,7 +18,7 @@ struct LoftOptions {
     void validate() const;
 };
 
-/// Raises every mesh to its height and closes it with a flat base of the same triangles, wound the other way.
+/// Raises every mesh to its height and closes it with a flat base of few triangles, which share the rim's places.
 ///
 /// Normals are those of the recovered gradient inside, and on the rim of the slope that balances the rim's force
 /// (Carey's boundary flux), so that a cap's rim shades like the cap. The base has its own normal: the rim is crisp.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace droplet {
+
+/// Long arrays are worked on in blocks of this length: long enough for a thread to be worth its while.
+inline constexpr std::size_t kBlock = 16384;
+
+/// Calls work(begin, end) for every block of [0, count), in parallel if there are several.
+template <typename Work>
+void forBlocks(std::size_t count, const Work& work)
+{
+    if (count <= kBlock) {
+        work(std::size_t{0}, count);
+        return;
+    }
+    tbb::parallel_for(std::size_t{0}, (count + kBlock - 1) / kBlock,
+                      [&](std::size_t b) { work(b * kBlock, std::min(count, (b + 1) * kBlock)); });
+}
+
+/// What map(begin, end) returns for every block of [0, count), in their order: summed up, the same at any number of
+/// threads.
+template <typename Result, typename Map>
+std::vector<Result> mapBlocks(std::size_t count, const Map& map)
+{
+    std::vector<Result> results((count + kBlock - 1) / kBlock);
+    forBlocks(count, [&](std::size_t begin, std::size_t end) {
+        if (begin < end) {
+            results[begin / kBlock] = map(begin, end);
+        }
+    });
+    return results;
+}
+
+/// Sum over blocks, each summed up by sum(begin, end), in their order.
+template <typename Sum>
+double sumOverBlocks(std::size_t count, const Sum& sum)
+{
+    double total = 0.0;
+    for (const double s : mapBlocks<double>(count, sum)) {
+        total += s;
+    }
+    return total;
+}
+
+}  // namespace droplet

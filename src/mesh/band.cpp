@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Constrained Delaunay triangulation (CGAL), refined after J. Ruppert, "A Delaunay refinement algorithm for quality
+// 2-dimensional mesh generation" (1995), with his concentric shells at sharp corners. Departures: inner edges between
+// two rim vertices count as bad, for the liquid's surface would lie on the ground along them, and nothing is refined
+// below a fraction of a pixel, so that refinement ends whatever the input angles. CGAL's own refinement,
+// Delaunay_mesher_2, knows neither; on masks of noise it ends in a segmentation fault (5.5.1).
+
+#include "mesh/band.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "mesh/smoothing.h"
+#include "mesh/triangulation.h"
+
+namespace droplet {
+namespace {
+
+/// Square of the smallest angle's tangent: Ruppert's bound, the largest for which refinement provably ends, is
+/// arcsin(1/√8) = arctan(1/√7) = 20.7°.
+constexpr double kLeastTangentSquared = 1.0 / 7.0;
+
+/// Corners sharper than this get concentric shells: below it, halving one side encroaches upon the other for ever.
+constexpr double kSharpCorner = std::numbers::pi / 3.0;
+
+using Point = Triangulation::Point;
+using FaceHandle = Triangulation::Face_handle;
+using Edge = Triangulation::Edge;
+using Corners = std::array<VertexHandle, 3>;
+
+Vec2 vec(const Point& p)
+{
+    return {p.x(), p.y()};
+}
+
+double angleAt(Vec2 corner, Vec2 a, Vec2 b)
+{
+    const Vec2 u = a - corner;
+    const Vec2 v = b - corner;
+    return std::atan2(std::abs(cross(u, v)), dot(u, v));
+}
+
+using Polygons = std::vector<std::vector<Vec2>>;
+
+/// The triangulation of one footprint, or of what its lattice leaves of it, in the making.
+class Band {
+public:
+    /// @param finest  length below which nothing is refined [m]
+    Band(const Polygons& polygons, const std::vector<Vec2>& points, double finest)
+        : finest_(finest), inserted_(insert(triangulation_, polygons, points))
+    {
+    }
+
+    /// Points of the core, from a number on, and edges between them: what lies behind these is none of ours.
+    void leaveOut(std::size_t first, const std::vector<std::array<std::uint32_t, 2>>& boundary)
+    {
+        for (std::size_t i = first; i < inserted_.points.size(); ++i) {
+            inserted_.points[i]->info().is_core = true;
+        }
+        for (const auto& [a, b] : boundary) {
+            triangulation_.insert_constraint(inserted_.points[first + a], inserted_.points[first + b]);
+        }
+    }
+
+    /// Refines until every angle and every edge's tie to the inside is good, or as fine as it may be.
+    void refine()
+    {
+        // Every round mends what the one before stirred up; real footprints need two or three.
+        constexpr int kRounds = 30;
+        for (int round = 0; round < kRounds; ++round) {
+            markDomain(triangulation_);
+            const std::vector<Corners> sharp = sharpFaces();
+            std::size_t changes = 0;
+            for (const Corners& v : sharp) {
+                FaceHandle f;
+                // An earlier insertion may have mended this one already.
+                if (triangulation_.is_face(v[0], v[1], v[2], f)) {
+                    changes += split(f) ? 1 : 0;
+                }
+            }
+            changes += splitFlatEdges();
+            if (changes == 0) {
+                return;
+            }
+        }
+        while (splitFlatEdges() > 0) {
+        }
+        markDomain(triangulation_);
+    }
+
+    /// The rim's vertices, then all others but the core's; the core's points have the given numbers after those.
+    [[nodiscard]] PlanarMesh extract(const std::vector<std::uint32_t>& core_numbers) const;
+
+    [[nodiscard]] const Inserted& inserted() const { return inserted_; }
+
+private:
+    /// The faces of the domain with too small an angle, by their vertices, for faces come and go.
+    [[nodiscard]] std::vector<Corners> sharpFaces() const
+    {
+        std::vector<Corners> result;
+        for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+            if (f->is_in_domain() && isSharp(f)) {
+                result.push_back({f->vertex(0), f->vertex(1), f->vertex(2)});
+            }
+        }
+        return result;
+    }
+
+    /// Whether a face has too small an angle that is not a corner of the rim.
+    [[nodiscard]] bool isSharp(FaceHandle f) const
+    {
+        for (int i = 0; i < 3; ++i) {
+            const Vec2 corner = vec(f->vertex(i)->point());
+            const Vec2 u = vec(f->vertex(Triangulation::ccw(i))->point()) - corner;
+            const Vec2 v = vec(f->vertex(Triangulation::cw(i))->point()) - corner;
+            const double sine = cross(u, v);
+            const double cosine = dot(u, v);
+            const bool is_corner = f->is_constrained(Triangulation::ccw(i)) && f->is_constrained(Triangulation::cw(i));
+            if (cosine > 0.0 && sine * sine < kLeastTangentSquared * cosine * cosine && !is_corner) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] double edgeLength(const Edge& e) const
+    {
+        return length(vec(e.first->vertex(Triangulation::cw(e.second))->point()) -
+                      vec(e.first->vertex(Triangulation::ccw(e.second))->point()));
+    }
+
+    /// Splits a bad face by its circumcentre, or the rim edges that stand in its way.
+    /// @return whether anything was inserted
+    bool split(FaceHandle f)
+    {
+        if (std::min({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})}) < finest_) {
+            return false;
+        }
+        const Point centre = triangulation_.circumcenter(f);
+        FaceHandle at = f;
+        if (const std::optional<Edge> wall = walk(at, centre)) {
+            return !isCore(*wall) && splitRim(*wall);
+        }
+        std::vector<FaceHandle> conflicts;
+        std::vector<Edge> boundary;
+        triangulation_.get_conflicts_and_boundary(centre, std::back_inserter(conflicts), std::back_inserter(boundary),
+                                                  at);
+        std::vector<std::array<VertexHandle, 2>> encroached;
+        for (const Edge& e : boundary) {
+            const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
+            const VertexHandle b = e.first->vertex(Triangulation::ccw(e.second));
+            if (e.first->is_constrained(e.second) &&
+                dot(vec(a->point()) - vec(centre), vec(b->point()) - vec(centre)) < 0) {
+                if (isCore(e)) {
+                    return false;
+                }
+                encroached.push_back({a, b});
+            }
+        }
+        if (encroached.empty()) {
+            Triangulation::Locate_type type{};
+            int index = 0;
+            const FaceHandle place = triangulation_.locate(centre, type, index, at);
+            if (type == Triangulation::VERTEX || type == Triangulation::OUTSIDE_CONVEX_HULL) {
+                return false;
+            }
+            triangulation_.insert(centre, type, place, index);
+            return true;
+        }
+        bool changed = false;
+        for (const std::array<VertexHandle, 2>& ends : encroached) {
+            FaceHandle g;
+            int i = 0;
+            if (triangulation_.is_edge(ends[0], ends[1], g, i)) {
+                changed = splitRim({g, i}) || changed;
+            }
+        }
+        return changed;
+    }
+
+    /// Walks straight from a face to a point; returns the rim edge in the way, or leaves the point's face in `at`.
+    std::optional<Edge> walk(FaceHandle& at, const Point& to) const
+    {
+        const Point from = CGAL::centroid(at->vertex(0)->point(), at->vertex(1)->point(), at->vertex(2)->point());
+        FaceHandle last;
+        while (true) {
+            int through = -1;
+            for (int i = 0; i < 3; ++i) {
+                const Point& a = at->vertex(Triangulation::ccw(i))->point();
+                const Point& b = at->vertex(Triangulation::cw(i))->point();
+                if (at->neighbor(i) != last && CGAL::orientation(a, b, to) == CGAL::RIGHT_TURN &&
+                    CGAL::orientation(from, to, a) != CGAL::LEFT_TURN &&
+                    CGAL::orientation(from, to, b) != CGAL::RIGHT_TURN) {
+                    through = i;
+                }
+            }
+            if (through < 0) {
+                return std::nullopt;
+            }
+            if (at->is_constrained(through)) {
+                return Edge{at, through};
+            }
+            last = at;
+            at = at->neighbor(through);
+        }
+    }
+
+    /// Whether an edge has the core behind it.
+    static bool isCore(const Edge& e)
+    {
+        return e.first->vertex(Triangulation::cw(e.second))->info().is_core &&
+               e.first->vertex(Triangulation::ccw(e.second))->info().is_core;
+    }
+
+    /// Splits a rim edge in the middle, or, next to a sharp corner, at a power of two away from it.
+    bool splitRim(const Edge& e)
+    {
+        const double whole = edgeLength(e);
+        if (whole < 2.0 * finest_) {
+            return false;
+        }
+        VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
+        VertexHandle b = e.first->vertex(Triangulation::ccw(e.second));
+        double part = 0.5;
+        if (isSharpCorner(b)) {
+            std::swap(a, b);
+        }
+        if (isSharpCorner(a)) {
+            part = std::exp2(std::round(std::log2(0.5 * whole / finest_))) * finest_ / whole;
+        }
+        const Vec2 middle = vec(a->point()) + part * (vec(b->point()) - vec(a->point()));
+        triangulation_.insert(Point(middle.x, middle.y), Triangulation::EDGE, e.first, e.second);
+        return true;
+    }
+
+    [[nodiscard]] bool isSharpCorner(VertexHandle v) const
+    {
+        std::vector<Vec2> sides;
+        auto edge = triangulation_.incident_edges(v);
+        const auto done = edge;
+        do {
+            if (!triangulation_.is_infinite(*edge) && triangulation_.is_constrained(*edge)) {
+                const VertexHandle a = edge->first->vertex(Triangulation::cw(edge->second));
+                sides.push_back(vec((a == v ? edge->first->vertex(Triangulation::ccw(edge->second)) : a)->point()));
+            }
+        } while (++edge != done);
+        return sides.size() == 2 && angleAt(vec(v->point()), sides[0], sides[1]) < kSharpCorner;
+    }
+
+    /// Halves every inner edge that joins two rim vertices.
+    /// @return how many there were
+    std::size_t splitFlatEdges()
+    {
+        markDomain(triangulation_);
+        markRim();
+        std::vector<std::array<VertexHandle, 2>> flat;
+        for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
+            const VertexHandle a = e->first->vertex(Triangulation::cw(e->second));
+            const VertexHandle b = e->first->vertex(Triangulation::ccw(e->second));
+            if (isRim(a) && isRim(b) && !triangulation_.is_constrained(*e) && e->first->is_in_domain()) {
+                flat.push_back({a, b});
+            }
+        }
+        for (const std::array<VertexHandle, 2>& ends : flat) {
+            FaceHandle f;
+            int i = 0;
+            // Halving another edge may have flipped this one away.
+            if (triangulation_.is_edge(ends[0], ends[1], f, i)) {
+                triangulation_.insert(CGAL::midpoint(ends[0]->point(), ends[1]->point()), Triangulation::EDGE, f, i);
+            }
+        }
+        return flat.size() + raiseWholeDroplets();
+    }
+
+    /// Gives a vertex to every face that is a whole droplet: it has no inner edge to halve.
+    /// @return how many there were
+    std::size_t raiseWholeDroplets()
+    {
+        std::vector<FaceHandle> whole;
+        for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+            if (f->is_in_domain() && f->is_constrained(0) && f->is_constrained(1) && f->is_constrained(2) &&
+                !f->vertex(0)->info().is_core) {
+                whole.push_back(f);
+            }
+        }
+        for (const FaceHandle f : whole) {
+            triangulation_.insert(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
+                                  Triangulation::FACE, f, 0);
+        }
+        return whole.size();
+    }
+
+    void markRim()
+    {
+        for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
+            v->info().index.reset();
+        }
+        for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
+            if (triangulation_.is_constrained(*e) && !isCore(*e)) {
+                e->first->vertex(Triangulation::cw(e->second))->info().index = 0;
+                e->first->vertex(Triangulation::ccw(e->second))->info().index = 0;
+            }
+        }
+    }
+    static bool isRim(VertexHandle v) { return v->info().index.has_value(); }
+
+    /// The vertex after `from` along the rim polygon toward `to`: the mesher may have split the edge between.
+    [[nodiscard]] VertexHandle nextToward(VertexHandle from, VertexHandle to) const
+    {
+        const Vec2 start{from->point().x(), from->point().y()};
+        const Vec2 wanted = Vec2{to->point().x(), to->point().y()} - start;
+        VertexHandle best = to;
+        double best_cosine = -2.0;
+        auto edge = triangulation_.incident_edges(from);
+        const auto done = edge;
+        do {
+            if (!triangulation_.is_infinite(*edge) && triangulation_.is_constrained(*edge)) {
+                const int i = edge->second;
+                const VertexHandle a = edge->first->vertex(Triangulation::cw(i));
+                const VertexHandle other = a == from ? edge->first->vertex(Triangulation::ccw(i)) : a;
+                const Vec2 d = Vec2{other->point().x(), other->point().y()} - start;
+                const double cosine = dot(d, wanted) / (length(d) * length(wanted));
+                if (cosine > best_cosine) {
+                    best_cosine = cosine;
+                    best = other;
+                }
+            }
+        } while (++edge != done);
+        return best;
+    }
+
+    Triangulation triangulation_;
+    double finest_;
+    Inserted inserted_;
+};
+
+PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const
+{
+    PlanarMesh mesh;
+    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
+        v->info().index.reset();
+    }
+    const auto take = [&](VertexHandle v) {
+        v->info().index = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(vec(v->point()));
+    };
+    mesh.loop_starts.push_back(0);
+    for (const std::vector<VertexHandle>& loop : inserted_.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const VertexHandle end = loop[(i + 1) % loop.size()];
+            for (VertexHandle v = loop[i]; v != end; v = nextToward(v, end)) {
+                take(v);
+            }
+        }
+        mesh.loop_starts.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+    }
+    std::vector<FaceHandle> faces;
+    for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+        if (!f->is_in_domain()) {
+            continue;
+        }
+        faces.push_back(f);
+        for (int k = 0; k < 3; ++k) {
+            const VertexHandle v = f->vertex(k);
+            if (!v->info().index && !v->info().is_core) {
+                take(v);
+            }
+        }
+    }
+    const auto first_core = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::size_t i = 0; i < core_numbers.size(); ++i) {
+        inserted_.points[inserted_.points.size() - core_numbers.size() + i]->info().index =
+            first_core + core_numbers[i];
+    }
+    for (const FaceHandle f : faces) {
+        mesh.triangles.push_back(
+            {*f->vertex(0)->info().index, *f->vertex(1)->info().index, *f->vertex(2)->info().index});
+    }
+    return mesh;
+}
+
+}  // namespace
+
+PlanarMesh triangulateBand(const Polygons& polygons, const LatticeCore& core, double finest)
+{
+    std::vector<Vec2> points = core.loosePoints();
+    const std::size_t loose = points.size();
+    for (const LatticeSite& site : core.seam()) {
+        points.push_back(latticePoint(core.edge(), site.row, site.column));
+    }
+    Band band(polygons, points, finest);
+    band.leaveOut(loose, core.boundary());
+    band.refine();
+    PlanarMesh mesh = band.extract(core.seamNumbers());
+    const std::size_t triangles = mesh.triangles.size();
+    const std::size_t first_fixed = mesh.vertices.size();
+    core.appendTo(mesh);
+    smooth(mesh, {mesh.rimVertexCount(), first_fixed, triangles});
+    return mesh;
+}
+
+PlanarMesh triangulatePoints(const Polygons& polygons, const std::vector<Vec2>& points, double finest)
+{
+    Band band(polygons, points, finest);
+    band.refine();
+    PlanarMesh mesh = band.extract({});
+    smooth(mesh, {mesh.rimVertexCount(), mesh.vertices.size(), mesh.triangles.size()});
+    return mesh;
+}
+
+std::vector<Triangle> triangulateAsIs(const Polygons& polygons, const std::vector<Vec2>& points)
+{
+    Triangulation triangulation;
+    const Inserted inserted = insert(triangulation, polygons, points);
+    std::uint32_t count = 0;
+    for (const std::vector<VertexHandle>& loop : inserted.loops) {
+        for (const VertexHandle v : loop) {
+            v->info().index = count++;
+        }
+    }
+    for (const VertexHandle v : inserted.points) {
+        v->info().index = count++;
+    }
+    markDomain(triangulation);
+    std::vector<Triangle> triangles;
+    for (auto f = triangulation.finite_faces_begin(); f != triangulation.finite_faces_end(); ++f) {
+        if (f->is_in_domain()) {
+            triangles.push_back(
+                {*f->vertex(0)->info().index, *f->vertex(1)->info().index, *f->vertex(2)->info().index});
+        }
+    }
+    return triangles;
+}
+
+}  // namespace droplet

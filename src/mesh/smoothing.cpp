@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/smoothing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace droplet {
+namespace {
+
+/// Cotangent of the angle at a between b and c, counter-clockwise.
+double cotangent(Vec2 a, Vec2 b, Vec2 c)
+{
+    return dot(b - a, c - a) / cross(b - a, c - a);
+}
+
+/// Cotangent of a triangle's smallest angle; of what is not counter-clockwise, infinity.
+double largestCotangent(Vec2 a, Vec2 b, Vec2 c)
+{
+    const double twice = cross(b - a, c - a);
+    if (!(twice > 0.0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return std::max({dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c)}) / twice;
+}
+
+/// The movable vertices of a mesh, with the triangles around them.
+class Smoothing {
+public:
+    Smoothing(PlanarMesh& mesh, const SmoothRange& range)
+        : mesh_(mesh),
+          range_(range),
+          before_(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(range.first_vertex),
+                  mesh.vertices.begin() + static_cast<std::ptrdiff_t>(range.end_vertex))
+    {
+        starts_.assign(before_.size() + 1, 0);
+        forEachMovableCorner([&](std::size_t i, std::uint32_t) { ++starts_[i + 1]; });
+        for (std::size_t i = 1; i < starts_.size(); ++i) {
+            starts_[i] += starts_[i - 1];
+        }
+        around_.resize(starts_.back());
+        std::vector<std::uint32_t> filled(starts_.begin(), starts_.end() - 1);
+        forEachMovableCorner([&](std::size_t i, std::uint32_t t) { around_[filled[i]++] = t; });
+    }
+
+    void sweep()
+    {
+        for (std::size_t i = 0; i < before_.size(); ++i) {
+            Vec2& vertex = mesh_.vertices[range_.first_vertex + i];
+            Vec2 sum{};
+            double weight = 0.0;
+            for (std::uint32_t k = starts_[i]; k < starts_[i + 1]; ++k) {
+                const Triangle& t = mesh_.triangles[around_[k]];
+                const double twice = doubleArea(mesh_, t);
+                sum = sum + (twice / 3.0) * ((at(t[0]) - vertex) + (at(t[1]) - vertex) + (at(t[2]) - vertex));
+                weight += twice;
+            }
+            const Vec2 move = (1.0 / weight) * sum;
+            const double size_squared = weight / static_cast<double>(starts_[i + 1] - starts_[i]);
+            constexpr double kNoticed = 1e-3;  // of an edge
+            if (dot(move, move) < kNoticed * kNoticed * size_squared) {
+                continue;
+            }
+            const Vec2 from = vertex;
+            const double was = worst(i);
+            vertex = from + move;
+            if (worst(i) > was) {
+                vertex = from;
+            }
+        }
+    }
+
+    /// Puts vertices back to where they came from until every edge between them is Delaunay again: two angles that face
+    /// an edge and sum to more than 180° would make the stiffness between its ends positive, and heights negative.
+    void undoWhereNotDelaunay()
+    {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::uint32_t t = 0; t < range_.triangles; ++t) {
+                const Triangle& triangle = mesh_.triangles[t];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t apex = triangle[k];
+                    const std::uint32_t a = triangle[(k + 1) % 3];
+                    const std::uint32_t b = triangle[(k + 2) % 3];
+                    const double here = cotangent(at(apex), at(a), at(b));
+                    if (here >= 0.0 || mesh_.onRim(a) || mesh_.onRim(b)) {
+                        continue;
+                    }
+                    const Facing other = facing(b, a);
+                    if (here + other.cotangent < 0.0) {
+                        for (const std::uint32_t v : {apex, a, b, other.apex}) {
+                            changed = putBack(v) || changed;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    /// What faces an edge.
+    struct Facing {
+        std::uint32_t apex = 0;
+        double cotangent = 0.0;
+    };
+
+    template <typename Visit>
+    void forEachMovableCorner(const Visit& visit) const
+    {
+        for (std::uint32_t t = 0; t < range_.triangles; ++t) {
+            for (const std::uint32_t v : mesh_.triangles[t]) {
+                if (isMovable(v)) {
+                    visit(v - range_.first_vertex, t);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool isMovable(std::uint32_t v) const { return v >= range_.first_vertex && v < range_.end_vertex; }
+    [[nodiscard]] Vec2 at(std::uint32_t v) const { return mesh_.vertices[v]; }
+
+    /// Cotangent of the smallest angle around a vertex.
+    [[nodiscard]] double worst(std::size_t i) const
+    {
+        double worst = 0.0;
+        for (std::uint32_t k = starts_[i]; k < starts_[i + 1]; ++k) {
+            const Triangle& t = mesh_.triangles[around_[k]];
+            worst = std::max(worst, largestCotangent(at(t[0]), at(t[1]), at(t[2])));
+        }
+        return worst;
+    }
+
+    /// The corner on the left of the edge from a to b. Behind edges of which neither end moves it is taken for a right
+    /// angle: lattice triangles have less.
+    [[nodiscard]] Facing facing(std::uint32_t a, std::uint32_t b) const
+    {
+        const std::uint32_t end = isMovable(a) ? a : b;
+        if (!isMovable(end)) {
+            return {a, 0.0};
+        }
+        const std::size_t i = end - range_.first_vertex;
+        for (std::uint32_t n = starts_[i]; n < starts_[i + 1]; ++n) {
+            const Triangle& t = mesh_.triangles[around_[n]];
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (t[(k + 1) % 3] == a && t[(k + 2) % 3] == b) {
+                    return {t[k], cotangent(at(t[k]), at(a), at(b))};
+                }
+            }
+        }
+        return {a, 0.0};
+    }
+
+    bool putBack(std::uint32_t v)
+    {
+        if (!isMovable(v) || mesh_.vertices[v] == before_[v - range_.first_vertex]) {
+            return false;
+        }
+        mesh_.vertices[v] = before_[v - range_.first_vertex];
+        return true;
+    }
+
+    PlanarMesh& mesh_;
+    SmoothRange range_;
+    std::vector<Vec2> before_;
+    std::vector<std::uint32_t> starts_;  ///< of every movable vertex, into around_
+    std::vector<std::uint32_t> around_;  ///< triangles
+};
+
+}  // namespace
+
+void smooth(PlanarMesh& mesh, const SmoothRange& range)
+{
+    constexpr int kSweeps = 4;  // the band is two triangles wide: this carries a move across it and back
+    Smoothing smoothing(mesh, range);
+    for (int k = 0; k < kSweeps; ++k) {
+        smoothing.sweep();
+    }
+    smoothing.undoWhereNotDelaunay();
+}
+
+}  // namespace droplet

@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Multigrid on a mesh that is mostly a lattice: U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001), with the
+// coarse lattices' functions cut off at the rim, after M. Holst and S. Vandewalle, "Schwarz methods: to symmetrize or
+// not to symmetrize" (1997), section on Galerkin products: where a coarse function reaches over the rim, it is kept if
+// enough of it lies inside.
+
+#include "shape/hierarchy.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "mesh/regular_runs.h"
+
+namespace droplet {
+namespace {
+
+using Index = std::uint32_t;
+
+/// What a row of the matrix is at an index; else its number among the irregular ones.
+constexpr Index kNone = std::numeric_limits<Index>::max();
+constexpr Index kRegular = kNone - 1;
+
+/// A coarse function is kept if its values at the finer level's unknowns sum to this; all of one sum to 4. Below 1.6
+/// they begin to depend on one another, above 2.2 the rim is left to the smoother: iterations rise from 9 to 14.
+constexpr double kEnoughInside = 1.9;
+
+/// The coarsest level is factored. Below this size that takes no time.
+constexpr Index kCoarsest = 400;
+
+/// A coarser level that has not even this many times fewer unknowns would only cost.
+constexpr double kLeastCoarsening = 1.5;
+
+/// Which rows are what, and where they are, while a level is being built.
+struct Plan {
+    LatticeGrid grid;
+    Index off_lattice = 0;   ///< unknowns that are no lattice points; they come first
+    LatticeRegion region;    ///< the lattice points that are unknowns
+    std::vector<Index> row;  ///< kNone, kRegular or a number, for every index
+
+    [[nodiscard]] bool isUnknown(Index i) const { return row[i] != kNone; }
+};
+
+/// Unites regions row by row.
+class RegionBuilder {
+public:
+    void add(std::int32_t row, ColumnInterval interval)
+    {
+        if (rows_.empty()) {
+            first_ = row;
+        }
+        while (row < first_) {
+            // Few regions grow downward, and by few rows.
+            rows_.insert(rows_.begin(), LatticeRegion::Row{});
+            --first_;
+        }
+        if (row >= first_ + static_cast<std::int32_t>(rows_.size())) {
+            rows_.resize(static_cast<std::size_t>(row - first_ + 1));
+        }
+        rows_[static_cast<std::size_t>(row - first_)].push_back(interval);
+    }
+
+    LatticeRegion build()
+    {
+        for (LatticeRegion::Row& row : rows_) {
+            row = united(std::move(row));
+        }
+        return {first_, std::move(rows_)};
+    }
+
+private:
+    std::int32_t first_ = 0;
+    std::vector<LatticeRegion::Row> rows_;
+};
+
+template <typename Visit>
+void forEachInterval(const LatticeRegion& region, const Visit& visit)
+{
+    for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
+        for (const ColumnInterval& i : region.row(r)) {
+            visit(r, i);
+        }
+    }
+}
+
+/// Adds the coarse points that unknowns of a region lie on or between.
+void addParents(RegionBuilder& parents, const LatticeRegion& region)
+{
+    forEachInterval(region, [&](std::int32_t r, ColumnInterval i) {
+        const std::array<Site, 2> first = onCoarser({r, i.begin});
+        const std::array<Site, 2> last = onCoarser({r, i.end - 1});
+        for (std::size_t k = 0; k < 2; ++k) {
+            parents.add(first[k].row, {first[k].column, last[k].column + 1});
+        }
+    });
+}
+
+/// The points with all their neighbours on the finer lattice, and one more around for the stencils to reach.
+void addSurroundings(RegionBuilder& storage, const LatticeRegion& region, std::int32_t reach)
+{
+    forEachInterval(region, [&](std::int32_t r, ColumnInterval i) {
+        for (std::int32_t dr = -reach; dr <= reach; ++dr) {
+            storage.add(r + dr, {i.begin - reach, i.end + reach});
+        }
+    });
+}
+
+/// Storage for a level: its own points, and those that the coarser level's functions and all stencils look at.
+LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Index first)
+{
+    RegionBuilder storage;
+    addSurroundings(storage, own, 1);
+    forEachInterval(parents, [&](std::int32_t r, ColumnInterval i) {
+        const Site begin = onFiner({r, i.begin});
+        const Site last = onFiner({r, i.end - 1});
+        for (std::int32_t dr = -1; dr <= 1; ++dr) {
+            storage.add(begin.row + dr, {begin.column - 1, last.column + 2});
+        }
+    });
+    return {storage.build(), first};
+}
+
+void addStencilRuns(Level& level, const Plan& plan, std::int32_t row, ColumnInterval i)
+{
+    // Pieces short enough to be shared out among threads.
+    constexpr std::int32_t kPiece = 4096;
+    for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
+        const std::int32_t left = c + leftOf(row);
+        level.regular.push_back({plan.grid.at({row, c}), static_cast<Index>(std::min(kPiece, i.end - c)),
+                                 plan.grid.at({row - 1, left}), plan.grid.at({row + 1, left})});
+    }
+}
+
+/// Merges the entries of one row that share a column.
+class RowBuilder {
+public:
+    void add(Index column, double value)
+    {
+        for (Entry& entry : entries_) {
+            if (entry.column == column) {
+                entry.value += value;
+                return;
+            }
+        }
+        entries_.push_back({column, value});
+    }
+
+    struct Entry {
+        Index column = 0;
+        double value = 0.0;
+    };
+    [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+    /// Room for a row as most are.
+    void reserve() { entries_.reserve(16); }
+
+    /// By column, so that rows do not depend on the order of their making.
+    void sort()
+    {
+        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    }
+
+private:
+    std::vector<Entry> entries_;
+};
+
+/// Fills rows made one by one, in parallel, in order.
+template <typename Make>
+void fillRows(SparseRows& rows, const Make& make)
+{
+    std::vector<RowBuilder> made(rows.unknowns.size());
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {
+        made[k].reserve();
+        make(k, made[k]);
+        made[k].sort();
+    });
+    for (const RowBuilder& row : made) {
+        rows.starts.push_back(rows.starts.back() + static_cast<Index>(row.entries().size()));
+    }
+    rows.columns.resize(rows.starts.back());
+    rows.values.resize(rows.starts.back());
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {
+        Index at = rows.starts[k];
+        for (const RowBuilder::Entry& entry : made[k].entries()) {
+            rows.columns[at] = entry.column;
+            rows.values[at++] = entry.value;
+        }
+    });
+}
+
+/// Edge of an equilateral triangle of the mesh's mean area.
+double meanEdge(const PlanarMesh& mesh)
+{
+    return std::sqrt(4.0 / std::numbers::sqrt3 * area(mesh) / static_cast<double>(mesh.triangles.size()));
+}
+
+/// The triangle of the lattice in which a point lies.
+struct LatticeTriangle {
+    std::array<Site, 3> corners;
+    std::array<double, 3> weights{};
+};
+
+LatticeTriangle triangleAround(Vec2 p, double edge)
+{
+    const double height = 0.5 * std::numbers::sqrt3 * edge;
+    const auto row = static_cast<std::int32_t>(std::floor(p.y / height));
+    // Steps along the row and along the direction 60° further.
+    const double up = p.y / height - static_cast<double>(row);
+    const double along = p.x / edge - (row % 2 == 0 ? 0.0 : 0.5) - 0.5 * up;
+    const auto column = static_cast<std::int32_t>(std::floor(along));
+    const double right = along - static_cast<double>(column);
+    const std::int32_t above = column + leftOf(row) + 1;
+    if (right + up <= 1.0) {
+        return {{{{row, column}, {row, column + 1}, {row + 1, above}}}, {1.0 - right - up, right, up}};
+    }
+    return {{{{row + 1, above + 1}, {row + 1, above}, {row, column + 1}}}, {right + up - 1.0, 1.0 - right, 1.0 - up}};
+}
+
+/// Numbers and rows of the finest level.
+void planFinest(const PlanarMesh& mesh, const LatticeRegion& parents, Hierarchy& hierarchy, Level& level, Plan& plan)
+{
+    const std::uint32_t rim = mesh.rimVertexCount();
+    const auto inner = static_cast<Index>(mesh.vertices.size()) - rim;
+    Index on_lattice = 0;
+    for (const LatticeRun& run : mesh.lattice.runs) {
+        on_lattice += run.count;
+    }
+    plan.region = regionOf(mesh.lattice);
+    plan.off_lattice = inner - on_lattice;
+    plan.grid = gridFor(plan.region, parents, plan.off_lattice);
+    plan.row.assign(plan.grid.end(), kNone);
+    level.size = plan.grid.end();
+    level.unknowns = inner;
+
+    hierarchy.index_of_vertex.resize(inner);
+    for (Index i = 0; i < plan.off_lattice; ++i) {
+        hierarchy.index_of_vertex[i] = i;
+        plan.row[i] = static_cast<Index>(level.irregular.unknowns.size());
+        level.irregular.unknowns.push_back(i);
+    }
+    forEachInterval(eroded(plan.region), [&](std::int32_t r, ColumnInterval i) {
+        const Index first = plan.grid.at({r, i.begin});
+        std::fill_n(plan.row.begin() + first, i.end - i.begin, kRegular);
+        addStencilRuns(level, plan, r, i);
+    });
+    for (const LatticeRun& run : mesh.lattice.runs) {
+        const Index first = plan.grid.at({run.row, run.column});
+        for (Index i = 0; i < run.count; ++i) {
+            hierarchy.index_of_vertex[run.vertex - rim + i] = first + i;
+            if (plan.row[first + i] != kRegular) {
+                plan.row[first + i] = static_cast<Index>(level.irregular.unknowns.size());
+                level.irregular.unknowns.push_back(first + i);
+            }
+        }
+    }
+}
+
+/// Rows of the unknowns whose triangles are not all regular, and the load of all.
+void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hierarchy, Level& level, const Plan& plan)
+{
+    const std::uint32_t rim = mesh.rimVertexCount();
+    const auto index = [&](std::uint32_t v) { return hierarchy.index_of_vertex[v - rim]; };
+    const std::size_t count = mesh.lattice.runs.empty() ? mesh.triangles.size() : mesh.lattice.first_regular_triangle;
+
+    // Triangles around every irregular unknown.
+    const std::size_t rows = level.irregular.unknowns.size();
+    std::vector<Index> starts(rows + 1, 0);
+    const auto forEachCorner = [&](const auto& visit) {
+        for (std::uint32_t t = 0; t < count; ++t) {
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t v = mesh.triangles[t][k];
+                if (!mesh.onRim(v) && plan.row[index(v)] < kRegular) {
+                    visit(plan.row[index(v)], t, k);
+                }
+            }
+        }
+    };
+    forEachCorner([&](Index row, std::uint32_t, std::uint32_t) { ++starts[row + 1]; });
+    for (std::size_t k = 0; k < rows; ++k) {
+        starts[k + 1] += starts[k];
+    }
+    struct Corner {
+        std::uint32_t triangle = 0;
+        std::uint32_t corner = 0;
+    };
+    std::vector<Corner> corners(starts.back());
+    std::vector<Index> filled(starts.begin(), starts.end() - 1);
+    forEachCorner([&](Index row, std::uint32_t t, std::uint32_t k) { corners[filled[row]++] = {t, k}; });
+
+    const double scale = 1.0 / (hierarchy.edge * hierarchy.edge);
+    hierarchy.load.assign(level.size, 0.0);
+    fillRows(level.irregular, [&](std::size_t k, RowBuilder& row) {
+        double load = 0.0;
+        for (Index c = starts[k]; c < starts[k + 1]; ++c) {
+            const Triangle& t = mesh.triangles[corners[c].triangle];
+            const auto matrix = elementMatrix(mesh, t, op);
+            load += doubleArea(mesh, t) / 6.0;
+            for (std::size_t b = 0; b < 3; ++b) {
+                if (!mesh.onRim(t[b])) {
+                    row.add(index(t[b]), matrix[corners[c].corner][b]);
+                }
+            }
+        }
+        hierarchy.load[level.irregular.unknowns[k]] = load * scale;
+    });
+    const double area = 0.25 * std::numbers::sqrt3;  // of a triangle, by edge²
+    for (const StencilRun& run : level.regular) {
+        std::fill_n(hierarchy.load.begin() + run.first, run.count, 2.0 * area);
+    }
+}
+
+/// Unknowns along a row of the coarser lattice as points of the finer one.
+RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine, std::int32_t row, ColumnInterval i)
+{
+    const Site first = onFiner({row, i.begin});
+    const std::int32_t left = first.column + leftOf(first.row);
+    return {coarse.at({row, i.begin}), static_cast<Index>(i.end - i.begin), fine.at(first),
+            fine.at({first.row - 1, left}), fine.at({first.row + 1, left})};
+}
+
+/// Where the coarser level's function at a run's point touches the finer lattice: its centre, and half-way around.
+std::array<Index, 7> childrenOf(const RestrictionRun& run, Index k)
+{
+    const Index centre = run.fine + 2 * k;
+    const Index below = run.below + 2 * k;
+    const Index above = run.above + 2 * k;
+    return {centre, centre - 1, centre + 1, below, below + 1, above, above + 1};
+}
+
+constexpr double weightOfChild(std::size_t child)
+{
+    return child == 0 ? 1.0 : 0.5;
+}
+
+/// The finest level's unknowns off the lattice, by the coarser lattice's triangles around them.
+struct OffLattice {
+    std::vector<LatticeTriangle> triangles;
+    LatticeRegion corners;
+};
+
+OffLattice findOffLattice(const PlanarMesh& mesh, double coarse_edge)
+{
+    OffLattice off;
+    const std::uint32_t rim = mesh.rimVertexCount();
+    const std::uint32_t end =
+        mesh.lattice.runs.empty() ? static_cast<std::uint32_t>(mesh.vertices.size()) : mesh.lattice.runs.front().vertex;
+    RegionBuilder corners;
+    for (std::uint32_t v = rim; v < end; ++v) {
+        const LatticeTriangle triangle = triangleAround(mesh.vertices[v], coarse_edge);
+        for (const Site& s : triangle.corners) {
+            corners.add(s.row, {s.column, s.column + 1});
+        }
+        off.triangles.push_back(triangle);
+    }
+    off.corners = corners.build();
+    return off;
+}
+
+/// Adds the finest level's unknowns off the lattice to a coarser level's vectors.
+SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
+{
+    std::vector<Index> starts(coarse_size + std::size_t{1}, 0);
+    const auto forEach = [&](const auto& visit) {
+        for (Index i = 0; i < inside.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (inside[i].weights[k] != 0.0) {
+                    visit(inside[i].corners[k], i, inside[i].weights[k]);
+                }
+            }
+        }
+    };
+    forEach([&](Index corner, Index, double) { ++starts[corner + 1]; });
+    for (Index i = 0; i < coarse_size; ++i) {
+        starts[i + 1] += starts[i];
+    }
+    SparseRows rows;
+    for (Index i = 0; i < coarse_size; ++i) {
+        if (starts[i] != starts[i + 1]) {
+            rows.unknowns.push_back(i);
+            rows.starts.push_back(starts[i + 1]);
+        }
+    }
+    rows.columns.resize(starts.back());
+    rows.values.resize(starts.back());
+    forEach([&](Index corner, Index i, double weight) {
+        rows.columns[starts[corner]] = i;
+        rows.values[starts[corner]++] = weight;
+    });
+    return rows;
+}
+
+/// Chooses the coarser level's unknowns among the candidates, and says which of their rows are regular.
+void planCoarser(const Plan& fine, const LatticeRegion& candidates, const SparseRows& outside, Plan& plan, Level& level)
+{
+    std::vector<double> sums(plan.grid.end(), 0.0);
+    for (std::size_t k = 0; k < outside.unknowns.size(); ++k) {
+        for (Index e = outside.starts[k]; e < outside.starts[k + 1]; ++e) {
+            sums[outside.unknowns[k]] += outside.values[e];
+        }
+    }
+    plan.row.assign(plan.grid.end(), kNone);
+    RegionBuilder chosen;
+    forEachInterval(candidates, [&](std::int32_t r, ColumnInterval i) {
+        const RestrictionRun run = restrictionOf(plan.grid, fine.grid, r, i);
+        ColumnInterval kept{i.begin, i.begin};
+        const auto close = [&] {
+            if (kept.begin < kept.end) {
+                chosen.add(r, kept);
+            }
+        };
+        for (Index k = 0; k < run.count; ++k) {
+            double sum = sums[run.first + k];
+            bool regular = true;
+            const std::array<Index, 7> children = childrenOf(run, k);
+            for (std::size_t child = 0; child < children.size(); ++child) {
+                const Index row = fine.row[children[child]];
+                sum += row != kNone ? weightOfChild(child) : 0.0;
+                regular = regular && row == kRegular;
+            }
+            const std::int32_t column = i.begin + static_cast<std::int32_t>(k);
+            if (sum < kEnoughInside) {
+                close();
+                kept = {column + 1, column + 1};
+                continue;
+            }
+            kept.end = column + 1;
+            plan.row[run.first + k] = regular ? kRegular : 0;
+        }
+        close();
+    });
+    plan.region = chosen.build();
+
+    // Regular needs all neighbours, too.
+    const LatticeRegion surrounded = eroded(plan.region);
+    forEachInterval(plan.region, [&](std::int32_t r, ColumnInterval i) {
+        const Index first = plan.grid.at({r, i.begin});
+        level.unknowns += static_cast<Index>(i.end - i.begin);
+        LatticeRegion::Row within = common({i}, surrounded.row(r));
+        within.push_back({i.end, i.end});
+        std::int32_t c = i.begin;
+        for (const ColumnInterval& part : within) {
+            for (; c < part.begin; ++c) {
+                plan.row[first + static_cast<Index>(c - i.begin)] = 0;
+            }
+            c = part.end;
+        }
+        ColumnInterval regular{i.begin, i.begin};
+        const auto close = [&] {
+            if (regular.begin < regular.end) {
+                addStencilRuns(level, plan, r, regular);
+            }
+        };
+        for (c = i.begin; c < i.end; ++c) {
+            Index& row = plan.row[first + static_cast<Index>(c - i.begin)];
+            if (row == kRegular) {
+                regular.end = c + 1;
+                continue;
+            }
+            close();
+            regular = {c + 1, c + 1};
+            row = static_cast<Index>(level.irregular.unknowns.size());
+            level.irregular.unknowns.push_back(first + static_cast<Index>(c - i.begin));
+        }
+        close();
+    });
+    level.size = plan.grid.end();
+}
+
+/// The way between two levels' unknowns on the lattice.
+void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
+{
+    constexpr std::int32_t kPiece = 4096;
+    forEachInterval(coarse.region, [&](std::int32_t r, ColumnInterval i) {
+        for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
+            level.restriction.push_back(restrictionOf(coarse.grid, fine.grid, r, {c, std::min(c + kPiece, i.end)}));
+        }
+    });
+    forEachInterval(fine.region, [&](std::int32_t r, ColumnInterval i) {
+        for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
+            const std::array<Site, 2> parents = onCoarser({r, c});
+            const std::array<Site, 2> next = onCoarser({r, c + 1});
+            const std::size_t early = next[0].column != parents[0].column ? 0 : 1;
+            level.prolongation.push_back({fine.grid.at({r, c}), static_cast<Index>(std::min(kPiece, i.end - c)),
+                                          coarse.grid.at(parents[early]), coarse.grid.at(parents[1 - early])});
+        }
+    });
+}
+
+/// The irregular rows of PᵀAP.
+void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Plan& plan)
+{
+    // Unknowns off the finer lattice, for every irregular row here.
+    std::vector<Index> outside_row(coarse.irregular.unknowns.size(), kNone);
+    for (Index k = 0; k < fine.outside.unknowns.size(); ++k) {
+        const Index row = plan.row[fine.outside.unknowns[k]];
+        if (row < kRegular) {
+            outside_row[row] = k;
+        }
+    }
+    fillRows(coarse.irregular, [&](std::size_t k, RowBuilder& result) {
+        // Adds a·(row of P).
+        const auto addParents = [&](Site site, double a) {
+            for (const Site& parent : onCoarser(site)) {
+                const Index at = plan.grid.at(parent);
+                if (plan.isUnknown(at)) {
+                    result.add(at, 0.5 * a);
+                }
+            }
+        };
+        const auto addIrregular = [&](Index row, double weight) {
+            for (Index e = fine.irregular.starts[row]; e < fine.irregular.starts[row + 1]; ++e) {
+                const Index column = fine.irregular.columns[e];
+                const double a = weight * fine.irregular.values[e];
+                if (column >= fine_plan.off_lattice) {
+                    addParents(fine_plan.grid.siteOf(column), a);
+                    continue;
+                }
+                const Inside& inside = fine.inside[column];
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    if (inside.weights[corner] != 0.0) {
+                        result.add(inside.corners[corner], a * inside.weights[corner]);
+                    }
+                }
+            }
+        };
+        const Site centre = onFiner(plan.grid.siteOf(coarse.irregular.unknowns[k]));
+        const auto addChild = [&](Site child, double weight) {
+            const Index row = fine_plan.row[fine_plan.grid.at(child)];
+            if (row == kRegular) {
+                addParents(child, weight * fine.stencil.diagonal);
+                for (const Site& neighbour : neighboursOf(child)) {
+                    addParents(neighbour, weight * fine.stencil.neighbour);
+                }
+            } else if (row != kNone) {
+                addIrregular(row, weight);
+            }
+        };
+        addChild(centre, 1.0);
+        for (const Site& child : neighboursOf(centre)) {
+            addChild(child, 0.5);
+        }
+        if (const Index row = outside_row[k]; row != kNone) {
+            for (Index e = fine.outside.starts[row]; e < fine.outside.starts[row + 1]; ++e) {
+                addIrregular(fine_plan.row[fine.outside.columns[e]], fine.outside.values[e]);
+            }
+        }
+    });
+}
+
+}  // namespace
+
+Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& op)
+{
+    Hierarchy hierarchy;
+    hierarchy.edge = mesh.lattice.runs.empty() ? meanEdge(mesh) : mesh.lattice.edge;
+    double edge = hierarchy.edge;
+    const OffLattice off = findOffLattice(mesh, 2.0 * edge);
+    LatticeRegion candidates;
+    {
+        RegionBuilder parents;
+        addParents(parents, regionOf(mesh.lattice));
+        forEachInterval(off.corners, [&](std::int32_t r, ColumnInterval i) { parents.add(r, i); });
+        candidates = parents.build();
+    }
+    Plan plan;
+    Level level;
+    level.stencil = regularStencil(edge, op);
+    planFinest(mesh, candidates, hierarchy, level, plan);
+    assembleFinest(mesh, op, hierarchy, level, plan);
+    while (level.unknowns > kCoarsest) {
+        edge *= 2.0;
+        RegionBuilder parents;
+        addParents(parents, candidates);
+        LatticeRegion next_candidates = parents.build();
+        Plan coarse_plan;
+        coarse_plan.grid = gridFor(candidates, next_candidates, 0);
+        if (hierarchy.levels.empty()) {
+            for (const LatticeTriangle& triangle : off.triangles) {
+                Inside& inside = level.inside.emplace_back();
+                for (std::size_t k = 0; k < 3; ++k) {
+                    inside.corners[k] = coarse_plan.grid.at(triangle.corners[k]);
+                    inside.weights[k] = triangle.weights[k];
+                }
+            }
+        }
+        SparseRows outside = transposed(level.inside, coarse_plan.grid.end());
+        Level coarse;
+        coarse.stencil = regularStencil(edge, op);
+        planCoarser(plan, candidates, outside, coarse_plan, coarse);
+        if (static_cast<double>(level.unknowns) < kLeastCoarsening * static_cast<double>(coarse.unknowns) ||
+            coarse.unknowns == 0) {
+            level.inside.clear();
+            break;
+        }
+        for (Inside& inside : level.inside) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                inside.weights[k] = coarse_plan.isUnknown(inside.corners[k]) ? inside.weights[k] : 0.0;
+            }
+        }
+        level.outside = transposed(level.inside, coarse_plan.grid.end());
+        addTransfer(plan, coarse_plan, level);
+        multiply(level, plan, coarse, coarse_plan);
+        hierarchy.levels.push_back(std::move(level));
+        level = std::move(coarse);
+        plan = std::move(coarse_plan);
+        candidates = std::move(next_candidates);
+    }
+    hierarchy.levels.push_back(std::move(level));
+    return hierarchy;
+}
+
+}  // namespace droplet

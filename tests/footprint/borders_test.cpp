@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "footprint/borders.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "support/masks.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::uint16_t kLevel = 32768;
+
+using Pixels = std::set<std::pair<int, int>>;
+
+/// Liquid at a share of the pixels; grey levels on either side of the level, some on it. The engine's numbers are the
+/// standard's, its distributions' are not.
+Mask noise(int width, int height, double density, std::uint32_t seed)
+{
+    std::mt19937 engine(seed);
+    const auto word = [&engine] { return static_cast<double>(engine()) / 4294967296.0; };
+    Mask mask;
+    mask.width = width;
+    mask.height = height;
+    for (int i = 0; i < width * height; ++i) {
+        const bool liquid = word() < density;
+        const double depth = word() < 0.2 ? 0.0 : word();
+        mask.coverage.push_back(static_cast<std::uint16_t>(liquid ? kLevel + depth * 32767 : 32767 - depth * 32767));
+    }
+    return mask;
+}
+
+bool isLiquid(const Mask& mask, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < mask.width && y < mask.height && mask.at(x, y) >= kLevel;
+}
+
+/// Sizes around the blocks in which rows are read, and one pixel wide or high.
+std::vector<Mask> awkwardMasks()
+{
+    std::vector<Mask> masks;
+    std::uint32_t seed = 0;
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {1, 90}, {90, 1}, {2, 2}, {127, 33}, {128, 32}, {129, 31}, {40, 65}, {256, 20}, {300, 70}}) {
+        for (const double density : {0.0, 0.02, 0.3, 0.5, 0.6, 0.98, 1.0}) {
+            masks.push_back(noise(width, height, density, ++seed));
+        }
+    }
+    return masks;
+}
+
+TEST(Borders, AreThoseOpenCvFinds)
+{
+    for (const Mask& mask : awkwardMasks()) {
+        // OpenCV 4.6 takes the image's outermost pixels for dry: give it a frame.
+        cv::Mat image = cv::Mat::zeros(mask.height + 2, mask.width + 2, CV_8UC1);
+        for (int y = 0; y < mask.height; ++y) {
+            for (int x = 0; x < mask.width; ++x) {
+                image.at<std::uint8_t>(y + 1, x + 1) = isLiquid(mask, x, y) ? 255 : 0;
+            }
+        }
+        std::vector<std::vector<cv::Point>> contours;
+        std::vector<cv::Vec4i> hierarchy;
+        cv::findContours(image, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE, {-1, -1});
+        std::vector<std::pair<bool, Pixels>> expected;
+        for (std::size_t k = 0; k < contours.size(); ++k) {
+            auto& [is_hole, pixels] = expected.emplace_back(hierarchy[k][3] >= 0, Pixels{});
+            for (const cv::Point p : contours[k]) {
+                pixels.emplace(p.x, p.y);
+            }
+        }
+        std::vector<std::pair<bool, Pixels>> found;
+        for (const Border& border : followBorders(mask, kLevel)) {
+            // A component begins to the west of its first pixel, a hole to the west of its own.
+            auto& [is_hole, pixels] = found.emplace_back(border.front().direction == 0, Pixels{});
+            for (const Crossing& at : border) {
+                pixels.emplace(at.x, at.y);
+            }
+        }
+        std::sort(expected.begin(), expected.end());
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected) << mask.width << " x " << mask.height;
+    }
+}
+
+TEST(Borders, PassEveryCrossingOnce)
+{
+    for (const Mask& mask : awkwardMasks()) {
+        std::vector<std::array<int, 3>> expected;
+        for (int y = 0; y < mask.height; ++y) {
+            for (int x = 0; x < mask.width; ++x) {
+                for (int direction = 0; direction < 4; ++direction) {
+                    const Step d = kSteps[static_cast<std::size_t>(direction)];
+                    if (isLiquid(mask, x, y) && !isLiquid(mask, x + d.x, y + d.y)) {
+                        expected.push_back({x, y, direction});
+                    }
+                }
+            }
+        }
+        std::vector<std::array<int, 3>> found;
+        for (const Border& border : followBorders(mask, kLevel)) {
+            for (const Crossing& at : border) {
+                found.push_back({at.x, at.y, at.direction});
+            }
+        }
+        std::sort(expected.begin(), expected.end());
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected) << mask.width << " x " << mask.height;
+    }
+}
+
+TEST(Borders, CloseCornerToCornerWithLiquidOnTheLeft)
+{
+    // Where a crossing ends, facing along with its dry pixel on the right: twice the pixel corner, from the centre.
+    const auto end = [](const Crossing& at, int sign) {
+        const Step d = at.toward();
+        const Step along = kSteps[static_cast<std::size_t>((at.direction + 1) % 4)];
+        return std::pair{2 * at.x + d.x + sign * along.x, 2 * at.y + d.y + sign * along.y};
+    };
+    for (const Mask& mask : awkwardMasks()) {
+        for (const Border& border : followBorders(mask, kLevel)) {
+            for (std::size_t i = 0; i < border.size(); ++i) {
+                EXPECT_EQ(end(border[i], +1), end(border[(i + 1) % border.size()], -1));
+            }
+        }
+    }
+}
+
+// A border's first end of a run of liquid is where it begins.
+TEST(Borders, ComeInReadingOrder)
+{
+    const auto before = [](const Crossing& a, const Crossing& b) { return std::pair{a.y, a.x} < std::pair{b.y, b.x}; };
+    for (const Mask& mask : awkwardMasks()) {
+        const std::vector<Border> borders = followBorders(mask, kLevel);
+        EXPECT_TRUE(std::is_sorted(borders.begin(), borders.end(),
+                                   [&](const Border& a, const Border& b) { return before(a.front(), b.front()); }));
+        for (const Border& border : borders) {
+            for (const Crossing& at : border) {
+                EXPECT_FALSE(at.direction % 2 == 0 && before(at, border.front()));
+            }
+        }
+    }
+}
+
+TEST(Borders, OfAPixelAndOfAHole)
+{
+    const Mask pixel = testing::drawnMask("...\n.#.\n...");
+    EXPECT_EQ(followBorders(pixel, kLevel), (std::vector<Border>{{{1, 1, 2}, {1, 1, 3}, {1, 1, 0}, {1, 1, 1}}}));
+    const Mask hole = testing::drawnMask("##\n##");
+    EXPECT_EQ(followBorders(hole, kLevel).size(), 1U);
+    const std::vector<Border> ring = followBorders(testing::drawnMask("###\n#.#\n###"), kLevel);
+    ASSERT_EQ(ring.size(), 2U);
+    EXPECT_EQ(ring[1], (Border{{0, 1, 0}, {1, 0, 3}, {2, 1, 2}, {1, 2, 1}}));
+}
+
+}  // namespace
+}  // namespace droplet
