@@ -38,6 +38,7 @@ int main(int argc, char** argv)
         }
         registerStages(plan);
         registerPeers(plan);
+        registerGrading(plan);
         benchmark::RunSpecifiedBenchmarks();
         benchmark::Shutdown();
         return 0;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "disc.h"
@@ -22,10 +23,15 @@ constexpr const char* kOutput = "droplet_bench.glb";
 
 struct SolverCase {
     const char* name;
+    Solver solver;
     std::size_t most;  // triangles; beyond, it takes minutes
 };
 
-constexpr std::array kSolvers = {SolverCase{"simplicial-llt", 1'000'000}};
+constexpr std::array kSolvers = {
+    SolverCase{"simplicial-llt", Solver::Llt, 1'000'000},
+    SolverCase{"cholmod-supernodal", Solver::Cholmod, 4'000'000},
+    SolverCase{"multigrid-pcg", Solver::Multigrid, 4'000'000},
+};
 
 void nothing() {}
 
@@ -100,21 +106,24 @@ void judge(const std::vector<PlanarMesh>& meshes, const Solution& solution, Coun
     counters["unit_height"] = height;
 }
 
-void registerSolve(const std::shared_ptr<Case>& footprint, std::size_t size, bool is_disc)
+void registerSolve(const std::shared_ptr<Case>& footprint, std::size_t size, const std::optional<Disc>& disc)
 {
     for (const SolverCase& solver : kSolvers) {
         if (size > solver.most) {
             continue;
         }
+        SolveOptions options;
+        options.solver = solver.solver;
         measure(
             std::string("Solve/") + solver.name + "/" + footprint->name() + "/" + inShort(size), repetitions(size),
             [footprint, size] { footprint->meshes(size); },
-            [footprint, size] { return solve(footprint->meshes(size)); },
-            [footprint, size, is_disc](const Solution& solution, Counters& counters) {
+            [footprint, size, options] { return solve(footprint->meshes(size), options); },
+            [footprint, size, disc](const Solution& solution, Counters& counters) {
                 const std::vector<PlanarMesh>& meshes = footprint->meshes(size);
                 judge(meshes, solution, counters);
-                if (is_disc) {
-                    counters["error"] = errorOnDisc(meshes.front(), solution.droplets.front(), {});
+                if (disc) {
+                    counters["error"] = disc->heightError(meshes.front(), solution.droplets.front());
+                    counters["volume_error"] = disc->volumeError(meshes.front(), solution.droplets.front());
                 }
             });
     }
@@ -162,14 +171,15 @@ void registerStages(const Plan& plan)
     registerPictures(plan);
     const Outline outline = trace(readMask(plan.masks.front()));
     const auto letter = std::make_shared<Case>("letter", split(outline));
-    const auto round = std::make_shared<Case>("disc", disc({}));
+    const Disc disc(3.0);  // as wide as neither tension nor weight is negligible
+    const auto round = std::make_shared<Case>("disc", disc.domain());
     for (const std::size_t size : plan.sizes) {
         registerTriangulate(letter, size);
-        registerSolve(letter, size, false);
+        registerSolve(letter, size, {});
         registerSurface(letter, size);
     }
     for (const std::size_t size : plan.sizes) {
-        registerSolve(round, size, true);
+        registerSolve(round, size, disc);
     }
 }
 
