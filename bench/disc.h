@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "droplet/footprint/domain.h"
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/solve.h"
+
+namespace droplet::bench {
+
+/// A round footprint of water, for which the heights are known.
+class Disc {
+public:
+    /// @param capillary_lengths  the radius, in units of √(σ/ρg): well below 1 tension shapes the droplet, well above
+    /// weight
+    explicit Disc(double capillary_lengths);
+
+    /// A polygon of so many points that it counts as the circle.
+    [[nodiscard]] Domain domain() const;
+
+    /// Largest error of the heights at a mesh's vertices against the exact ones,
+    /// u = λ/ρg (1 − I₀(κr)/I₀(κR)) with κ² = ρg/σ, relative to the height in the middle.
+    [[nodiscard]] double heightError(const PlanarMesh& mesh, const HeightField& field) const;
+
+    /// Error of the volume, 2πR² λ/ρg (½ − I₁(κR)/(κR I₀(κR))), relative: that of the heights in the energy norm,
+    /// squared.
+    [[nodiscard]] double volumeError(const PlanarMesh& mesh, const HeightField& field) const;
+
+private:
+    double size_;    // κR
+    double weight_;  // ρg [N/m³]
+    double kappa_;   // [1/m]
+    double radius_;  // [m]
+};
+
+}  // namespace droplet::bench
