@@ -116,7 +116,7 @@ public:
                 int i = 0;
                 // Halving another edge may have flipped this one away.
                 if (triangulation_.is_edge(ends[0], ends[1], f, i)) {
-                    insertInside(CGAL::midpoint(ends[0]->point(), ends[1]->point()), Triangulation::EDGE, f, i);
+                    insertInside(middleOf({f, i}), Triangulation::EDGE, f, i);
                 }
             }
             flat.clear();
@@ -217,7 +217,10 @@ private:
     /// @return whether anything was inserted
     bool split(FaceHandle f)
     {
-        if (std::min({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})}) < finest_) {
+        // The smallest height over an edge, so that a strip of nearly no width is not cut into squares.
+        const Vec2 corner = vec(f->vertex(0)->point());
+        const double twice = cross(vec(f->vertex(1)->point()) - corner, vec(f->vertex(2)->point()) - corner);
+        if (twice < finest_ * std::max({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})})) {
             return false;
         }
         const Point centre = triangulation_.circumcenter(f);
@@ -337,6 +340,24 @@ private:
             }
         } while (++f != done);
         return true;
+    }
+
+    /// The middle of an edge; of one across a corner of the rim, where the corner is halved.
+    [[nodiscard]] Point middleOf(const Edge& e) const
+    {
+        const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
+        const VertexHandle b = e.first->vertex(Triangulation::ccw(e.second));
+        double share = 0.5;
+        for (const Edge& side : {e, triangulation_.mirror_edge(e)}) {
+            const auto [f, i] = side;
+            if (f->is_constrained(Triangulation::cw(i)) && f->is_constrained(Triangulation::ccw(i))) {
+                const double to_a = length(vec(a->point()) - vec(f->vertex(i)->point()));
+                const double to_b = length(vec(b->point()) - vec(f->vertex(i)->point()));
+                share = to_a / (to_a + to_b);
+            }
+        }
+        const Vec2 middle = vec(a->point()) + share * (vec(b->point()) - vec(a->point()));
+        return {middle.x, middle.y};
     }
 
     void insertInside(const Point& p, Triangulation::Locate_type type, FaceHandle place, int index)

@@ -28,7 +28,8 @@
 namespace droplet {
 namespace {
 
-/// Edges are not refined below this share of the loops' own detail.
+/// Nothing is refined below this share of the loops' own detail: with half of it strips a tenth of a pixel wide take
+/// eight times the triangles, for a few degrees.
 constexpr double kFinest = 0.07;
 
 constexpr double kRoot3 = std::numbers::sqrt3;
