@@ -326,6 +326,10 @@ void addSmallCompany(std::vector<Drawing>& drawings)
              return std::max(std::abs(p.x), std::abs(p.y)) < size &&
                     std::min(std::abs(p.x), std::abs(p.y)) < 0.2 * size;
          }},
+        {"leaves",
+         [](Vec2 p, double size) {
+             return std::max(length(p - Vec2{0.0, size}), length(p + Vec2{0.0, size})) < 1.6 * size;
+         }},
         {"rings", [](Vec2 p, double size) { return length(p) < size && length(p) > 0.5 * size; }},
     };
     for (const auto& [name, contains] : shapes) {
