@@ -55,6 +55,11 @@ public:
     Band(const Polygons& polygons, const std::vector<Vec2>& points, double finest)
         : finest_(finest), inserted_(insert(triangulation_, polygons, points))
     {
+        for (const std::vector<VertexHandle>& loop : inserted_.loops) {
+            for (const VertexHandle v : loop) {
+                v->info().is_rim = true;
+            }
+        }
     }
 
     /// Points of the core, from a number on, and edges between them: what lies behind these is none of ours.
@@ -71,27 +76,62 @@ public:
     /// Refines until every angle and every edge's tie to the inside is good, or as fine as it may be.
     void refine()
     {
+        markDomain(triangulation_);
+        std::vector<Corners> sharp;
+        std::vector<Ends> flat;
+        std::vector<FaceHandle> whole;
+        for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+            collectSharp(f, sharp);
+            if (f->is_in_domain() && f->vertex(0)->info().is_rim && f->is_constrained(0) && f->is_constrained(1) &&
+                f->is_constrained(2)) {
+                whole.push_back(f);
+            }
+        }
+        for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
+            collectFlat(*e, flat);
+        }
+        // A face that is a whole droplet has no inner edge to halve, yet needs a vertex to rise.
+        for (const FaceHandle f : whole) {
+            insertInside(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
+                         Triangulation::FACE, f, 0);
+        }
         // Every round mends what the one before stirred up; real footprints need two or three.
         constexpr int kRounds = 30;
-        for (int round = 0; round < kRounds; ++round) {
-            markDomain(triangulation_);
-            const std::vector<Corners> sharp = sharpFaces();
-            std::size_t changes = 0;
+        for (int round = 0; !sharp.empty() || !flat.empty() || !fresh_.empty(); ++round) {
+            std::vector<Corners> tried;
             for (const Corners& v : sharp) {
                 FaceHandle f;
                 // An earlier insertion may have mended this one already.
-                if (triangulation_.is_face(v[0], v[1], v[2], f)) {
-                    changes += split(f) ? 1 : 0;
+                if (round < kRounds && triangulation_.is_face(v[0], v[1], v[2], f) && split(f)) {
+                    tried.push_back(v);
                 }
             }
-            changes += splitFlatEdges();
-            if (changes == 0) {
-                return;
+            sharp.clear();
+            // What is new has a new vertex.
+            for (const VertexHandle v : fresh_) {
+                collectFlatAround(v, flat);
+            }
+            for (const Ends& ends : flat) {
+                FaceHandle f;
+                int i = 0;
+                // Halving another edge may have flipped this one away.
+                if (triangulation_.is_edge(ends[0], ends[1], f, i)) {
+                    insertInside(middleOf({f, i}), Triangulation::EDGE, f, i);
+                }
+            }
+            flat.clear();
+            const std::vector<VertexHandle> last = std::exchange(fresh_, {});
+            for (const VertexHandle v : last) {
+                collectSharpAround(v, sharp);
+            }
+            // What stood in the way of a face has been split, but not the face.
+            for (const Corners& v : tried) {
+                FaceHandle f;
+                if (triangulation_.is_face(v[0], v[1], v[2], f)) {
+                    sharp.push_back(v);
+                }
             }
         }
-        while (splitFlatEdges() > 0) {
-        }
-        markDomain(triangulation_);
     }
 
     /// The rim's vertices, then all others but the core's; the core's points have the given numbers after those.
@@ -100,16 +140,54 @@ public:
     [[nodiscard]] const Inserted& inserted() const { return inserted_; }
 
 private:
-    /// The faces of the domain with too small an angle, by their vertices, for faces come and go.
-    [[nodiscard]] std::vector<Corners> sharpFaces() const
+    using Ends = std::array<VertexHandle, 2>;
+
+    /// Takes a face of the domain that has too small an angle, by its vertices, for faces come and go.
+    void collectSharp(FaceHandle f, std::vector<Corners>& sharp) const
     {
-        std::vector<Corners> result;
-        for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
-            if (f->is_in_domain() && isSharp(f)) {
-                result.push_back({f->vertex(0), f->vertex(1), f->vertex(2)});
-            }
+        if (f->is_in_domain() && isSharp(f)) {
+            sharp.push_back({f->vertex(0), f->vertex(1), f->vertex(2)});
         }
-        return result;
+    }
+
+    /// Of the faces around a new vertex those of which it is the newest: so each is taken once.
+    void collectSharpAround(VertexHandle v, std::vector<Corners>& sharp) const
+    {
+        auto f = triangulation_.incident_faces(v);
+        const auto done = f;
+        do {
+            const std::uint32_t newest =
+                std::max({f->vertex(0)->info().order, f->vertex(1)->info().order, f->vertex(2)->info().order});
+            if (newest == v->info().order) {
+                collectSharp(f, sharp);
+            }
+        } while (++f != done);
+    }
+
+    /// Takes an inner edge that joins two rim vertices.
+    void collectFlat(const Edge& e, std::vector<Ends>& flat) const
+    {
+        const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
+        const VertexHandle b = e.first->vertex(Triangulation::ccw(e.second));
+        if (a->info().is_rim && b->info().is_rim && e.first->is_in_domain() && !triangulation_.is_constrained(e)) {
+            flat.push_back({a, b});
+        }
+    }
+
+    void collectFlatAround(VertexHandle v, std::vector<Ends>& flat) const
+    {
+        if (!v->info().is_rim) {
+            return;
+        }
+        auto e = triangulation_.incident_edges(v);
+        const auto done = e;
+        do {
+            const VertexHandle a = e->first->vertex(Triangulation::cw(e->second));
+            const VertexHandle other = a == v ? e->first->vertex(Triangulation::ccw(e->second)) : a;
+            if (other->info().order < v->info().order) {
+                collectFlat(*e, flat);
+            }
+        } while (++e != done);
     }
 
     /// Whether a face has too small an angle that is not a corner of the rim.
@@ -139,7 +217,10 @@ private:
     /// @return whether anything was inserted
     bool split(FaceHandle f)
     {
-        if (std::min({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})}) < finest_) {
+        // The smallest height over an edge, so that a strip of nearly no width is not cut into squares.
+        const Vec2 corner = vec(f->vertex(0)->point());
+        const double twice = cross(vec(f->vertex(1)->point()) - corner, vec(f->vertex(2)->point()) - corner);
+        if (twice < finest_ * std::max({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})})) {
             return false;
         }
         const Point centre = triangulation_.circumcenter(f);
@@ -170,7 +251,10 @@ private:
             if (type == Triangulation::VERTEX || type == Triangulation::OUTSIDE_CONVEX_HULL) {
                 return false;
             }
-            triangulation_.insert(centre, type, place, index);
+            if (type == Triangulation::EDGE && place->is_constrained(index)) {
+                return !isCore({place, index}) && splitRim({place, index});
+            }
+            insertInside(centre, type, place, index);
             return true;
         }
         bool changed = false;
@@ -235,8 +319,62 @@ private:
             part = std::exp2(std::round(std::log2(0.5 * whole / finest_))) * finest_ / whole;
         }
         const Vec2 middle = vec(a->point()) + part * (vec(b->point()) - vec(a->point()));
-        triangulation_.insert(Point(middle.x, middle.y), Triangulation::EDGE, e.first, e.second);
+        // The face of the edge lies on the left of the way to this end.
+        const VertexHandle end = e.first->vertex(Triangulation::cw(e.second));
+        const bool left = e.first->is_in_domain();
+        const bool right = e.first->neighbor(e.second)->is_in_domain();
+        const VertexHandle v = triangulation_.insert(Point(middle.x, middle.y), Triangulation::EDGE, e.first, e.second);
+        take(v);
+        v->info().is_rim = true;
+        auto f = triangulation_.incident_faces(v);
+        while (f->vertex(Triangulation::ccw(f->index(v))) != end) {
+            ++f;
+        }
+        const auto done = f;
+        bool inside = left;
+        do {
+            f->set_in_domain(inside);
+            // On to the other side across the rim.
+            if (f->is_constrained(Triangulation::ccw(f->index(v)))) {
+                inside = right;
+            }
+        } while (++f != done);
         return true;
+    }
+
+    /// The middle of an edge; of one across a corner of the rim, where the corner is halved.
+    [[nodiscard]] Point middleOf(const Edge& e) const
+    {
+        const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
+        const VertexHandle b = e.first->vertex(Triangulation::ccw(e.second));
+        double share = 0.5;
+        for (const Edge& side : {e, triangulation_.mirror_edge(e)}) {
+            const auto [f, i] = side;
+            if (f->is_constrained(Triangulation::cw(i)) && f->is_constrained(Triangulation::ccw(i))) {
+                const double to_a = length(vec(a->point()) - vec(f->vertex(i)->point()));
+                const double to_b = length(vec(b->point()) - vec(f->vertex(i)->point()));
+                share = to_a / (to_a + to_b);
+            }
+        }
+        const Vec2 middle = vec(a->point()) + share * (vec(b->point()) - vec(a->point()));
+        return {middle.x, middle.y};
+    }
+
+    void insertInside(const Point& p, Triangulation::Locate_type type, FaceHandle place, int index)
+    {
+        const VertexHandle v = triangulation_.insert(p, type, place, index);
+        take(v);
+        auto f = triangulation_.incident_faces(v);
+        const auto done = f;
+        do {
+            f->set_in_domain(true);
+        } while (++f != done);
+    }
+
+    void take(VertexHandle v)
+    {
+        v->info().order = ++inserted_count_;
+        fresh_.push_back(v);
     }
 
     [[nodiscard]] bool isSharpCorner(VertexHandle v) const
@@ -252,63 +390,6 @@ private:
         } while (++edge != done);
         return sides.size() == 2 && angleAt(vec(v->point()), sides[0], sides[1]) < kSharpCorner;
     }
-
-    /// Halves every inner edge that joins two rim vertices.
-    /// @return how many there were
-    std::size_t splitFlatEdges()
-    {
-        markDomain(triangulation_);
-        markRim();
-        std::vector<std::array<VertexHandle, 2>> flat;
-        for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
-            const VertexHandle a = e->first->vertex(Triangulation::cw(e->second));
-            const VertexHandle b = e->first->vertex(Triangulation::ccw(e->second));
-            if (isRim(a) && isRim(b) && !triangulation_.is_constrained(*e) && e->first->is_in_domain()) {
-                flat.push_back({a, b});
-            }
-        }
-        for (const std::array<VertexHandle, 2>& ends : flat) {
-            FaceHandle f;
-            int i = 0;
-            // Halving another edge may have flipped this one away.
-            if (triangulation_.is_edge(ends[0], ends[1], f, i)) {
-                triangulation_.insert(CGAL::midpoint(ends[0]->point(), ends[1]->point()), Triangulation::EDGE, f, i);
-            }
-        }
-        return flat.size() + raiseWholeDroplets();
-    }
-
-    /// Gives a vertex to every face that is a whole droplet: it has no inner edge to halve.
-    /// @return how many there were
-    std::size_t raiseWholeDroplets()
-    {
-        std::vector<FaceHandle> whole;
-        for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
-            if (f->is_in_domain() && f->is_constrained(0) && f->is_constrained(1) && f->is_constrained(2) &&
-                !f->vertex(0)->info().is_core) {
-                whole.push_back(f);
-            }
-        }
-        for (const FaceHandle f : whole) {
-            triangulation_.insert(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
-                                  Triangulation::FACE, f, 0);
-        }
-        return whole.size();
-    }
-
-    void markRim()
-    {
-        for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
-            v->info().index.reset();
-        }
-        for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
-            if (triangulation_.is_constrained(*e) && !isCore(*e)) {
-                e->first->vertex(Triangulation::cw(e->second))->info().index = 0;
-                e->first->vertex(Triangulation::ccw(e->second))->info().index = 0;
-            }
-        }
-    }
-    static bool isRim(VertexHandle v) { return v->info().index.has_value(); }
 
     /// The vertex after `from` along the rim polygon toward `to`: the mesher may have split the edge between.
     [[nodiscard]] VertexHandle nextToward(VertexHandle from, VertexHandle to) const
@@ -338,6 +419,8 @@ private:
     Triangulation triangulation_;
     double finest_;
     Inserted inserted_;
+    std::uint32_t inserted_count_ = 0;  ///< by refinement
+    std::vector<VertexHandle> fresh_;   ///< inserted since the last round
 };
 
 PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const

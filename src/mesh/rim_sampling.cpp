@@ -349,7 +349,8 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
             const double mean = 0.5 * (lengths[at] + lengths[at + 1 < n ? at + 1 : 0]);
             edges.push_back(edges.back() + (sampling.arc[at + 1] - sampling.arc[at]) / mean);
         }
-        const std::size_t least = whole ? 6 : 1;
+        // Six vertices or more where fewer than three corners make the loop's shape.
+        const std::size_t least = stops.size() < 3 ? 6 / stops.size() : 1;
         const auto count = std::max(least, static_cast<std::size_t>(std::lround(edges.back())));
         sampling.marks.push_back({begin, 0.0, false});
         std::size_t i = 0;

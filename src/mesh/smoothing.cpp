@@ -2,7 +2,6 @@
 #include "mesh/smoothing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -31,12 +30,8 @@ double largestCotangent(Vec2 a, Vec2 b, Vec2 c)
 class Smoothing {
 public:
     Smoothing(PlanarMesh& mesh, const SmoothRange& range)
-        : mesh_(mesh),
-          range_(range),
-          before_(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(range.first_vertex),
-                  mesh.vertices.begin() + static_cast<std::ptrdiff_t>(range.end_vertex))
+        : mesh_(mesh), range_(range), starts_(range.end_vertex - range.first_vertex + 1, 0)
     {
-        starts_.assign(before_.size() + 1, 0);
         forEachMovableCorner([&](std::size_t i, std::uint32_t) { ++starts_[i + 1]; });
         for (std::size_t i = 1; i < starts_.size(); ++i) {
             starts_[i] += starts_[i - 1];
@@ -48,7 +43,7 @@ public:
 
     void sweep()
     {
-        for (std::size_t i = 0; i < before_.size(); ++i) {
+        for (std::size_t i = 0; i + 1 < starts_.size(); ++i) {
             Vec2& vertex = mesh_.vertices[range_.first_vertex + i];
             Vec2 sum{};
             double weight = 0.0;
@@ -67,46 +62,13 @@ public:
             const Vec2 from = vertex;
             const double was = worst(i);
             vertex = from + move;
-            if (worst(i) > was) {
+            if (worst(i) > was || !isDelaunayAround(i)) {
                 vertex = from;
             }
         }
     }
 
-    /// Puts vertices back to where they came from until every edge between them is Delaunay again: two angles that face
-    /// an edge and sum to more than 180° would make the stiffness between its ends positive, and heights negative.
-    void undoWhereNotDelaunay()
-    {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::uint32_t t = 0; t < range_.triangles; ++t) {
-                const Triangle& triangle = mesh_.triangles[t];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t apex = triangle[k];
-                    const std::uint32_t a = triangle[(k + 1) % 3];
-                    const std::uint32_t b = triangle[(k + 2) % 3];
-                    const double here = cotangent(at(apex), at(a), at(b));
-                    if (here >= 0.0 || mesh_.onRim(a) || mesh_.onRim(b)) {
-                        continue;
-                    }
-                    const Facing other = facing(b, a);
-                    if (here + other.cotangent < 0.0) {
-                        for (const std::uint32_t v : {apex, a, b, other.apex}) {
-                            changed = putBack(v) || changed;
-                        }
-                    }
-                }
-            }
-        }
-    }
-
 private:
-    /// What faces an edge.
-    struct Facing {
-        std::uint32_t apex = 0;
-        double cotangent = 0.0;
-    };
-
     template <typename Visit>
     void forEachMovableCorner(const Visit& visit) const
     {
@@ -133,38 +95,47 @@ private:
         return worst;
     }
 
-    /// The corner on the left of the edge from a to b. Behind edges of which neither end moves it is taken for a right
-    /// angle: lattice triangles have less.
-    [[nodiscard]] Facing facing(std::uint32_t a, std::uint32_t b) const
+    /// Whether no two angles face an inner edge of the triangles around a vertex that sum to more than 180°: the
+    /// stiffness between its ends would be positive, and heights might be negative.
+    [[nodiscard]] bool isDelaunayAround(std::size_t i) const
+    {
+        for (std::uint32_t n = starts_[i]; n < starts_[i + 1]; ++n) {
+            const Triangle& t = mesh_.triangles[around_[n]];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[(k + 1) % 3];
+                const std::uint32_t b = t[(k + 2) % 3];
+                const bool is_obtuse = dot(at(a) - at(t[k]), at(b) - at(t[k])) < 0.0;
+                if (is_obtuse && !mesh_.onRim(a) && !mesh_.onRim(b) &&
+                    cotangent(at(t[k]), at(a), at(b)) + facing(b, a) < 0.0) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// Cotangent of the angle on the left of the edge from a to b. Behind edges of which neither end moves it is taken
+    /// for a right one: lattice triangles have less.
+    [[nodiscard]] double facing(std::uint32_t a, std::uint32_t b) const
     {
         const std::uint32_t end = isMovable(a) ? a : b;
         if (!isMovable(end)) {
-            return {a, 0.0};
+            return 0.0;
         }
         const std::size_t i = end - range_.first_vertex;
         for (std::uint32_t n = starts_[i]; n < starts_[i + 1]; ++n) {
             const Triangle& t = mesh_.triangles[around_[n]];
             for (std::size_t k = 0; k < 3; ++k) {
                 if (t[(k + 1) % 3] == a && t[(k + 2) % 3] == b) {
-                    return {t[k], cotangent(at(t[k]), at(a), at(b))};
+                    return cotangent(at(t[k]), at(a), at(b));
                 }
             }
         }
-        return {a, 0.0};
-    }
-
-    bool putBack(std::uint32_t v)
-    {
-        if (!isMovable(v) || mesh_.vertices[v] == before_[v - range_.first_vertex]) {
-            return false;
-        }
-        mesh_.vertices[v] = before_[v - range_.first_vertex];
-        return true;
+        return 0.0;
     }
 
     PlanarMesh& mesh_;
     SmoothRange range_;
-    std::vector<Vec2> before_;
     std::vector<std::uint32_t> starts_;  ///< of every movable vertex, into around_
     std::vector<std::uint32_t> around_;  ///< triangles
 };
@@ -178,7 +149,6 @@ void smooth(PlanarMesh& mesh, const SmoothRange& range)
     for (int k = 0; k < kSweeps; ++k) {
         smoothing.sweep();
     }
-    smoothing.undoWhereNotDelaunay();
 }
 
 }  // namespace droplet

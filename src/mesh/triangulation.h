@@ -16,10 +16,12 @@ namespace droplet {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// What a triangulation's vertex carries. A struct with a default: CGAL leaves plain numbers uninitialised.
+/// What a triangulation's vertex carries. A struct with defaults: CGAL leaves plain numbers uninitialised.
 struct VertexTag {
     std::optional<std::uint32_t> index;  ///< in the mesh that is made of it
-    bool is_core = false;                ///< a point of the lattice's core, which stays where it is
+    bool is_rim = false;
+    bool is_core = false;     ///< a point of the lattice's core, which stays where it is
+    std::uint32_t order = 0;  ///< of its insertion, if refinement did it
 };
 
 using TriangulationData =

@@ -46,36 +46,34 @@ struct Plan {
     [[nodiscard]] bool isUnknown(Index i) const { return row[i] != kNone; }
 };
 
-/// Unites regions row by row.
+/// Unites intervals that come in any order to a region.
 class RegionBuilder {
 public:
-    void add(std::int32_t row, ColumnInterval interval)
-    {
-        if (rows_.empty()) {
-            first_ = row;
-        }
-        while (row < first_) {
-            // Few regions grow downward, and by few rows.
-            rows_.insert(rows_.begin(), LatticeRegion::Row{});
-            --first_;
-        }
-        if (row >= first_ + static_cast<std::int32_t>(rows_.size())) {
-            rows_.resize(static_cast<std::size_t>(row - first_ + 1));
-        }
-        rows_[static_cast<std::size_t>(row - first_)].push_back(interval);
-    }
+    void add(std::int32_t row, ColumnInterval interval) { parts_.push_back({row, interval}); }
 
-    LatticeRegion build()
+    [[nodiscard]] LatticeRegion build() const
     {
-        for (LatticeRegion::Row& row : rows_) {
+        if (parts_.empty()) {
+            return {};
+        }
+        const auto [low, high] = std::minmax_element(parts_.begin(), parts_.end(),
+                                                     [](const Part& a, const Part& b) { return a.row < b.row; });
+        std::vector<LatticeRegion::Row> rows(static_cast<std::size_t>(high->row - low->row + 1));
+        for (const Part& part : parts_) {
+            rows[static_cast<std::size_t>(part.row - low->row)].push_back(part.interval);
+        }
+        for (LatticeRegion::Row& row : rows) {
             row = united(std::move(row));
         }
-        return {first_, std::move(rows_)};
+        return {low->row, std::move(rows)};
     }
 
 private:
-    std::int32_t first_ = 0;
-    std::vector<LatticeRegion::Row> rows_;
+    struct Part {
+        std::int32_t row = 0;
+        ColumnInterval interval;
+    };
+    std::vector<Part> parts_;
 };
 
 template <typename Visit>

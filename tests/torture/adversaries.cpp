@@ -2,6 +2,7 @@
 // Masks nobody draws by accident.
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "torture/corpus.h"
@@ -310,6 +311,43 @@ void addNearMisses(std::vector<Drawing>& drawings)
     }
 }
 
+/// Shapes of a few pixels beside one so large that its triangles are larger than they are, or as holes in it.
+void addSmallCompany(std::vector<Drawing>& drawings)
+{
+    constexpr int kSide = 600;
+    constexpr double kPitch = 24.0;
+    const std::vector<std::pair<std::string, std::function<bool(Vec2 p, double size)>>> shapes{
+        {"discs", [](Vec2 p, double size) { return length(p) < size; }},
+        {"squares", [](Vec2 p, double size) { return std::max(std::abs(p.x), std::abs(p.y)) < size; }},
+        {"triangles", [](Vec2 p, double size) { return p.y < size && std::abs(p.x) < 0.58 * (p.y + size); }},
+        {"needles", [](Vec2 p, double size) { return std::abs(p.x) < size && std::abs(p.y) < 0.1 * (p.x + size); }},
+        {"crosses",
+         [](Vec2 p, double size) {
+             return std::max(std::abs(p.x), std::abs(p.y)) < size &&
+                    std::min(std::abs(p.x), std::abs(p.y)) < 0.2 * size;
+         }},
+        {"leaves",
+         [](Vec2 p, double size) {
+             return std::max(length(p - Vec2{0.0, size}), length(p + Vec2{0.0, size})) < 1.6 * size;
+         }},
+        {"rings", [](Vec2 p, double size) { return length(p) < size && length(p) > 0.5 * size; }},
+    };
+    for (const auto& [name, contains] : shapes) {
+        const auto small = [contains = contains](Vec2 p) {
+            const Vec2 cell{std::floor(p.x / kPitch), std::floor(p.y / kPitch)};
+            const Vec2 q{p.x - (cell.x + 0.5) * kPitch, p.y - (cell.y + 0.5) * kPitch};
+            // Growing from left to right, turning from top to bottom.
+            return contains(turned(q, 0.37 * cell.y), 1.0 + 0.4 * cell.x);
+        };
+        addShape(drawings, "small_" + name, kSide, kSide, [=](Vec2 p) {
+            const bool large = p.y > 130.0;
+            return large ? length(p - Vec2{300.0, 365.0}) < 220.0 : small(p);
+        });
+        addShape(drawings, "small_" + name + "_as_holes", kSide, kSide,
+                 [=](Vec2 p) { return !(p.y > 240.0 && p.y < 360.0 && small(p)); });
+    }
+}
+
 void addSizes(std::vector<Drawing>& drawings)
 {
     for (const auto& [width, height] : {std::pair{1, 1},
@@ -365,6 +403,7 @@ Corpus adversaries()
     addPlateaus(drawings);
     addDithers(drawings);
     addNearMisses(drawings);
+    addSmallCompany(drawings);
     addSizes(drawings);
     return corpusOf("adversaries", std::move(drawings));
 }

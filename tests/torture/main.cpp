@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-//   torture [--every N] [--limit SECONDS] [--workers N] [--failures FOLDER]
+//   torture [--corpus NAME] [--every N] [--limit SECONDS] [--workers N] [--failures FOLDER]
 //   torture [...] FILE|FOLDER...
 //
 // Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
@@ -21,6 +21,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -35,6 +36,7 @@ namespace {
 
 struct Options {
     std::vector<std::filesystem::path> paths;
+    std::string corpus;     ///< the only one to try; empty: all
     std::size_t every = 1;  ///< only each so manieth item
     double limit = 2.0;     ///< [s]
     std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
@@ -163,9 +165,17 @@ std::size_t runAll(const Options& options)
         return run(files(options.paths), options, !folders);
     }
     std::size_t failed = 0;
-    for (const auto& corpus :
+    bool found = false;
+    for (const auto& make :
          {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns, encodedNoise}) {
-        failed += run(corpus(), options, false);
+        const Corpus corpus = make();
+        if (options.corpus.empty() || corpus.name == options.corpus) {
+            found = true;
+            failed += run(corpus, options, false);
+        }
+    }
+    if (!found) {
+        throw std::runtime_error("there is no corpus " + options.corpus);
     }
     return failed;
 }
@@ -175,6 +185,7 @@ int start(int argc, char** argv)
     Options options;
     CLI::App app("Makes droplets of thousands of pictures that mean no good");
     app.add_option("paths", options.paths, "pictures, or folders of them, in place of the usual ones");
+    app.add_option("--corpus", options.corpus, "take only this corpus, named as in the lines printed");
     app.add_option("--every", options.every, "take only each so manieth item")->check(CLI::PositiveNumber);
     app.add_option("--limit", options.limit, "processor time an item may take [s]")->check(CLI::PositiveNumber);
     app.add_option("--workers", options.workers, "processes at a time")->check(CLI::PositiveNumber);
