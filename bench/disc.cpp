@@ -48,6 +48,12 @@ double Disc::heightError(const PlanarMesh& mesh, const HeightField& field) const
     return largest / (scale * (1.0 - 1.0 / rim));
 }
 
+double Disc::middleError(const HeightField& field) const
+{
+    const double exact = field.pressure / weight_ * (1.0 - 1.0 / std::cyl_bessel_i(0.0, size_));
+    return std::abs(*std::max_element(field.height.begin(), field.height.end()) / exact - 1.0);
+}
+
 double Disc::volumeError(const PlanarMesh& mesh, const HeightField& field) const
 {
     const double ratio = std::cyl_bessel_i(1.0, size_) / (size_ * std::cyl_bessel_i(0.0, size_));

@@ -21,6 +21,9 @@ public:
     /// u = λ/ρg (1 − I₀(κr)/I₀(κR)) with κ² = ρg/σ, relative to the height in the middle.
     [[nodiscard]] double heightError(const PlanarMesh& mesh, const HeightField& field) const;
 
+    /// Relative error of the height in the middle, the largest.
+    [[nodiscard]] double middleError(const HeightField& field) const;
+
     /// Error of the volume, 2πR² λ/ρg (½ − I₁(κR)/(κR I₀(κR))), relative: that of the heights in the energy norm,
     /// squared.
     [[nodiscard]] double volumeError(const PlanarMesh& mesh, const HeightField& field) const;

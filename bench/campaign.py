@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that is measured, one after the other; what comes of it is plain data, ready for JSON."""
+
+import json
+import math
+import os
+import pathlib
+import platform
+import re
+import statistics
+import subprocess
+import sys
+
+import freefem
+import process
+
+SIZES = [100_000, 400_000, 1_000_000, 4_000_000]
+REFERENCE = 16_000_000  # triangles whose volume and height count as exact for those up to 4 M
+MASKS = [2048, 512, 1024, 4096, 8192]  # the first is meshed at every size
+DEFAULT_MASK = 1024
+WATER = {"tension": 0.0728, "weight": 998.2 * 9.81}  # [N/m], [N/m³]: droplet-shape's default
+CAPILLARY_LENGTHS = 3.0
+
+
+def tell(text):
+    print(f"bench: {text}", file=sys.stderr, flush=True)
+
+
+def runs_of(triangles):
+    return 5 if triangles <= 1_000_000 else 3
+
+
+def in_short(triangles):
+    return f"{triangles // 1_000_000}M" if triangles % 1_000_000 == 0 else f"{triangles // 1000}k"
+
+
+# ------------------------------------------------------------------------------------------------------ the machine
+
+def output_of(*arguments):
+    try:
+        return subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def machine(build):
+    cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    cache = (build / "CMakeCache.txt").read_text()
+    compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.MULTILINE).group(1)
+    packages = ["freefem++", "libcgal-dev", "libeigen3-dev", "libsuitesparse-dev", "libopenblas0-pthread", "libtbb-dev",
+                "libbenchmark-dev"]
+    versions = dict(line.split("=") for line in
+                    output_of("dpkg-query", "--show", "--showformat", "${Package}=${Version}\n", *packages).split())
+    return {"cpu": cpu.group(1) if cpu else platform.machine(), "cores": len(os.sched_getaffinity(0)),
+            "memory_gib": round(memory / 2**30), "system": output_of("uname", "-sr"),
+            "compiler": output_of(compiler, "--version").splitlines()[0], "packages": versions,
+            "commit": output_of("git", "-C", str(build), "describe", "--always", "--dirty")}
+
+
+# ------------------------------------------------------------------------------- stages and peers: Google Benchmark
+
+def stages(build, masks, quick):
+    """One entry per case: its name in parts, the median time, half the range of all times, and its counters."""
+    out = build / "stages.json"
+    subprocess.run([build / "bench" / "droplet_bench", f"--largest={100_000 if quick else 4_000_000}",
+                    f"--benchmark_out={out}", "--benchmark_out_format=json", "--benchmark_display_aggregates_only=true",
+                    "--benchmark_min_time=0.1", *masks], cwd=build, check=True, stdout=sys.stderr)
+    skip = {"name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions", "threads",
+            "repetition_index", "iterations", "real_time", "cpu_time", "time_unit"}
+    cases = {}
+    for entry in json.loads(out.read_text())["benchmarks"]:
+        if entry["run_type"] == "iteration":
+            cases.setdefault(entry["run_name"].split("/repeats")[0].split("/real_time")[0], []).append(entry)
+    result = []
+    for name, entries in cases.items():
+        seconds = [entry["real_time"] / 1000.0 for entry in entries]
+        counters = {key: statistics.median(entry[key] for entry in entries) for key in entries[0] if key not in skip}
+        counters["peak_bytes"] = max(entry.get("peak_bytes", 0) for entry in entries)
+        result.append({"name": name.split("/"), "runs": len(entries), "seconds": statistics.median(seconds),
+                       "spread": 0.5 * (max(seconds) - min(seconds)) / statistics.median(seconds), **counters})
+    return result
+
+
+# ------------------------------------------------------------------------------------------------- whole processes
+
+class Command:
+    """droplet-shape from a mask to a GLB and a report."""
+
+    def __init__(self, program, mask, folder):
+        self.program, self.mask, self.folder = program, mask, folder
+
+    def start(self, *options):
+        self.output.unlink(missing_ok=True)
+        return process.run([self.program, self.mask, self.output, "--quiet", *options])
+
+    def reported(self, *options):
+        """The run, its report in place of its output."""
+        report = self.folder / "report.json"
+        run = self.start("--json", report, *options)
+        run.output = json.loads(report.read_text())
+        return run
+
+    @property
+    def output(self):
+        return self.folder / "droplet.glb"
+
+
+def summary(runs):
+    """Medians of several reported runs."""
+    report = runs[0].output
+    times = {stage: statistics.median(run.output["time_s"][stage] for run in runs) for stage in report["time_s"]}
+    return {"seconds": process.median(runs), "spread": process.spread(runs), "runs": len(runs),
+            "peak_bytes": process.peak(runs), "stages": times, "bytes": report["output"]["bytes"],
+            "closed": report["output"]["closed"], "triangles": report["mesh"]["triangles"],
+            "surface_triangles": report["output"]["triangles"], "min_angle_deg": report["mesh"]["min_angle_deg"],
+            "area": report["mesh"]["footprint_area_m2"], "method": report["solve"]["method"],
+            "iterations": report["solve"]["iterations"], "residual": report["solve"]["residual"],
+            "unit_volume": report["shape"]["volume_m3"] / report["shape"]["pressure_pa"],
+            "unit_height": report["shape"]["height_max_m"] / report["shape"]["pressure_pa"]}
+
+
+def whole(command, sizes):
+    return {in_short(size): summary([command.reported("--triangles", size) for _ in range(runs_of(size))])
+            for size in sizes}
+
+
+# --------------------------------------------------------------------------------------------------------- FreeFem++
+
+def outline(build, mask, spacing):
+    """The letter's loops with points that far apart [mm]."""
+    numbers = iter(subprocess.run([build / "bench" / "bench_outline", mask, repr(spacing)], capture_output=True,
+                                  text=True, check=True).stdout.split())
+    return [[(float(next(numbers)), float(next(numbers))) for _ in range(int(count))] for count in numbers]
+
+
+def against_freefem(build, command, folder, size):
+    """Both programs on the letter, in turns; FreeFem++ with as many BLAS threads as suit it best."""
+    triangles = command.reported("--triangles", size).output["mesh"]["triangles"]
+    area = command.reported("--triangles", 5_000).output["mesh"]["footprint_area_m2"]
+    loops = freefem.fitted(lambda spacing: outline(build, command.mask, spacing), area, triangles, folder, WATER)
+    tried = {threads: freefem.solve(loops, folder, WATER, threads)[0].seconds for threads in (1, 2)}
+    threads = min(tried, key=tried.get)
+    found = []
+
+    def theirs():
+        run, solution = freefem.solve(loops, folder, WATER, threads)
+        found.append(solution)
+        return run
+
+    their_runs, our_runs = process.alternately(5, theirs, lambda: command.reported("--triangles", size))
+    stages = {stage: statistics.median(getattr(s, stage) for s in found) for stage in ("mesh", "assemble", "solve")}
+    return {"ours": summary(our_runs),
+            "theirs": {"seconds": process.median(their_runs), "spread": process.spread(their_runs), "runs": 5,
+                       "peak_bytes": process.peak(their_runs), "stages": stages, "triangles": found[0].triangles,
+                       "unit_volume": found[0].unit_volume, "unit_height": found[0].unit_height,
+                       "blas_threads": threads, "first_run_by_threads": tried}}
+
+
+def bessel_i(order, x):
+    """Modified Bessel function of the first kind by its series, for small x."""
+    return sum((0.5 * x) ** (2 * k + order) / (math.factorial(k) * math.factorial(k + order)) for k in range(40))
+
+
+def freefem_on_disc(folder, size):
+    """Errors of FreeFem++ where the solution is known: in the middle, and of the volume. One run: errors only."""
+    radius = CAPILLARY_LENGTHS * math.sqrt(WATER["tension"] / WATER["weight"])
+    i0, i1 = bessel_i(0, CAPILLARY_LENGTHS), bessel_i(1, CAPILLARY_LENGTHS)
+    height = (1.0 - 1.0 / i0) / WATER["weight"]
+    volume = 2.0 * math.pi * radius**2 / WATER["weight"] * (0.5 - i1 / (CAPILLARY_LENGTHS * i0))
+
+    def circle(spacing):
+        millimetres = 1000.0 * radius
+        count = round(2.0 * math.pi * millimetres / spacing)
+        angles = [2.0 * math.pi * k / count for k in range(count)]
+        return [[(millimetres * math.cos(a), millimetres * math.sin(a)) for a in angles]]
+
+    loops = freefem.fitted(circle, math.pi * radius**2, size, folder, WATER)
+    solution = freefem.solve(loops, folder, WATER, 1)[1]
+    return {"triangles": solution.triangles, "height_error": abs(solution.unit_height / height - 1.0),
+            "volume_error": abs(solution.unit_volume / volume - 1.0)}
+
+
+# ----------------------------------------------------------------------------------------------------------- the run
+
+def run(root, build, native, quick):
+    folder = build / "measured"
+    folder.mkdir(exist_ok=True)
+    subprocess.run([root / "bench" / "masks.py", folder, *map(str, MASKS)], check=True)
+    masks = [folder / f"letter_{pixels}.png" for pixels in MASKS]
+    program = pathlib.Path("cli") / "droplet-shape"
+    command = Command(build / program, masks[0], folder)
+    results = {"machine": machine(build), "quick": quick}
+    sizes = [size for size in SIZES if not quick or size <= 100_000]
+
+    tell("whole processes")
+    command.start()  # loads the libraries once
+    results["whole"] = whole(command, sizes)
+    largest = sizes[-1] if quick else REFERENCE
+    reference = summary([command.reported("--triangles", largest)])
+    results["reference"] = {key: reference[key] for key in ("triangles", "unit_volume", "unit_height")}
+
+    tell("a default run")
+    default = Command(build / program, folder / f"letter_{DEFAULT_MASK}.png", folder)
+    results["default"] = summary([default.reported() for _ in range(15)])
+    results["default"]["plain_seconds"] = process.median([default.start() for _ in range(15)])
+    version = [process.run([build / program, "--version"]) for _ in range(15)]
+    results["start"] = {"seconds": process.median(version), "peak_bytes": process.peak(version)}
+
+    largest = in_short(sizes[-1] if quick else 1_000_000)
+    triangles = sizes[-1] if quick else 1_000_000
+    tell("threads, and the machine's own instructions")
+    portable = ["--triangles", triangles]
+    ours = Command(native / program, masks[0], folder)
+    one, two, own = process.alternately(5, lambda: command.reported(*portable, "-j", "1"),
+                                        lambda: command.reported(*portable, "-j", "2"),
+                                        lambda: ours.reported(*portable, "-j", "2"))
+    results["threads"] = {"size": largest, "1": summary(one), "2": summary(two)}
+    results["native"] = {"size": largest, "portable": summary(two), "native": summary(own)}
+
+    tell("FreeFem++")
+    against = [size for size in (10_000, 100_000, 1_000_000) if not quick or size <= 100_000]
+    results["freefem"] = {in_short(size): against_freefem(build, command, folder, size) for size in against}
+    results["freefem_disc"] = {in_short(size): freefem_on_disc(folder, size) for size in against}
+
+    tell("stages and peers")
+    results["stages"] = stages(build, masks, quick)
+    return results

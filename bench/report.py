@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""RESULTS.md, growth.svg and README.md's profile from what campaign.py measured."""
+
+import math
+
+import picture
+
+# A million triangles when CGAL refined everything, Eigen factorised at every size, and the base was as fine as the dome.
+BEFORE = {"read": 0.017, "trace": 0.036, "triangulate": 1.54, "assemble": 0.17, "solve": 2.81, "loft": 0.79, "write": 0.22,
+          "total": 5.6}
+STAGES = ["read", "trace", "triangulate", "assemble", "solve", "loft", "write"]
+
+
+# ---------------------------------------------------------------------------------------------------------- numbers
+
+def count(triangles):
+    return f"{triangles:,.0f}".replace(",", " ")
+
+
+def seconds(value):
+    """Three significant digits, never as a power of ten."""
+    digits = 2 - math.floor(math.log10(value)) if value > 0 else 0
+    return f"{value:.{max(0, digits)}f} s" if value >= 0.1 else f"{1000 * value:.{max(0, digits - 3)}f} ms"
+
+
+def megabytes(value):
+    return f"{value / 1e6:.0f} MB" if value >= 1e7 else f"{value / 1e6:.1f} MB"
+
+
+def small(value):
+    return f"{value:.1e}" if value else "0"
+
+
+def exponent(points):
+    """Slope of the straight line that fits the logarithms best."""
+    logs = [(math.log(x), math.log(y)) for x, y in points]
+    x_mean = sum(x for x, _ in logs) / len(logs)
+    y_mean = sum(y for _, y in logs) / len(logs)
+    return (sum((x - x_mean) * (y - y_mean) for x, y in logs) / sum((x - x_mean) ** 2 for x, _ in logs))
+
+
+def table(head, rows, words=(0,)):
+    """Columns of numbers stand to the right, those of words to the left."""
+    lines = ["| " + " | ".join(head) + " |",
+             "| " + " | ".join("---" if k in words else "---:" for k in range(len(head))) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows]) + "\n"
+
+
+class Results:
+    """What was measured, by name."""
+
+    def __init__(self, results):
+        self.data = results
+        self.by_name = {"/".join(case["name"]): case for case in results["stages"]}
+
+    def stage(self, name):
+        return self.by_name.get(name)
+
+    def stages(self, *prefix):
+        return [case for case in self.data["stages"] if case["name"][:len(prefix)] == list(prefix)]
+
+    def volume_error(self, case):
+        """Of the volume at unit pressure, against the finest mesh; none of the finest itself."""
+        reference = self.data["reference"]
+        if case["triangles"] > 0.9 * reference["triangles"]:
+            return None
+        return abs(case["unit_volume"] / reference["unit_volume"] - 1.0)
+
+    def height_error(self, case):
+        reference = self.data["reference"]
+        if case["triangles"] > 0.9 * reference["triangles"]:
+            return None
+        return abs(case["unit_height"] / reference["unit_height"] - 1.0)
+
+    def growth(self, stage):
+        """Exponent of a stage's time, or the total's, over whole processes from the smallest size to the largest."""
+        points = [(whole["triangles"], whole["seconds"] if stage == "process" else whole["stages"][stage])
+                  for whole in self.data["whole"].values()]
+        return exponent(points) if len(points) > 1 else None
+
+
+def error(value):
+    return "–" if value is None else small(value)
+
+
+# ------------------------------------------------------------------------------------------------------------- bars
+
+def verdict(reached):
+    return "**reached**" if reached else "**not reached**"
+
+
+def bars(results):
+    """Each bar with what was measured and whether it is reached; those that were not measured are left out."""
+    data, rows = results.data, []
+
+    def bar(work, wanted, found, reached):
+        rows.append((work, wanted, found, verdict(reached)))
+
+    for size, wanted in (("1M", 30.0), ("100k", 10.0)):
+        if size in data["freefem"]:
+            ours, theirs = data["freefem"][size]["ours"], data["freefem"][size]["theirs"]
+            ratio = theirs["seconds"] / ours["seconds"]
+            bar(f"mask to GLB, {count(ours['triangles'])} footprint triangles, whole process, against FreeFem++",
+                f"≥ {wanted:.0f}×", f"{ratio:.1f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])})",
+                ratio >= wanted)
+    ours, theirs = results.stage("Triangulate/letter/1M"), results.stage("Triangulate/Delaunay_mesher_2/1M")
+    if ours and theirs:
+        ratio = theirs["seconds"] / ours["seconds"]
+        bar("triangulation at 1 M, against `CGAL::Delaunay_mesher_2`", "≥ 80×, angles ≥ 20°",
+            f"{ratio:.0f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])}), smallest angle "
+            f"{ours['min_angle_deg']:.1f}°", ratio >= 80.0 and ours["min_angle_deg"] >= 20.0)
+    ours, theirs = results.stage("Solve/multigrid-pcg/letter/1M"), results.stage("Solve/Eigen SimplicialLLT/1M")
+    if ours and theirs:
+        ratio = theirs["seconds"] / ours["seconds"]
+        bar("linear solve at 1 M, assembly and set-up included, against Eigen `SimplicialLLT` (AMD), assembly not "
+            "included", "≥ 20×, residual ≤ 1e-9, less memory",
+            f"{ratio:.1f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])}), residual "
+            f"{small(ours['residual'])}, {megabytes(ours['peak_bytes'])} against {megabytes(theirs['peak_bytes'])}",
+            ratio >= 20.0 and ours["residual"] <= 1e-9 and ours["peak_bytes"] < theirs["peak_bytes"])
+    exponents = {stage: results.growth(stage) for stage in [*STAGES, "process"]}
+    if all(value is not None for value in exponents.values()):
+        worst = max(exponents, key=exponents.get)
+        bar("growth of time from 100 k to 4 M triangles, every stage and the whole process", "exponent ≤ 1.1",
+            f"at most {exponents[worst]:.2f} ({worst}); whole process {exponents['process']:.2f}",
+            exponents[worst] <= 1.1)
+    memory = {size: whole["peak_bytes"] / whole["triangles"] for size, whole in data["whole"].items()
+              if size in ("1M", "4M")}
+    if memory:
+        bar("peak memory per footprint triangle, closed output included", "≤ 300 bytes",
+            ", ".join(f"{value:.0f} at {size}" for size, value in memory.items()), max(memory.values()) <= 300.0)
+    plain = data["default"]["plain_seconds"]
+    bar("default run on a 1024 px PNG, process start included", "≤ 0.08 s", seconds(plain), plain <= 0.08)
+    draft = results.stage("Draft/1024px")
+    bar("draft of 5 k triangles, 1024 px mask in memory to surface in memory", "≤ 10 ms", seconds(draft["seconds"]),
+        draft["seconds"] <= 0.01)
+    return table(["work", "bar", "measured", ""], rows, words=range(4))
+
+
+# --------------------------------------------------------------------------------------------------------- sections
+
+def machine(data):
+    found = data["machine"]
+    versions = ", ".join(f"{name} {version}" for name, version in found["packages"].items())
+    return (f"{found['cpu']}, {found['cores']} cores, {found['memory_gib']} GiB; {found['system']}; "
+            f"{found['compiler']}, `-O3`, no `-march`; {versions}. Commit {found['commit']}.\n")
+
+
+def freefem(results):
+    rows = []
+    for size, both in results.data["freefem"].items():
+        for name, run in (("droplet-shape", both["ours"]), ("FreeFem++", both["theirs"])):
+            ratio = both["theirs"]["seconds"] / both["ours"]["seconds"]
+            rows.append((name, count(run["triangles"]), seconds(run["seconds"]), f"{100 * run['spread']:.0f} %",
+                         megabytes(run["peak_bytes"]), megabytes(run["bytes"]) if "bytes" in run else "–",
+                         error(results.volume_error(run)), error(results.height_error(run)),
+                         f"{ratio:.1f}×" if name == "droplet-shape" else ""))
+    whole = table(["", "triangles", "seconds", "±", "peak memory", "file", "error of volume", "of height", "faster"], rows)
+    parts = []
+    for size, both in results.data["freefem"].items():
+        ours, theirs = both["ours"]["stages"], both["theirs"]["stages"]
+        parts.append((count(both["ours"]["triangles"]), f"{seconds(ours['triangulate'])} / {seconds(theirs['mesh'])}",
+                      f"{seconds(ours['assemble'])} / {seconds(theirs['assemble'])}",
+                      f"{seconds(ours['solve'])} / {seconds(theirs['solve'])}",
+                      both["theirs"]["blas_threads"]))
+    disc = []
+    for size, theirs in results.data["freefem_disc"].items():
+        ours = results.stage(f"Solve/multigrid-pcg/disc/{size}")
+        if ours:
+            disc.append((count(ours["triangles"]), small(ours["volume_error"]), small(ours["middle_error"]),
+                         count(theirs["triangles"]), small(theirs["volume_error"]), small(theirs["height_error"])))
+    return (whole + "\n" + table(["triangles", "mesh", "assemble", "solve", "BLAS threads of FreeFem++"], parts, words=())
+            + "\nOn the disc of three capillary lengths, where the solution is known:\n\n"
+            + table(["triangles", "error of volume", "of height", "FreeFem++: triangles", "error of volume", "of height"],
+                    disc, words=()))
+
+
+def whole(results):
+    rows = []
+    for run in results.data["whole"].values():
+        rows.append((count(run["triangles"]), seconds(run["seconds"]), f"{100 * run['spread']:.0f} %",
+                     *(seconds(run["stages"][stage]) for stage in STAGES),
+                     f"{run['peak_bytes'] / run['triangles']:.0f}", megabytes(run["bytes"]),
+                     error(results.volume_error(run))))
+    exponents = [results.growth(stage) for stage in ["process", *STAGES]]
+    if exponents[0] is not None:
+        rows.append(("exponent", f"{exponents[0]:.2f}", "", *(f"{value:.2f}" for value in exponents[1:]), "", "", ""))
+    return table(["triangles", "process", "±", *STAGES, "peak B per triangle", "file", "error of volume"], rows, words=())
+
+
+def small_runs(data):
+    default, start = data["default"], data["start"]
+    stages = ", ".join(f"{stage} {seconds(default['stages'][stage])}" for stage in STAGES)
+    return (f"A default run, {count(default['triangles'])} triangles from a 1024 px mask, takes "
+            f"{seconds(default['plain_seconds'])} and {megabytes(default['peak_bytes'])}: {stages}. `--version` alone takes "
+            f"{seconds(start['seconds'])} and {megabytes(start['peak_bytes'])}.\n")
+
+
+def solvers(results):
+    rows = []
+    for case in results.stages("Solve"):
+        name, *where = case["name"][1:]
+        shape = where[0] if len(where) > 1 else "letter"
+        found = case.get("error")
+        volume = case.get("volume_error", results.volume_error(case) if "unit_volume" in case else None)
+        rows.append((shape, name, count(case["triangles"]), seconds(case["seconds"]), f"{100 * case['spread']:.0f} %",
+                     megabytes(case["peak_bytes"]), f"{case['solver_iterations']:.0f}" if "solver_iterations" in case else "–",
+                     small(case["residual"]), error(found), error(volume)))
+    rows.sort(key=lambda row: (row[0], int(row[2].replace(" ", "")) // 10_000, row[1]))
+    return table(["domain", "solver", "triangles", "time", "±", "memory", "iterations", "residual", "error of heights",
+                  "of volume"], rows, words=(0, 1))
+
+
+def other_stages(results):
+    rows = []
+    for case in results.data["stages"]:
+        if case["name"][0] in ("Solve", "Grading"):
+            continue
+        quality = []
+        if "min_angle_deg" in case:
+            quality.append(f"smallest angle {case['min_angle_deg']:.1f}°")
+        if "error" in case:
+            quality.append(f"error of area {small(case['error'])}")
+        if "bytes" in case:
+            quality.append(f"{megabytes(case['bytes'])} written")
+        if "closed" in case:
+            quality.append("closed" if case["closed"] else "open")
+        rows.append((" ".join(case["name"][:-1]) if "triangles" in case and case["name"][0] != "Draft"
+                     else " ".join(case["name"]), count(case["triangles"]) if "triangles" in case else "–",
+                     seconds(case["seconds"]), f"{100 * case['spread']:.0f} %", megabytes(case["peak_bytes"]),
+                     ", ".join(quality)))
+    return table(["stage", "triangles", "time", "±", "memory", "quality"], rows, words=(0, 5))
+
+
+def pixel_growth(results):
+    lines = []
+    for stage in ("Read", "Trace"):
+        points = [(case["pixels"], case["seconds"]) for case in results.stages(stage)]
+        lines.append(f"{stage.lower()} as pixels^{exponent(points):.2f}")
+    return f"With the number of pixels grow: {', '.join(lines)} (512 px to 8192 px square).\n"
+
+
+def threads_and_instructions(results):
+    one, two = results.data["threads"]["1"], results.data["threads"]["2"]
+    portable, native = results.data["native"]["portable"], results.data["native"]["native"]
+    rows = [(stage, *(seconds(run["seconds"] if stage == "process" else run["stages"][stage])
+                      for run in (one, two, native)),
+             f"{(one['seconds'] / two['seconds']) if stage == 'process' else one['stages'][stage] / two['stages'][stage]:.2f}×")
+            for stage in [*STAGES, "process"]]
+    gain = portable["seconds"] / native["seconds"]
+    return (table(["stage", "1 thread", "2 threads", "2 threads, `-march=native`", "2 threads faster by"], rows)
+            + f"\nThe machine's own instructions make the whole process {gain:.2f}× as fast "
+              f"({count(portable['triangles'])} triangles).\n")
+
+
+def grading(results):
+    """How many triangles each grading takes for the error of the volume of a uniform mesh."""
+    cases = results.stages("Grading")
+    if not cases:
+        return None
+    reference = results.data["reference"]["unit_volume"]
+    curves = {}
+    for case in cases:
+        found = case.get("volume_error", abs(case["unit_volume"] / reference - 1.0))
+        curves.setdefault(case["name"][1], {}).setdefault(int(case["grading"]), []).append((case["triangles"], found))
+    rows = []
+    for shape, by_grading in curves.items():
+        for uniform, wanted in by_grading[1]:
+            if not 30_000 < uniform < 50_000:
+                continue
+            needed = [triangles_for(wanted, sorted(curve)) for grade, curve in sorted(by_grading.items()) if grade > 1]
+            rows.append((shape, small(wanted), count(uniform), *(count(n) if n else "–" for n in needed)))
+    grades = sorted(grade for grade in next(iter(curves.values())) if grade > 1)
+    return table(["shape", "error of volume", "uniform", *(f"`--grading {grade}`" for grade in grades)], rows)
+
+
+def triangles_for(wanted, curve):
+    """Where a curve of (triangles, error) comes down to an error, straight between its points in logarithms."""
+    for (n0, e0), (n1, e1) in zip(curve, curve[1:]):
+        if e0 >= wanted >= e1:
+            share = math.log(e0 / wanted) / math.log(e0 / e1)
+            return math.exp(math.log(n0) + share * math.log(n1 / n0))
+    return None
+
+
+def profile(data):
+    """The stages' shares of a million triangles, before the work on speed and now; none unless that was measured."""
+    now = data["whole"].get("1M")
+    if not now:
+        return None
+    rows = []
+    for stage in [*STAGES, "total"]:
+        before, after = BEFORE[stage], now["stages"][stage]
+        rows.append((stage, seconds(before), f"{100 * before / BEFORE['total']:.0f} %", seconds(after),
+                     f"{100 * after / now['stages']['total']:.0f} %", f"{before / after:.1f}×"))
+    return table(["stage", "before", "", "now", "", "faster"], rows)
+
+
+# ---------------------------------------------------------------------------------------------------------- the files
+
+TEXT = """\
+<!-- SPDX-License-Identifier: GPL-3.0-or-later -->
+<!-- Written by scripts/bench: what is changed here is lost. -->
+# How fast, how large, how exact
+
+[README.md](README.md) tells how all of this was measured. Times are medians; beside them stands half the range of all runs.
+
+{machine}
+## The bars
+
+{bars}
+## Whole processes against FreeFem++
+
+From the same outline, of "&" on a 2048 px mask, as many triangles within 3 %. droplet-shape reads the mask, traces,
+triangulates, solves, and writes a closed GLB; FreeFem++ reads the outline, triangulates and solves. Errors are of volume
+and height at unit pressure, against {reference} triangles.
+
+{freefem}
+![Seconds against triangles, and error against seconds](growth.svg)
+
+## Whole processes by size
+
+{whole}
+{small}
+## Solvers
+
+Time and memory of droplet-shape's include assembly; those of Eigen's factorisation do not. Residuals are true ones,
+‖Au − m‖/‖m‖ with A assembled by the benchmark. Errors on the disc are against the exact solution (heights: largest at any
+vertex, relative to the middle), of the letter's volume against {reference} triangles.
+
+{solvers}
+## Other stages and peers
+
+{other}
+{pixels}
+## Threads and instructions
+
+{threads}
+"""
+
+PROFILE_BEGINS = "<!-- scripts/bench writes from here -->\n"
+PROFILE_ENDS = "<!-- to here -->\n"
+
+GRADING = """\
+## Grading
+
+Triangles that a mesh takes for the same error of the volume, which is the squared error of the heights in the energy norm.
+
+{grading}
+"""
+
+
+def write(data, folder):
+    results = Results(data)
+    text = TEXT.format(machine=machine(data), bars=bars(results), reference=count(data["reference"]["triangles"]),
+                       freefem=freefem(results), whole=whole(results), small=small_runs(data), solvers=solvers(results),
+                       other=other_stages(results), pixels=pixel_growth(results),
+                       threads=threads_and_instructions(results))
+    if table_of_grading := grading(results):
+        text += "\n" + GRADING.format(grading=table_of_grading)
+    (folder / "RESULTS.md").write_text(text)
+    (folder / "growth.svg").write_text(picture.growth(results))
+    readme = folder / "README.md"
+    if readme.exists() and (table_of_stages := profile(data)):
+        before, _, rest = readme.read_text().partition(PROFILE_BEGINS)
+        _, _, after = rest.partition(PROFILE_ENDS)
+        readme.write_text(before + PROFILE_BEGINS + table_of_stages + PROFILE_ENDS + after)
