@@ -26,6 +26,9 @@ namespace {
 /// arcsin(1/√8) = arctan(1/√7) = 20.7°.
 constexpr double kLeastTangentSquared = 1.0 / 7.0;
 
+/// Triangles lower than this share of their longest edge, with angles below 3° or so, are needles.
+constexpr double kNeedle = 0.05;
+
 /// Corners sharper than this get concentric shells: below it, halving one side encroaches upon the other for ever.
 constexpr double kSharpCorner = std::numbers::pi / 3.0;
 
@@ -217,10 +220,11 @@ private:
     /// @return whether anything was inserted
     bool split(FaceHandle f)
     {
-        // The smallest height over an edge, so that a strip of nearly no width is not cut into squares.
+        const auto [shortest, longest] = std::minmax({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})});
         const Vec2 corner = vec(f->vertex(0)->point());
-        const double twice = cross(vec(f->vertex(1)->point()) - corner, vec(f->vertex(2)->point()) - corner);
-        if (twice < finest_ * std::max({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})})) {
+        const double height = cross(vec(f->vertex(1)->point()) - corner, vec(f->vertex(2)->point()) - corner) / longest;
+        // A strip of nearly no width is not cut into squares, if its triangles are no needles.
+        if (shortest < finest_ || (height < finest_ && height > kNeedle * longest)) {
             return false;
         }
         const Point centre = triangulation_.circumcenter(f);

@@ -15,7 +15,7 @@ namespace {
 /// angles between the lattice and the rim are 27° to 32° on discs and type.
 constexpr double kClearance = 0.65;
 
-/// Layers of points between two halvings of the density. With fewer, triangles at the change fall below 25°.
+/// Layers of points between two halvings of the density: edges then grow by about half their length per edge.
 constexpr int kLayersPerLevel = 2;
 
 /// One row of triangles between lattice rows r and r + 1, by the columns of their horizontal edges.

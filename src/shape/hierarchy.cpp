@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Multigrid on a mesh that is mostly a lattice: U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001), with the
-// coarse lattices' functions cut off at the rim, after M. Holst and S. Vandewalle, "Schwarz methods: to symmetrize or
-// not to symmetrize" (1997), section on Galerkin products: where a coarse function reaches over the rim, it is kept if
-// enough of it lies inside.
+// U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001). The coarser lattices know nothing of the rim: a function
+// of theirs that reaches over it is cut off there, and kept if enough of it lies inside. Galerkin's products make the
+// coarser matrices right for whatever was kept.
 
 #include "shape/hierarchy.h"
 
@@ -26,8 +25,8 @@ using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr Index kRegular = kNone - 1;
 
-/// A coarse function is kept if its values at the finer level's unknowns sum to this; all of one sum to 4. Below 1.6
-/// they begin to depend on one another, above 2.2 the rim is left to the smoother: iterations rise from 9 to 14.
+/// A coarse function is kept if its values at the finer level's unknowns sum to this; all of one sum to 4. From 1.6 to
+/// 2.2 the number of iterations is the same; at 2.6 the rim is left to the smoother, and it rises from 9 to 14.
 constexpr double kEnoughInside = 1.9;
 
 /// The coarsest level is factored. Below this size that takes no time.
