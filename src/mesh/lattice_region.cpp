@@ -2,6 +2,7 @@
 #include "mesh/lattice_region.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -39,8 +40,8 @@ Span nearPiece(Vec2 a, Vec2 b, double reach, double y)
     const double size = length(along);
     if (size > 0.0) {
         const Vec2 aside = (reach / size) * Vec2{-along.y, along.x};
-        const Vec2 corners[] = {a + aside, b + aside, b - aside, a - aside};
-        for (int k = 0; k < 4; ++k) {
+        const std::array<Vec2, 4> corners{a + aside, b + aside, b - aside, a - aside};
+        for (std::size_t k = 0; k < 4; ++k) {
             const Vec2 p = corners[k];
             const Vec2 q = corners[(k + 1) % 4];
             if ((p.y <= y) != (q.y <= y)) {
@@ -60,8 +61,8 @@ std::int32_t column(double x)
 
 const LatticeRegion::Row& LatticeRegion::row(std::int32_t row) const
 {
-    static const Row kEmpty;
-    return row < first_row_ || row >= endRow() ? kEmpty : rows_[static_cast<std::size_t>(row - first_row_)];
+    static const Row empty;
+    return row < first_row_ || row >= endRow() ? empty : rows_[static_cast<std::size_t>(row - first_row_)];
 }
 
 bool LatticeRegion::contains(std::int32_t row, std::int32_t column) const

@@ -216,6 +216,7 @@ private:
 bool isNarrowSomewhere(const std::vector<Loop>& loops, double widest)
 {
     std::vector<Measured> measured;
+    measured.reserve(loops.size());
     for (const Loop& loop : loops) {
         measured.push_back(measure(loop));
     }
@@ -243,6 +244,7 @@ bool isNarrowSomewhere(const std::vector<Loop>& loops, double widest)
 std::vector<std::vector<double>> unknownWidths(const std::vector<Loop>& loops)
 {
     std::vector<std::vector<double>> widths;
+    widths.reserve(loops.size());
     for (const Loop& loop : loops) {
         widths.emplace_back(loop.points.size(), std::numeric_limits<double>::infinity());
     }

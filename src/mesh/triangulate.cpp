@@ -105,11 +105,11 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     double last_edge = edge;
     double last_count = 0.0;
     // Where narrow parts alone want more triangles than that, longer edges change nothing.
-    const auto isStuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
+    const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
     // Cheap guesses first: most of the way without triangulating.
     for (int k = 0; k < 4; ++k) {
         const double count = predictTriangles(samplers, edge, options.grading);
-        if (k > 0 && count > 1.1 * target && isStuck(count, last_count)) {
+        if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
             return meshAll(samplers, edge, options.grading);
         }
         const double next = nextEdge(edge, count, k == 0 ? edge : last_edge, k == 0 ? count : last_count, target);
@@ -129,7 +129,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
         const auto count = static_cast<double>(countTriangles(meshes));
         const double error = std::abs(std::log(count / target));
         const double next = nextEdge(edge, count, k == 0 ? edge : last_edge, k == 0 ? count : last_count, target);
-        const bool stuck = k > 0 && isStuck(count, last_count);
+        const bool stuck = k > 0 && is_stuck(count, last_count);
         if (error < best_error) {
             best_error = error;
             best = std::move(meshes);

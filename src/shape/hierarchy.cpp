@@ -268,7 +268,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
     // Triangles around every irregular unknown.
     const std::size_t rows = level.irregular.unknowns.size();
     std::vector<Index> starts(rows + 1, 0);
-    const auto forEachCorner = [&](const auto& visit) {
+    const auto for_each_corner = [&](const auto& visit) {
         for (std::uint32_t t = 0; t < count; ++t) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t v = mesh.triangles[t][k];
@@ -278,7 +278,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
             }
         }
     };
-    forEachCorner([&](Index row, std::uint32_t, std::uint32_t) { ++starts[row + 1]; });
+    for_each_corner([&](Index row, std::uint32_t, std::uint32_t) { ++starts[row + 1]; });
     for (std::size_t k = 0; k < rows; ++k) {
         starts[k + 1] += starts[k];
     }
@@ -288,7 +288,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
     };
     std::vector<Corner> corners(starts.back());
     std::vector<Index> filled(starts.begin(), starts.end() - 1);
-    forEachCorner([&](Index row, std::uint32_t t, std::uint32_t k) { corners[filled[row]++] = {t, k}; });
+    for_each_corner([&](Index row, std::uint32_t t, std::uint32_t k) { corners[filled[row]++] = {t, k}; });
 
     const double scale = 1.0 / (hierarchy.edge * hierarchy.edge);
     hierarchy.load.assign(level.size, 0.0);
@@ -363,7 +363,7 @@ OffLattice findOffLattice(const PlanarMesh& mesh, double coarse_edge)
 SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
 {
     std::vector<Index> starts(coarse_size + std::size_t{1}, 0);
-    const auto forEach = [&](const auto& visit) {
+    const auto for_each = [&](const auto& visit) {
         for (Index i = 0; i < inside.size(); ++i) {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (inside[i].weights[k] != 0.0) {
@@ -372,7 +372,7 @@ SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
             }
         }
     };
-    forEach([&](Index corner, Index, double) { ++starts[corner + 1]; });
+    for_each([&](Index corner, Index, double) { ++starts[corner + 1]; });
     for (Index i = 0; i < coarse_size; ++i) {
         starts[i + 1] += starts[i];
     }
@@ -385,7 +385,7 @@ SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
     }
     rows.columns.resize(starts.back());
     rows.values.resize(starts.back());
-    forEach([&](Index corner, Index i, double weight) {
+    for_each([&](Index corner, Index i, double weight) {
         rows.columns[starts[corner]] = i;
         rows.values[starts[corner]++] = weight;
     });
@@ -502,7 +502,7 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
     }
     fillRows(coarse.irregular, [&](std::size_t k, RowBuilder& result) {
         // Adds a·(row of P).
-        const auto addParents = [&](Site site, double a) {
+        const auto add_parents = [&](Site site, double a) {
             for (const Site& parent : onCoarser(site)) {
                 const Index at = plan.grid.at(parent);
                 if (plan.isUnknown(at)) {
@@ -510,12 +510,12 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
                 }
             }
         };
-        const auto addIrregular = [&](Index row, double weight) {
+        const auto add_irregular = [&](Index row, double weight) {
             for (Index e = fine.irregular.starts[row]; e < fine.irregular.starts[row + 1]; ++e) {
                 const Index column = fine.irregular.columns[e];
                 const double a = weight * fine.irregular.values[e];
                 if (column >= fine_plan.off_lattice) {
-                    addParents(fine_plan.grid.siteOf(column), a);
+                    add_parents(fine_plan.grid.siteOf(column), a);
                     continue;
                 }
                 const Inside& inside = fine.inside[column];
@@ -527,24 +527,24 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
             }
         };
         const Site centre = onFiner(plan.grid.siteOf(coarse.irregular.unknowns[k]));
-        const auto addChild = [&](Site child, double weight) {
+        const auto add_child = [&](Site child, double weight) {
             const Index row = fine_plan.row[fine_plan.grid.at(child)];
             if (row == kRegular) {
-                addParents(child, weight * fine.stencil.diagonal);
+                add_parents(child, weight * fine.stencil.diagonal);
                 for (const Site& neighbour : neighboursOf(child)) {
-                    addParents(neighbour, weight * fine.stencil.neighbour);
+                    add_parents(neighbour, weight * fine.stencil.neighbour);
                 }
             } else if (row != kNone) {
-                addIrregular(row, weight);
+                add_irregular(row, weight);
             }
         };
-        addChild(centre, 1.0);
+        add_child(centre, 1.0);
         for (const Site& child : neighboursOf(centre)) {
-            addChild(child, 0.5);
+            add_child(child, 0.5);
         }
         if (const Index row = outside_row[k]; row != kNone) {
             for (Index e = fine.outside.starts[row]; e < fine.outside.starts[row + 1]; ++e) {
-                addIrregular(fine_plan.row[fine.outside.columns[e]], fine.outside.values[e]);
+                add_irregular(fine_plan.row[fine.outside.columns[e]], fine.outside.values[e]);
             }
         }
     });

@@ -382,13 +382,13 @@ private:
             const float* early = coarse + run.early;
             const float* late = coarse + run.late;
             float* out = fine + run.first;
-            Index k = 0;
-            for (; 2 * k + 1 < run.count; ++k) {
+            const std::size_t pairs = run.count / 2;
+            for (std::size_t k = 0; k < pairs; ++k) {
                 out[2 * k] += 0.5F * (early[k] + late[k]);
                 out[2 * k + 1] += 0.5F * (early[k + 1] + late[k]);
             }
-            if (2 * k < run.count) {
-                out[2 * k] += 0.5F * (early[k] + late[k]);
+            if (run.count % 2 == 1) {
+                out[2 * pairs] += 0.5F * (early[pairs] + late[pairs]);
             }
         });
         for (std::size_t i = 0; i < level.inside.size(); ++i) {
