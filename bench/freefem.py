@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same droplet by FreeFem++: buildmesh, P1, its sparse direct solver (F. Hecht, "New development in FreeFem++", 2012).
+"""The same droplet by FreeFem++: buildmesh, P1, its sparse direct solver (F. Hecht, "New development in FreeFem++",
+2012).
 
-Lengths are millimetres, as its mesher is happier near 1; sigma K does not change with the unit of length in the plane, the
-mass matrix and the load do, by its square. Only the heights, metres per pascal, come back: no surface is lofted and no file
-written, which is in its favour.
+Lengths are millimetres, near 1 as its mesher expects; sigma K does not change with the unit of length in the plane, the
+mass matrix and the load do, by its square. Only the heights, metres per pascal, come back: no surface is lofted and no
+file written, which is in its favour.
 """
 
 import dataclasses
@@ -59,7 +60,8 @@ def script(template, loops, folder, physics):
         n = len(points)
         arrays.append(f"real[int] x{k}({n}), y{k}({n});\n"
                       f"{{ ifstream file(\"{path}\"); for (int i = 0; i < {n}; i++) file >> x{k}[i] >> y{k}[i]; }}")
-        borders.append(f"border b{k}(t = 0, {n}) {{ int i = int(t + 0.5) % {n}; x = x{k}[i]; y = y{k}[i]; label = 1; }}")
+        borders.append(f"border b{k}(t = 0, {n}) "
+                       f"{{ int i = int(t + 0.5) % {n}; x = x{k}[i]; y = y{k}[i]; label = 1; }}")
     return template.format(arrays="\n".join(arrays), borders="\n".join(borders),
                            boundary=" + ".join(f"b{k}({len(points)})" for k, points in enumerate(loops)),
                            tension=repr(physics["tension"]), weight=repr(physics["weight"] * SQUARE_MM),
@@ -90,8 +92,8 @@ def solve(loops, folder, physics, threads):
 
 
 def fitted(loops_at, area, wanted, folder, physics):
-    """Loops whose mesh has that many triangles, within 3 %: loops_at(spacing) gives those of any spacing [mm]. The number
-    goes as 1/spacing², give or take 2 % without rule."""
+    """Loops whose mesh has that many triangles, within 3 %: loops_at(spacing) gives those of any spacing [mm]. The
+    number goes as 1/spacing², give or take 2 % without rule."""
     coarse = min(wanted, 50_000)
     spacing = math.sqrt(area / SQUARE_MM / coarse * 4.0 / math.sqrt(3.0))
     for _ in range(2):

@@ -41,7 +41,8 @@ class Chart:
         middle = self.top + self.height / 2
         self.parts.append(
             f'<rect x="{self.left}" y="{self.top}" width="{self.width}" height="{self.height}" class="frame"/>'
-            f'<text x="{self.left + self.width / 2}" y="{bottom + 40}" text-anchor="middle">{html.escape(x_label)}</text>'
+            f'<text x="{self.left + self.width / 2}" y="{bottom + 40}" text-anchor="middle">'
+            f'{html.escape(x_label)}</text>'
             f'<text transform="translate({self.left - 46} {middle}) rotate(-90)" text-anchor="middle">'
             f'{html.escape(y_label)}</text>')
 
@@ -68,7 +69,8 @@ def decades(limits):
 
 def power(value):
     exponent = round(math.log10(value))
-    return {0: "1", 1: "10"}.get(exponent) or f'10<tspan dy="-5" class="small">{str(exponent).replace("-", "−")}</tspan>'
+    raised = f'10<tspan dy="-5" class="small">{str(exponent).replace("-", "−")}</tspan>'
+    return {0: "1", 1: "10"}.get(exponent, raised)
 
 
 def span(values):

@@ -17,16 +17,16 @@ void addEvenly(const std::vector<Vec2>& chain, double spacing, bool begins_at_co
     for (std::size_t i = 1; i < chain.size(); ++i) {
         at.push_back(at.back() + length(chain[i] - chain[i - 1]));
     }
-    const double pieces = std::max(1.0, std::round(at.back() / spacing));
+    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::round(at.back() / spacing)));
     std::size_t segment = 0;
-    for (double piece = 0.0; piece < pieces; ++piece) {
-        const double where = at.back() * piece / pieces;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const double where = at.back() * static_cast<double>(piece) / static_cast<double>(pieces);
         while (at[segment + 1] < where) {
             ++segment;
         }
         const double share = (where - at[segment]) / (at[segment + 1] - at[segment]);
         loop.points.push_back(chain[segment] + share * (chain[segment + 1] - chain[segment]));
-        loop.corner.push_back(begins_at_corner && piece == 0.0 ? 1 : 0);
+        loop.corner.push_back(begins_at_corner && piece == 0 ? 1 : 0);
     }
 }
 
