@@ -46,7 +46,8 @@ struct Place {
     std::size_t index = 0;
 };
 
-std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
+/// @param detail  points of a loop nearer than this along it are one place
+std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops, double detail)
 {
     std::vector<std::vector<Vec2>> polygons;
     std::vector<Place> places;
@@ -91,7 +92,7 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops)
         const Place& pa = places[*f->vertex(0)->info().index];
         const Place& pb = places[*f->vertex(1)->info().index];
         const Place& pc = places[*f->vertex(2)->info().index];
-        if (std::max({apart(pa, pb), apart(pb, pc), apart(pa, pc)}) > kCornerReach * radius) {
+        if (std::max({apart(pa, pb), apart(pb, pc), apart(pa, pc)}) > std::max(detail, kCornerReach * radius)) {
             for (const Place& p : {pa, pb, pc}) {
                 double& width = widths[p.loop][p.index];
                 // The largest circle at a point is the medial one; smaller ones fit between neighbours.
@@ -152,7 +153,10 @@ std::vector<Stretch> stretchesOf(const std::vector<Measured>& loops)
 /// Whether a circle narrower than `widest` could touch two stretches of the rim at points that are far apart along it.
 class Narrowness {
 public:
-    Narrowness(const std::vector<Measured>& loops, double widest) : loops_(loops), widest_(widest) {}
+    Narrowness(const std::vector<Measured>& loops, double detail, double widest)
+        : loops_(loops), detail_(detail), widest_(widest)
+    {
+    }
 
     [[nodiscard]] bool between(const Stretch& a, const Stretch& b) const
     {
@@ -197,7 +201,7 @@ private:
             const double way = std::abs(arc[i] - arc[j]);
             const double apart = std::min(way, arc.back() - way);
             // A chord is at most a diameter.
-            if (apart * apart <= 0.25 * kCornerReach * kCornerReach * squared) {
+            if (apart <= detail_ || apart * apart <= 0.25 * kCornerReach * kCornerReach * squared) {
                 return false;
             }
         }
@@ -209,11 +213,12 @@ private:
     }
 
     const std::vector<Measured>& loops_;
+    double detail_;
     double widest_;
 };
 
 /// Whether anywhere the liquid may be narrower than `widest`, as localWidths() would find.
-bool isNarrowSomewhere(const std::vector<Loop>& loops, double widest)
+bool isNarrowSomewhere(const std::vector<Loop>& loops, double detail, double widest)
 {
     std::vector<Measured> measured;
     measured.reserve(loops.size());
@@ -229,7 +234,7 @@ bool isNarrowSomewhere(const std::vector<Loop>& loops, double widest)
     // From left to right, so that only those within reach are looked at.
     std::stable_sort(stretches.begin(), stretches.end(),
                      [](const Stretch& a, const Stretch& b) { return a.centre.x < b.centre.x; });
-    const Narrowness narrowness(measured, widest);
+    const Narrowness narrowness(measured, detail, widest);
     for (std::size_t i = 0; i < stretches.size(); ++i) {
         for (std::size_t j = i; j < stretches.size() && stretches[j].centre.x - stretches[i].centre.x <= reach; ++j) {
             if (std::abs(stretches[j].centre.y - stretches[i].centre.y) <= reach &&
@@ -581,8 +586,6 @@ std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
 RimSampler::RimSampler(const Footprint& footprint, double widest) : loops_{footprint.rim}, widest_(widest)
 {
     loops_.insert(loops_.end(), footprint.holes.begin(), footprint.holes.end());
-    // Triangulating all points of the loops takes longer than all else on a coarse mesh of wide strokes.
-    widths_ = isNarrowSomewhere(loops_, widest) ? localWidths(loops_) : unknownWidths(loops_);
     double total = 0.0;
     std::size_t count = 0;
     for (const Loop& loop : loops_) {
@@ -591,6 +594,8 @@ RimSampler::RimSampler(const Footprint& footprint, double widest) : loops_{footp
     }
     // Traced loops have a point every 0.8 px: detail below half a pixel is an accident of the raster.
     finest_ = 0.6 * total / static_cast<double>(count);
+    // Triangulating all points of the loops takes longer than all else on a coarse mesh of wide strokes.
+    widths_ = isNarrowSomewhere(loops_, finest_, widest) ? localWidths(loops_, finest_) : unknownWidths(loops_);
 }
 
 std::vector<RimPolygon> RimSampler::sample(double edge) const
@@ -598,7 +603,7 @@ std::vector<RimPolygon> RimSampler::sample(double edge) const
     if (edge > widest_) {
         RimSampler all = *this;
         all.widest_ = edge;
-        all.widths_ = localWidths(loops_);
+        all.widths_ = localWidths(loops_, finest_);
         return all.sample(edge);
     }
     std::vector<Sampling> samplings(loops_.size());
