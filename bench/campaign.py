@@ -97,9 +97,10 @@ class Command:
         return process.run([self.program, self.mask, self.output, "--quiet", *options])
 
     def reported(self, *options):
-        """The run, its report in place of its output."""
+        """The run; in place of its output the report of another, for a report is a file more to write."""
         report = self.folder / "report.json"
-        run = self.start("--json", report, *options)
+        run = self.start(*options)
+        self.start("--json", report, *options)
         run.output = json.loads(report.read_text())
         return run
 

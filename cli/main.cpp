@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fcntl.h>
 #include <malloc.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -51,15 +54,24 @@ void occupyStandardStreams()
     }
 }
 
-/// Keeps memory that was freed for what comes next: to give every long array back to the system and have its pages
-/// cleared again takes a tenth of a run of a million triangles.
+/// Takes memory in large pieces, of huge pages where the system has them, and keeps what was freed for what comes next.
+/// To get every long array page by page, and give it back, takes a fifth of a run of 100 000 triangles.
 void keepMemory()
 {
     constexpr int kNever = 1 << 30;
-    constexpr int kAtOnce = 1 << 24;
+    constexpr int kPad = 1 << 24;
+    constexpr std::size_t kAtOnce = 1 << 27;
+    constexpr std::uintptr_t kHugePage = 1 << 21;
     mallopt(M_MMAP_THRESHOLD, kNever);
     mallopt(M_TRIM_THRESHOLD, kNever);
-    mallopt(M_TOP_PAD, kAtOnce);
+    mallopt(M_TOP_PAD, kPad);
+    const auto begin = (reinterpret_cast<std::uintptr_t>(sbrk(0)) + kHugePage - 1) / kHugePage * kHugePage;
+    void* volatile heap = std::malloc(kAtOnce);  // volatile, or compilers see that it is in vain
+    std::free(heap);
+    const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)) / kHugePage * kHugePage;
+    if (begin < end) {
+        madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    }
 }
 
 }  // namespace

@@ -192,8 +192,8 @@ PlanarMesh cover(const PlanarMesh& mesh)
         polygons.emplace_back(mesh.vertices.begin() + mesh.loop_starts[k],
                               mesh.vertices.begin() + mesh.loop_starts[k + 1]);
     }
-    // Twice as long as edges along the rim at once: nobody looks at the ground from below.
-    const double edge = 2.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
+    // Four times as long as edges along the rim at once: nobody looks at the ground from below.
+    const double edge = 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
     const std::vector<Vec2> points = gradedPoints(polygons, edge, kMostGrading);
     PlanarMesh result;
     result.triangles = triangulateAsIs(polygons, points);
