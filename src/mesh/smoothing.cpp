@@ -104,8 +104,10 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = t[(k + 1) % 3];
                 const std::uint32_t b = t[(k + 2) % 3];
-                const bool is_obtuse = dot(at(a) - at(t[k]), at(b) - at(t[k])) < 0.0;
-                if (is_obtuse && !mesh_.onRim(a) && !mesh_.onRim(b) &&
+                // One of the two is obtuse; behind the edges that face the vertex itself, it may be the other.
+                const bool may_be_obtuse =
+                    t[k] == range_.first_vertex + i || dot(at(a) - at(t[k]), at(b) - at(t[k])) < 0.0;
+                if (may_be_obtuse && !mesh_.onRim(a) && !mesh_.onRim(b) &&
                     cotangent(at(t[k]), at(a), at(b)) + facing(b, a) < 0.0) {
                     return false;
                 }
