@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001). The coarser lattices know nothing of the rim: a function
-// of theirs that reaches over it is cut off there, and kept if enough of it lies inside. Galerkin's products make the
-// coarser matrices right for whatever was kept.
+// U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001). The coarser lattices know nothing of the rim: a
+// function of theirs that reaches over it is cut off there, and kept if enough of it lies inside. Galerkin's products
+// make the coarser matrices right for whatever was kept.
 
 #include "shape/hierarchy.h"
 
