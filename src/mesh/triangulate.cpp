@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Uniform, not graded toward the rim, because strokes of type and logos are a capillary length wide or less, where
-// grading gains nothing. Measured on the unit disc with 10 000 triangles, L² error and relative error of λ, uniform
+// Uniform unless asked, not graded, because strokes of type and logos are a capillary length wide or less, where
+// grading gains little. Measured on the unit disc with 10 000 triangles, L² error and relative error of λ, uniform
 // against edges three times as long in the middle as at the rim (radially stretched): without gravity 5.4e-5, 1.3e-4
 // against 5.4e-5, 2.8e-4; at radius = 3 capillary lengths 2.1e-4, 1.5e-4 against 0.9e-4, 1.7e-4; at 10, a wide puddle,
 // 1.2e-3, 5.5e-4 against 3.4e-4, 2.1e-4. There grading would pay.
@@ -23,7 +23,6 @@
 #include "mesh/band.h"
 #include "mesh/lattice_core.h"
 #include "mesh/rim_sampling.h"
-#include "mesh/smoothing.h"
 
 namespace droplet {
 namespace {
