@@ -49,14 +49,18 @@ std::map<Ends, std::vector<std::uint32_t>> oppositeCorners(const std::vector<Tri
     return opposite;
 }
 
-/// Meshes of footprints with wide parts at some sizes, and of all the zoo at one.
-std::vector<std::pair<std::string, PlanarMesh>> latticeMeshes()
+/// The zoo, coarse and fine, with and without grading.
+std::vector<std::pair<std::string, PlanarMesh>> zooMeshes()
 {
     std::vector<std::pair<std::string, PlanarMesh>> meshes;
     for (const auto& [name, domain] : testing::zoo()) {
         for (const std::size_t triangles : {700U, 5000U, 20000U}) {
-            for (PlanarMesh& mesh : triangulate(domain, {.triangles = triangles, .edge = {}})) {
-                meshes.emplace_back(name + " of " + std::to_string(triangles), std::move(mesh));
+            for (const int grading : {1, 8}) {
+                for (PlanarMesh& mesh : triangulate(domain, {.triangles = triangles, .edge = {}, .grading = grading})) {
+                    meshes.emplace_back(
+                        name + " of " + std::to_string(triangles) + ", grading " + std::to_string(grading),
+                        std::move(mesh));
+                }
             }
         }
     }
@@ -67,7 +71,7 @@ std::vector<std::pair<std::string, PlanarMesh>> latticeMeshes()
 // positive, and without gravity no height is negative.
 TEST(LatticeCore, EveryEdgeOffTheRimIsDelaunay)
 {
-    for (const auto& [name, mesh] : latticeMeshes()) {
+    for (const auto& [name, mesh] : zooMeshes()) {
         SCOPED_TRACE(name);
         const auto angleAt = [&vertices = mesh.vertices](std::uint32_t corner, const Ends& ends) {
             const Vec2 u = vertices[ends[0]] - vertices[corner];

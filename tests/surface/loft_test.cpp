@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
 #include "droplet/shape/figures.h"
 #include "support/domains.h"
+#include "support/zoo.h"
 
 namespace droplet {
 namespace {
@@ -68,6 +70,51 @@ TEST(Loft, IsClosedAndHoldsItsVolume)
         EXPECT_FALSE(open.closed);
         EXPECT_EQ(open.boundary_loops, 1 + holes);
         EXPECT_EQ(open.euler, 1 - static_cast<long>(holes));
+    }
+}
+
+// The ground is covered with triangles of its own, which share nothing with the liquid's but the rim.
+TEST(Loft, FlatGroundClosesEveryFootprint)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        for (const int grading : {1, 16}) {
+            SCOPED_TRACE(name + ", grading " + std::to_string(grading));
+            const std::vector<PlanarMesh> meshes =
+                triangulate(domain, {.triangles = 2500, .edge = {}, .grading = grading});
+            SolveOptions options;
+            options.fill = {FillBy::Height, 1e-3, FillSharing::Each};
+            const Solution solution = solve(meshes, options);
+            ASSERT_TRUE(solution.report.usable());
+            const LoftOptions closed_options{.open = false, .extent = domain.extent};
+            const Surface closed = loft(meshes, solution.droplets, closed_options);
+            ASSERT_NO_THROW(closed.validate());
+            const Topology t = topology(closed);
+            EXPECT_TRUE(t.closed);
+            EXPECT_EQ(t.components, meshes.size());
+            long euler = 0;
+            double volume = 0.0;
+            std::size_t triangles = 0;
+            for (std::size_t k = 0; k < meshes.size(); ++k) {
+                euler += 4 - 2 * static_cast<long>(meshes[k].loopCount());
+                volume += measure(meshes[k], solution.droplets[k], options).volume;
+                triangles += meshes[k].triangles.size() + cover(meshes[k]).triangles.size();
+            }
+            EXPECT_EQ(t.euler, euler);
+            EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-9);
+            EXPECT_EQ(closed.triangles.size(), triangles);
+
+            // Without the ground it is the same liquid.
+            const Surface open = loft(meshes, solution.droplets, {.open = true, .extent = domain.extent});
+            EXPECT_EQ(open.mean_height, closed.mean_height);
+            std::size_t flat = 0;
+            for (const Triangle& triangle : closed.triangles) {
+                const bool ground = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+                    return closed.positions[v].z == 0.0 && closed.normals[v] == Vec3{0, 0, -1};
+                });
+                flat += ground ? 1 : 0;
+            }
+            EXPECT_EQ(flat + open.triangles.size(), closed.triangles.size());
+        }
     }
 }
 
