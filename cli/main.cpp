@@ -65,12 +65,14 @@ void keepMemory()
     mallopt(M_MMAP_THRESHOLD, kNever);
     mallopt(M_TRIM_THRESHOLD, kNever);
     mallopt(M_TOP_PAD, kPad);
-    const auto begin = (reinterpret_cast<std::uintptr_t>(sbrk(0)) + kHugePage - 1) / kHugePage * kHugePage;
+    auto* const before = static_cast<char*>(sbrk(0));
     void* volatile heap = std::malloc(kAtOnce);  // volatile, or compilers see that it is in vain
     std::free(heap);
-    const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0)) / kHugePage * kHugePage;
-    if (begin < end) {
-        madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    const auto* const after = static_cast<char*>(sbrk(0));
+    const std::size_t to_page = kHugePage - reinterpret_cast<std::uintptr_t>(before) % kHugePage;
+    const auto grown = static_cast<std::size_t>(after - before);
+    if (grown > to_page) {
+        madvise(before + to_page, grown - to_page, MADV_HUGEPAGE);
     }
 }
 
