@@ -73,7 +73,7 @@ TEST(LatticeCore, EveryEdgeOffTheRimIsDelaunay)
 {
     for (const auto& [name, mesh] : zooMeshes()) {
         SCOPED_TRACE(name);
-        const auto angleAt = [&vertices = mesh.vertices](std::uint32_t corner, const Ends& ends) {
+        const auto angle_at = [&vertices = mesh.vertices](std::uint32_t corner, const Ends& ends) {
             const Vec2 u = vertices[ends[0]] - vertices[corner];
             const Vec2 v = vertices[ends[1]] - vertices[corner];
             return std::atan2(std::abs(cross(u, v)), dot(u, v));
@@ -88,7 +88,7 @@ TEST(LatticeCore, EveryEdgeOffTheRimIsDelaunay)
             ASSERT_EQ(corners.size(), 2U);
             ++inner;
             if (!mesh.onRim(ends[0])) {
-                largest = std::max(largest, angleAt(corners[0], ends) + angleAt(corners[1], ends));
+                largest = std::max(largest, angle_at(corners[0], ends) + angle_at(corners[1], ends));
             }
         }
         EXPECT_LE(largest, std::numbers::pi + 1e-9);

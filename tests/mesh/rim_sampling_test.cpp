@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <string>
 #include <vector>
 
 #include "support/zoo.h"

@@ -26,7 +26,6 @@ using testing::Animal;
 using testing::domainOf;
 using testing::ellipseLoop;
 using testing::polygonLoop;
-using testing::reversed;
 using testing::smoothMask;
 using testing::zoo;
 

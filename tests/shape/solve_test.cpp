@@ -430,16 +430,16 @@ TEST(Solve, ReportsWhatItDid)
 // Auto factors what is small or irregular, iterates on lattices, and names the method of the largest droplet.
 TEST(Solve, AutoChoosesBySizeAndLattice)
 {
-    const auto methodFor = [](const std::vector<PlanarMesh>& meshes) {
+    const auto method_for = [](const std::vector<PlanarMesh>& meshes) {
         return solve(meshes, unitOptions(1.0, volume(1.0))).report.method;
     };
     const std::vector<PlanarMesh> coarse = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 300, .edge = {}});
     std::vector<PlanarMesh> fine = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 4000, .edge = {}});
-    EXPECT_EQ(methodFor(coarse), "simplicial-llt");
-    EXPECT_EQ(methodFor(fine), "multigrid-pcg");
-    EXPECT_EQ(methodFor({coarse[0], fine[0], coarse[0]}), "multigrid-pcg");
+    EXPECT_EQ(method_for(coarse), "simplicial-llt");
+    EXPECT_EQ(method_for(fine), "multigrid-pcg");
+    EXPECT_EQ(method_for({coarse[0], fine[0], coarse[0]}), "multigrid-pcg");
     fine[0].lattice = {};
-    EXPECT_EQ(methodFor(fine), "simplicial-llt");
+    EXPECT_EQ(method_for(fine), "simplicial-llt");
 }
 
 TEST(Solve, RefusesOptionsOutOfRange)

@@ -43,7 +43,7 @@ inline bool insideLetter(Vec2 p)
 /// Footprints that differ in what is hard about them: wide and narrow parts, corners, holes, detail of one pixel.
 inline std::vector<Animal> zoo()
 {
-    const auto thinRing = [](Vec2 p) {
+    const auto thin_ring = [](Vec2 p) {
         const double r = length(p - Vec2{120, 120});
         return r < 100 && r > 96.5;
     };
@@ -53,7 +53,7 @@ inline std::vector<Animal> zoo()
             {"rectangle", split(trace(smoothMask(240, 240, rectangle({120.2, 119.7}, {80, 50}, 0.3))))},
             {"star", split(trace(smoothMask(400, 400, star(0.0))))},
             {"rough star", split(trace(hardMask(400, 400, star(0.2))))},
-            {"thin ring", split(trace(smoothMask(240, 240, thinRing)))},
+            {"thin ring", split(trace(smoothMask(240, 240, thin_ring)))},
             {"chessboard", split(trace(hardMask(64, 64, chessboard)))},
             {"hair", split(trace(hardMask(100, 60, hair)))},
             {"L", domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}}))},
