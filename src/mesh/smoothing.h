@@ -15,8 +15,8 @@ struct SmoothRange {
 };
 
 /// Moves vertices toward the area-weighted mean of their triangles' centroids wherever that makes no angle around them
-/// smaller than the smallest there was, and leaves no inner edge not Delaunay that was so before: the band between
-/// lattice and rim evens out, the lattice stays.
+/// smaller than the smallest there was, and leaves no edge off the rim not Delaunay that was so before: the band
+/// between lattice and rim evens out, the lattice stays.
 void smooth(PlanarMesh& mesh, const SmoothRange& range);
 
 }  // namespace droplet

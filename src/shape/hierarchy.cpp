@@ -432,27 +432,17 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
     });
     plan.region = chosen.build();
 
-    // Regular needs all neighbours, too.
-    const LatticeRegion surrounded = eroded(plan.region);
+    // Around a regular point all neighbours have been kept: at least 1 + 3/2 of each is inside.
     forEachInterval(plan.region, [&](std::int32_t r, ColumnInterval i) {
         const Index first = plan.grid.at({r, i.begin});
         level.unknowns += static_cast<Index>(i.end - i.begin);
-        LatticeRegion::Row within = common({i}, surrounded.row(r));
-        within.push_back({i.end, i.end});
-        std::int32_t c = i.begin;
-        for (const ColumnInterval& part : within) {
-            for (; c < part.begin; ++c) {
-                plan.row[first + static_cast<Index>(c - i.begin)] = 0;
-            }
-            c = part.end;
-        }
         ColumnInterval regular{i.begin, i.begin};
         const auto close = [&] {
             if (regular.begin < regular.end) {
                 addStencilRuns(level, plan, r, regular);
             }
         };
-        for (c = i.begin; c < i.end; ++c) {
+        for (std::int32_t c = i.begin; c < i.end; ++c) {
             Index& row = plan.row[first + static_cast<Index>(c - i.begin)];
             if (row == kRegular) {
                 regular.end = c + 1;
