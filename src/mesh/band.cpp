@@ -140,8 +140,6 @@ public:
     /// The rim's vertices, then all others but the core's; the core's points have the given numbers after those.
     [[nodiscard]] PlanarMesh extract(const std::vector<std::uint32_t>& core_numbers) const;
 
-    [[nodiscard]] const Inserted& inserted() const { return inserted_; }
-
 private:
     using Ends = std::array<VertexHandle, 2>;
 
@@ -478,7 +476,7 @@ PlanarMesh triangulateBand(const Polygons& polygons, const LatticeCore& core, do
 {
     std::vector<Vec2> points = core.loosePoints();
     const std::size_t loose = points.size();
-    for (const LatticeSite& site : core.seam()) {
+    for (const Site& site : core.seam()) {
         points.push_back(latticePoint(core.edge(), site.row, site.column));
     }
     Band band(polygons, points, finest);

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace droplet {
@@ -59,9 +58,9 @@ LatticeRegion without(const LatticeRegion& region, const LatticeRegion& removed)
     return {region.firstRow(), std::move(rows)};
 }
 
-std::vector<LatticeSite> sitesOf(const LatticeRegion& region)
+std::vector<Site> sitesOf(const LatticeRegion& region)
 {
-    std::vector<LatticeSite> sites;
+    std::vector<Site> sites;
     for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
         for (const ColumnInterval& i : region.row(r)) {
             for (std::int32_t c = i.begin; c < i.end; ++c) {
@@ -74,7 +73,7 @@ std::vector<LatticeSite> sitesOf(const LatticeRegion& region)
 
 void appendPoints(std::vector<Vec2>& points, const LatticeRegion& region, double edge)
 {
-    for (const LatticeSite& site : sitesOf(region)) {
+    for (const Site& site : sitesOf(region)) {
         points.push_back(latticePoint(edge, site.row, site.column));
     }
 }
@@ -107,71 +106,48 @@ LatticeRegion everySecond(const LatticeRegion& region)
 
 }  // namespace
 
-LatticeNumbering::LatticeNumbering(const LatticeRegion& region) : first_row_(region.firstRow())
-{
-    std::uint32_t count = 0;
-    for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
-        std::vector<Start>& starts = rows_.emplace_back();
-        for (const ColumnInterval& i : region.row(r)) {
-            starts.push_back({i.begin, count});
-            count += static_cast<std::uint32_t>(i.end - i.begin);
-        }
-    }
-}
-
-std::uint32_t LatticeNumbering::operator()(std::int32_t row, std::int32_t column) const
-{
-    const std::vector<Start>& starts = rows_[static_cast<std::size_t>(row - first_row_)];
-    const auto after = std::upper_bound(starts.begin(), starts.end(), column,
-                                        [](std::int32_t c, const Start& s) { return c < s.column; });
-    const Start& start = *std::prev(after);
-    return start.number + static_cast<std::uint32_t>(column - start.column);
-}
-
 LatticeCore::LatticeCore(const std::vector<std::vector<Vec2>>& polygons, double edge)
     : edge_(edge),
       clear_(pointsInside(polygons, edge, kClearance * edge)),
-      fixed_(eroded(clear_)),
-      regular_(eroded(fixed_)),
-      seam_region_(without(fixed_, regular_)),
-      fixed_number_(fixed_),
-      fixed_count_(static_cast<std::uint32_t>(fixed_.size())),
-      seam_(sitesOf(seam_region_))
+      fixed_(eroded(clear_), 0),
+      regular_(eroded(fixed_.region())),
+      seam_grid_(without(fixed_.region(), regular_), 0),
+      seam_(sitesOf(seam_grid_.region()))
 {
 }
 
 std::vector<Vec2> LatticeCore::loosePoints() const
 {
     std::vector<Vec2> points;
-    appendPoints(points, without(clear_, fixed_), edge_);
+    appendPoints(points, without(clear_, fixed_.region()), edge_);
     return points;
 }
 
 std::vector<std::uint32_t> LatticeCore::seamNumbers() const
 {
     std::vector<std::uint32_t> numbers;
-    for (const LatticeSite& site : seam_) {
-        numbers.push_back(fixed_number_(site.row, site.column));
+    for (const Site& site : seam_) {
+        numbers.push_back(fixed_.at(site));
     }
     return numbers;
 }
 
 std::vector<std::array<std::uint32_t, 2>> LatticeCore::boundary() const
 {
-    const LatticeNumbering seam_number(seam_region_);
+    const LatticeRegion& fixed = fixed_.region();
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (std::uint32_t k = 0; k < seam_.size(); ++k) {
         const auto [r, c] = seam_[k];
         const std::int32_t left = leftOf(r);
         // The six neighbours, counter-clockwise from the right; every edge is met once from its lower or left end.
-        const std::array<LatticeSite, 5> around{
+        const std::array<Site, 5> around{
             {{r - 1, c + left + 1}, {r, c + 1}, {r + 1, c + left + 1}, {r + 1, c + left}, {r, c - 1}}};
         for (std::size_t i = 1; i <= 3; ++i) {
             const auto [row, column] = around[i];
-            const bool one_side = fixed_.contains(around[i - 1].row, around[i - 1].column);
-            const bool other_side = fixed_.contains(around[i + 1].row, around[i + 1].column);
-            if (one_side != other_side && fixed_.contains(row, column)) {
-                edges.push_back({k, seam_number(row, column)});
+            const bool one_side = fixed.contains(around[i - 1].row, around[i - 1].column);
+            const bool other_side = fixed.contains(around[i + 1].row, around[i + 1].column);
+            if (one_side != other_side && fixed.contains(row, column)) {
+                edges.push_back({k, seam_grid_.at({row, column})});
             }
         }
     }
@@ -181,12 +157,13 @@ std::vector<std::array<std::uint32_t, 2>> LatticeCore::boundary() const
 void LatticeCore::appendTo(PlanarMesh& mesh) const
 {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const LatticeRegion& fixed = fixed_.region();
     mesh.lattice.edge = edge_;
-    mesh.vertices.resize(first + fixed_count_);
-    for (std::int32_t r = fixed_.firstRow(); r < fixed_.endRow(); ++r) {
-        for (const ColumnInterval& i : fixed_.row(r)) {
+    mesh.vertices.resize(first + fixed_.end());
+    for (std::int32_t r = fixed.firstRow(); r < fixed.endRow(); ++r) {
+        for (const ColumnInterval& i : fixed.row(r)) {
             mesh.lattice.runs.push_back(
-                {r, i.begin, first + fixed_number_(r, i.begin), static_cast<std::uint32_t>(i.end - i.begin)});
+                {r, i.begin, first + fixed_.at({r, i.begin}), static_cast<std::uint32_t>(i.end - i.begin)});
         }
     }
     tbb::parallel_for(std::size_t{0}, mesh.lattice.runs.size(), [&](std::size_t k) {
@@ -197,12 +174,12 @@ void LatticeCore::appendTo(PlanarMesh& mesh) const
     });
 
     // First the triangles at the seam, then the regular ones: whoever asks for all but the regular has them in front.
-    const auto rows = static_cast<std::size_t>(fixed_.endRow() - fixed_.firstRow());
+    const auto rows = static_cast<std::size_t>(fixed.endRow() - fixed.firstRow());
     std::vector<TriangleRow> seam(rows);
     std::vector<TriangleRow> regular(rows);
     tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t k) {
-        const std::int32_t r = fixed_.firstRow() + static_cast<std::int32_t>(k);
-        const TriangleRow all = trianglesAbove(fixed_, r);
+        const std::int32_t r = fixed.firstRow() + static_cast<std::int32_t>(k);
+        const TriangleRow all = trianglesAbove(fixed, r);
         regular[k] = trianglesAbove(regular_, r);
         seam[k] = {minus(all.up, regular[k].up), minus(all.down, regular[k].down)};
     });
@@ -214,18 +191,18 @@ void LatticeCore::appendTo(PlanarMesh& mesh) const
         }
         mesh.triangles.resize(starts.back());
         tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t k) {
-            const std::int32_t r = fixed_.firstRow() + static_cast<std::int32_t>(k);
+            const std::int32_t r = fixed.firstRow() + static_cast<std::int32_t>(k);
             Triangle* out = mesh.triangles.data() + starts[k];
             for (const ColumnInterval& i : (*part)[k].up) {
-                std::uint32_t a = first + fixed_number_(r, i.begin);
-                std::uint32_t b = first + fixed_number_(r + 1, i.begin + apexOf(r));
+                std::uint32_t a = first + fixed_.at({r, i.begin});
+                std::uint32_t b = first + fixed_.at({r + 1, i.begin + apexOf(r)});
                 for (std::int32_t c = i.begin; c < i.end; ++c, ++a, ++b) {
                     *out++ = {a, a + 1, b};
                 }
             }
             for (const ColumnInterval& i : (*part)[k].down) {
-                std::uint32_t a = first + fixed_number_(r + 1, i.begin);
-                std::uint32_t b = first + fixed_number_(r, i.begin + apexOf(r + 1));
+                std::uint32_t a = first + fixed_.at({r + 1, i.begin});
+                std::uint32_t b = first + fixed_.at({r, i.begin + apexOf(r + 1)});
                 for (std::int32_t c = i.begin; c < i.end; ++c, ++a, ++b) {
                     *out++ = {b, a + 1, a};
                 }

@@ -8,32 +8,10 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
+#include "mesh/lattice_grid.h"
 #include "mesh/lattice_region.h"
 
 namespace droplet {
-
-/// A lattice point by row and column.
-struct LatticeSite {
-    std::int32_t row = 0;
-    std::int32_t column = 0;
-};
-
-/// Numbers the points of a region, row by row.
-class LatticeNumbering {
-public:
-    explicit LatticeNumbering(const LatticeRegion& region);
-
-    /// Number of a point of the region.
-    [[nodiscard]] std::uint32_t operator()(std::int32_t row, std::int32_t column) const;
-
-private:
-    struct Start {
-        std::int32_t column = 0;
-        std::uint32_t number = 0;
-    };
-    std::int32_t first_row_ = 0;
-    std::vector<std::vector<Start>> rows_;
-};
 
 /// The lattice inside a footprint, in layers: where it is regular it needs no triangulating.
 ///
@@ -54,7 +32,7 @@ public:
     /// Fixed points with triangles outside the core, by their numbers among the fixed ones.
     [[nodiscard]] std::vector<std::uint32_t> seamNumbers() const;
     /// The same by row and column, in the same order.
-    [[nodiscard]] const std::vector<LatticeSite>& seam() const { return seam_; }
+    [[nodiscard]] const std::vector<Site>& seam() const { return seam_; }
 
     /// Edges between a triangle of the core and none, as indices into seam().
     [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> boundary() const;
@@ -62,17 +40,15 @@ public:
     /// Appends the fixed points as vertices and the core's triangles, and describes them in `mesh.lattice`.
     void appendTo(PlanarMesh& mesh) const;
 
-    [[nodiscard]] std::uint32_t fixedCount() const { return fixed_count_; }
+    [[nodiscard]] std::uint32_t fixedCount() const { return fixed_.end(); }
 
 private:
     double edge_;
     LatticeRegion clear_;
-    LatticeRegion fixed_;
+    LatticeGrid fixed_;
     LatticeRegion regular_;
-    LatticeRegion seam_region_;
-    LatticeNumbering fixed_number_;
-    std::uint32_t fixed_count_;
-    std::vector<LatticeSite> seam_;
+    LatticeGrid seam_grid_;
+    std::vector<Site> seam_;
 };
 
 /// How many triangles of neighbouring points a region has.

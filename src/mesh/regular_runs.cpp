@@ -4,9 +4,14 @@
 #include <cstddef>
 #include <utility>
 
-#include "mesh/lattice_core.h"
-
 namespace droplet {
+
+RegularRun regularRun(const LatticeGrid& grid, std::int32_t row, ColumnInterval columns)
+{
+    const std::int32_t left = columns.begin + leftOf(row);
+    return {grid.at({row, columns.begin}), static_cast<std::uint32_t>(columns.end - columns.begin),
+            grid.at({row - 1, left}), grid.at({row + 1, left})};
+}
 
 LatticeRegion regionOf(const Lattice& lattice)
 {
@@ -28,15 +33,11 @@ std::vector<RegularRun> regularRuns(const Lattice& lattice)
     if (lattice.runs.empty()) {
         return result;
     }
-    const LatticeRegion region = regionOf(lattice);
-    const LatticeRegion regular = eroded(region);
-    const LatticeNumbering number(region);
-    const std::uint32_t first = lattice.runs.front().vertex;
+    const LatticeGrid grid(regionOf(lattice), lattice.runs.front().vertex);
+    const LatticeRegion regular = eroded(grid.region());
     for (std::int32_t r = regular.firstRow(); r < regular.endRow(); ++r) {
         for (const ColumnInterval& i : regular.row(r)) {
-            const std::int32_t left = i.begin + leftOf(r);
-            result.push_back({first + number(r, i.begin), static_cast<std::uint32_t>(i.end - i.begin),
-                              first + number(r - 1, left), first + number(r + 1, left)});
+            result.push_back(regularRun(grid, r, i));
         }
     }
     return result;

@@ -14,8 +14,6 @@
 #include <numbers>
 #include <utility>
 
-#include "mesh/regular_runs.h"
-
 namespace droplet {
 namespace {
 
@@ -97,40 +95,35 @@ void addParents(RegionBuilder& parents, const LatticeRegion& region)
     });
 }
 
-/// The points with all their neighbours on the finer lattice, and one more around for the stencils to reach.
-void addSurroundings(RegionBuilder& storage, const LatticeRegion& region, std::int32_t reach)
-{
-    forEachInterval(region, [&](std::int32_t r, ColumnInterval i) {
-        for (std::int32_t dr = -reach; dr <= reach; ++dr) {
-            storage.add(r + dr, {i.begin - reach, i.end + reach});
-        }
-    });
-}
-
 /// Storage for a level: its own points, and those that the coarser level's functions and all stencils look at.
 LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Index first)
 {
     RegionBuilder storage;
-    addSurroundings(storage, own, 1);
-    forEachInterval(parents, [&](std::int32_t r, ColumnInterval i) {
-        const Site begin = onFiner({r, i.begin});
-        const Site last = onFiner({r, i.end - 1});
+    const auto add_with_neighbours = [&](Site begin, Site last) {
         for (std::int32_t dr = -1; dr <= 1; ++dr) {
             storage.add(begin.row + dr, {begin.column - 1, last.column + 2});
         }
+    };
+    forEachInterval(own, [&](std::int32_t r, ColumnInterval i) { add_with_neighbours({r, i.begin}, {r, i.end - 1}); });
+    forEachInterval(parents, [&](std::int32_t r, ColumnInterval i) {
+        add_with_neighbours(onFiner({r, i.begin}), onFiner({r, i.end - 1}));
     });
     return {storage.build(), first};
 }
 
-void addStencilRuns(Level& level, const Plan& plan, std::int32_t row, ColumnInterval i)
+/// Calls with pieces of a row short enough to be shared out among threads.
+template <typename Visit>
+void forEachPiece(ColumnInterval i, const Visit& visit)
 {
-    // Pieces short enough to be shared out among threads.
     constexpr std::int32_t kPiece = 4096;
     for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
-        const std::int32_t left = c + leftOf(row);
-        level.regular.push_back({plan.grid.at({row, c}), static_cast<Index>(std::min(kPiece, i.end - c)),
-                                 plan.grid.at({row - 1, left}), plan.grid.at({row + 1, left})});
+        visit(ColumnInterval{c, std::min(c + kPiece, i.end)});
     }
+}
+
+void addRegularRuns(Level& level, const Plan& plan, std::int32_t row, ColumnInterval i)
+{
+    forEachPiece(i, [&](ColumnInterval piece) { level.regular.push_back(regularRun(plan.grid, row, piece)); });
 }
 
 /// Merges the entries of one row that share a column.
@@ -243,7 +236,7 @@ void planFinest(const PlanarMesh& mesh, const LatticeRegion& parents, Hierarchy&
     forEachInterval(eroded(plan.region), [&](std::int32_t r, ColumnInterval i) {
         const Index first = plan.grid.at({r, i.begin});
         std::fill_n(plan.row.begin() + first, i.end - i.begin, kRegular);
-        addStencilRuns(level, plan, r, i);
+        addRegularRuns(level, plan, r, i);
     });
     for (const LatticeRun& run : mesh.lattice.runs) {
         const Index first = plan.grid.at({run.row, run.column});
@@ -262,7 +255,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
 {
     const std::uint32_t rim = mesh.rimVertexCount();
     const auto index = [&](std::uint32_t v) { return hierarchy.index_of_vertex[v - rim]; };
-    const std::size_t count = mesh.lattice.runs.empty() ? mesh.triangles.size() : mesh.lattice.first_regular_triangle;
+    const std::size_t count = irregularTriangleCount(mesh);
 
     // Triangles around every irregular unknown.
     const std::size_t rows = level.irregular.unknowns.size();
@@ -306,7 +299,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
         hierarchy.load[level.irregular.unknowns[k]] = load * scale;
     });
     const double area = 0.25 * std::numbers::sqrt3;  // of a triangle, by edge²
-    for (const StencilRun& run : level.regular) {
+    for (const RegularRun& run : level.regular) {
         std::fill_n(hierarchy.load.begin() + run.first, run.count, 2.0 * area);
     }
 }
@@ -439,7 +432,7 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
         ColumnInterval regular{i.begin, i.begin};
         const auto close = [&] {
             if (regular.begin < regular.end) {
-                addStencilRuns(level, plan, r, regular);
+                addRegularRuns(level, plan, r, regular);
             }
         };
         for (std::int32_t c = i.begin; c < i.end; ++c) {
@@ -461,20 +454,19 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
 /// The way between two levels' unknowns on the lattice.
 void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
 {
-    constexpr std::int32_t kPiece = 4096;
     forEachInterval(coarse.region, [&](std::int32_t r, ColumnInterval i) {
-        for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
-            level.restriction.push_back(restrictionOf(coarse.grid, fine.grid, r, {c, std::min(c + kPiece, i.end)}));
-        }
+        forEachPiece(i, [&](ColumnInterval piece) {
+            level.restriction.push_back(restrictionOf(coarse.grid, fine.grid, r, piece));
+        });
     });
     forEachInterval(fine.region, [&](std::int32_t r, ColumnInterval i) {
-        for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
-            const std::array<Site, 2> parents = onCoarser({r, c});
-            const std::array<Site, 2> next = onCoarser({r, c + 1});
+        forEachPiece(i, [&](ColumnInterval piece) {
+            const std::array<Site, 2> parents = onCoarser({r, piece.begin});
+            const std::array<Site, 2> next = onCoarser({r, piece.begin + 1});
             const std::size_t early = next[0].column != parents[0].column ? 0 : 1;
-            level.prolongation.push_back({fine.grid.at({r, c}), static_cast<Index>(std::min(kPiece, i.end - c)),
+            level.prolongation.push_back({fine.grid.at({r, piece.begin}), static_cast<Index>(piece.end - piece.begin),
                                           coarse.grid.at(parents[early]), coarse.grid.at(parents[1 - early])});
-        }
+        });
     });
 }
 

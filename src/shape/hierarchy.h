@@ -7,18 +7,10 @@
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
-#include "shape/lattice_grid.h"
+#include "mesh/regular_runs.h"
 #include "shape/operator.h"
 
 namespace droplet {
-
-/// Unknowns with consecutive indices along a lattice row, all of whose rows of the matrix are one stencil.
-struct StencilRun {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    std::uint32_t below = 0;  ///< left of the two neighbours of the first in the row below
-    std::uint32_t above = 0;
-};
 
 /// Unknowns along a lattice row, as points of the finer lattice.
 struct RestrictionRun {
@@ -58,7 +50,7 @@ struct Level {
     std::uint32_t size = 0;
     std::uint32_t unknowns = 0;
     Stencil stencil;
-    std::vector<StencilRun> regular;
+    std::vector<RegularRun> regular;  ///< unknowns whose rows are the stencil
     SparseRows irregular;
     // To the coarser level, if there is one.
     std::vector<RestrictionRun> restriction;    ///< of the coarser level's unknowns

@@ -99,7 +99,7 @@ void forPieces(const std::vector<std::size_t>& ends, const Work& work)
 
 /// What a row of the matrix is applied for: called with the row's unknown and the product.
 template <typename Real, typename Use>
-void applyRegular(const StencilRun& run, const Stencil& stencil, const Real* x, const Use& use)
+void applyRegular(const RegularRun& run, const Stencil& stencil, const Real* x, const Use& use)
 {
     const auto diagonal = static_cast<Real>(stencil.diagonal);
     const auto neighbour = static_cast<Real>(stencil.neighbour);
@@ -174,7 +174,7 @@ public:
     void forEachScale(const Use& use) const
     {
         forPieces(regular_pieces_, [&](std::size_t i) {
-            const StencilRun& run = level_->regular[i];
+            const RegularRun& run = level_->regular[i];
             for (Index k = 0; k < run.count; ++k) {
                 use(run.first + k, regular_scale_);
             }
@@ -205,7 +205,7 @@ class CoarsestSolver {
 public:
     explicit CoarsestSolver(const Level& level) : position_(level.size, 0)
     {
-        for (const StencilRun& run : level.regular) {
+        for (const RegularRun& run : level.regular) {
             for (Index k = 0; k < run.count; ++k) {
                 unknowns_.push_back(run.first + k);
             }
@@ -221,7 +221,7 @@ public:
                 entries.emplace_back(position_[row], position_[column], value);
             }
         };
-        for (const StencilRun& run : level.regular) {
+        for (const RegularRun& run : level.regular) {
             for (Index k = 0; k < run.count; ++k) {
                 const Index at = run.first + k;
                 add(at, at, level.stencil.diagonal);

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "mesh/regular_runs.h"
 #include "shape/direct.h"
 #include "shape/hierarchy.h"
 #include "shape/multigrid.h"
@@ -41,9 +42,7 @@ struct System {
 Solver chooseSolver(const PlanarMesh& mesh)
 {
     const std::size_t unknowns = mesh.vertices.size() - mesh.rimVertexCount();
-    const std::size_t regular =
-        mesh.lattice.runs.empty() ? 0 : mesh.triangles.size() - mesh.lattice.first_regular_triangle;
-    const bool is_lattice = 2 * regular > mesh.triangles.size();
+    const bool is_lattice = 2 * irregularTriangleCount(mesh) < mesh.triangles.size();
     return unknowns < (is_lattice ? kSmall : kSmallIrregular) ? Solver::Llt : Solver::Multigrid;
 }
 
@@ -107,8 +106,7 @@ void measureUnit(const PlanarMesh& mesh, const Operator& op, double sigma, UnitS
     const auto at = [&](std::uint32_t v) { return mesh.onRim(v) ? 0.0 : values[v - rim]; };
     unit.slope.assign(rim, 0.0);
     // Where there is a lattice, its triangles come last and none of them touches the rim.
-    const std::size_t near_rim =
-        mesh.lattice.runs.empty() ? mesh.triangles.size() : mesh.lattice.first_regular_triangle;
+    const std::size_t near_rim = irregularTriangleCount(mesh);
     for (std::size_t i = 0; i < near_rim; ++i) {
         const Triangle& t = mesh.triangles[i];
         if (!mesh.onRim(std::min({t[0], t[1], t[2]}))) {

@@ -48,8 +48,7 @@ std::vector<Vec2> rimNormals(const PlanarMesh& mesh)
 std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const HeightField& field)
 {
     std::vector<Vec2> gradients(mesh.vertices.size());
-    const bool has_lattice = !mesh.lattice.runs.empty();
-    const std::size_t irregular = has_lattice ? mesh.lattice.first_regular_triangle : mesh.triangles.size();
+    const std::size_t irregular = irregularTriangleCount(mesh);
     std::vector<double> weights(mesh.vertices.size(), 0.0);
     for (std::size_t i = 0; i < irregular; ++i) {
         const Triangle& t = mesh.triangles[i];

@@ -19,7 +19,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "mesh/lattice_core.h"
-#include "shape/lattice_grid.h"
+#include "mesh/lattice_grid.h"
 
 namespace droplet {
 
@@ -339,11 +339,11 @@ TEST(LatticeGrid, GivesEveryPointAnIndexAndBack)
         const LatticeRegion region = randomRegion(random);
         const std::uint32_t first = std::uniform_int_distribution<std::uint32_t>(0, 5)(random);
         const LatticeGrid grid(region, first);
-        const LatticeNumbering number(region);
+        const LatticeGrid from_zero(region, 0);
         std::uint32_t next = first;
         for (const auto& [r, c] : pointsOf(region)) {
             ASSERT_EQ(grid.at({r, c}), next);
-            ASSERT_EQ(number(r, c), next - first);
+            ASSERT_EQ(from_zero.at({r, c}), next - first);
             ASSERT_TRUE(grid.siteOf(next) == (Site{r, c}));
             ++next;
         }

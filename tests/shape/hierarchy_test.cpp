@@ -38,7 +38,7 @@ double dotOf(const Vector& a, const Vector& b)
 template <typename Visit>
 void forEachUnknown(const Level& level, const Visit& visit)
 {
-    for (const StencilRun& run : level.regular) {
+    for (const RegularRun& run : level.regular) {
         for (std::uint32_t k = 0; k < run.count; ++k) {
             visit(run.first + k);
         }
@@ -59,7 +59,7 @@ Vector randomVector(const Level& level, std::mt19937& random)
 Vector applied(const Level& level, const Vector& x)
 {
     Vector result(level.size, 0.0);
-    for (const StencilRun& run : level.regular) {
+    for (const RegularRun& run : level.regular) {
         for (std::uint32_t k = 0; k < run.count; ++k) {
             const std::uint32_t i = run.first + k;
             result[i] = level.stencil.diagonal * x[i] +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape/lattice_grid.h"
+#include "mesh/lattice_grid.h"
 
 #include <algorithm>
 #include <iterator>
