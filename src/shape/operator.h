@@ -2,29 +2,47 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
 #include "shape/gradient.h"
 
 namespace droplet {
 
-/// The operator K + wM of the linear model, divided by the surface tension: stiffness and mass matrix of functions
-/// linear on triangles, w = ρg/σ the inverse square of the capillary length [1/m²].
+/// A symmetric 2×2 tensor.
+struct SymmetricTensor {
+    double xx = 1.0;
+    double xy = 0.0;
+    double yy = 1.0;
+};
+
+/// The operator K + wM, divided by the surface tension: ∫∇φ·G∇φ + w∫φφ over functions linear on triangles.
 struct Operator {
-    double mass_weight = 0.0;
+    double mass_weight = 0.0;              ///< w = ρg⊥/σ, by size the inverse square of the capillary length [1/m²]
+    std::vector<SymmetricTensor> tensors;  ///< G on every triangle; empty: the identity, the linear model
+    std::vector<std::uint8_t> held;        ///< 1 at inner vertices that are no unknowns but 0; empty: at none
+
+    /// Whether rows around equilateral triangles are all alike.
+    [[nodiscard]] bool uniform() const { return tensors.empty() && held.empty(); }
 };
 
 /// One triangle's share of the operator.
-inline std::array<std::array<double, 3>, 3> elementMatrix(const PlanarMesh& mesh, const Triangle& t, const Operator& op)
+inline std::array<std::array<double, 3>, 3> elementMatrix(const PlanarMesh& mesh, std::size_t triangle,
+                                                          const Operator& op)
 {
+    const Triangle& t = mesh.triangles[triangle];
     const double area = 0.5 * doubleArea(mesh, t);
     const std::array<Vec2, 3> hats = hatGradients(mesh, t);
+    const SymmetricTensor g = op.tensors.empty() ? SymmetricTensor{} : op.tensors[triangle];
     std::array<std::array<double, 3>, 3> matrix{};
-    for (std::size_t a = 0; a < 3; ++a) {
-        for (std::size_t b = 0; b < 3; ++b) {
-            // ∫∇φa·∇φb + w∫φaφb; the mass of a triangle is A/6 on the diagonal, A/12 off it.
-            matrix[a][b] = area * (dot(hats[a], hats[b]) + op.mass_weight / (a == b ? 6.0 : 12.0));
+    for (std::size_t b = 0; b < 3; ++b) {
+        const Vec2 flux{g.xx * hats[b].x + g.xy * hats[b].y, g.xy * hats[b].x + g.yy * hats[b].y};
+        for (std::size_t a = 0; a < 3; ++a) {
+            // ∫∇φa·G∇φb + w∫φaφb; the mass of a triangle is A/6 on the diagonal, A/12 off it.
+            matrix[a][b] = area * (dot(hats[a], flux) + op.mass_weight / (a == b ? 6.0 : 12.0));
         }
     }
     return matrix;
