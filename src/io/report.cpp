@@ -131,7 +131,7 @@ Json sections(const Report& report)
                      {"unknowns", report.solve.unknowns},
                      {"iterations", report.solve.iterations},
                      {"residual", report.solve.residual},
-                     {"converged", report.solve.converged}};
+                     {"converged", report.solve.usable()}};
     json["shape"] = {{"volume_m3", total.volume},
                      {"pressure_pa", report.pressure ? Json(*report.pressure) : Json()},
                      {"height_max_m", total.height_max},

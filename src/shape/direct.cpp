@@ -40,8 +40,9 @@ SparseSystem assemble(const PlanarMesh& mesh, const Operator& op)
     entries.reserve(6 * mesh.triangles.size());
     SparseSystem system;
     system.load = Eigen::VectorXd::Zero(inner);
-    for (const Triangle& t : mesh.triangles) {
-        const auto matrix = elementMatrix(mesh, t, op);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle& t = mesh.triangles[i];
+        const auto matrix = elementMatrix(mesh, i, op);
         const double third = doubleArea(mesh, t) / 6.0;
         for (std::size_t a = 0; a < 3; ++a) {
             if (mesh.onRim(t[a])) {

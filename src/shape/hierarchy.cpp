@@ -288,7 +288,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
         double load = 0.0;
         for (Index c = starts[k]; c < starts[k + 1]; ++c) {
             const Triangle& t = mesh.triangles[corners[c].triangle];
-            const auto matrix = elementMatrix(mesh, t, op);
+            const auto matrix = elementMatrix(mesh, corners[c].triangle, op);
             load += doubleArea(mesh, t) / 6.0;
             for (std::size_t b = 0; b < 3; ++b) {
                 if (!mesh.onRim(t[b])) {

@@ -112,7 +112,7 @@ void measureUnit(const PlanarMesh& mesh, const Operator& op, double sigma, UnitS
         if (!mesh.onRim(std::min({t[0], t[1], t[2]}))) {
             continue;
         }
-        const auto matrix = elementMatrix(mesh, t, op);
+        const auto matrix = elementMatrix(mesh, i, op);
         for (std::size_t a = 0; a < 3; ++a) {
             if (mesh.onRim(t[a])) {
                 // ∫∂u/∂n φ over the rim = (K + wM)u − λm/σ, outward; the slope is counted inward.
@@ -244,7 +244,8 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
     if (progress) {
         progress(Stage::Assemble);
     }
-    const Operator op{options.liquid.density * options.gravity / options.liquid.surface_tension};
+    Operator op;
+    op.mass_weight = options.liquid.density * options.gravity / options.liquid.surface_tension;
     std::vector<System> systems(meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(),
                       [&](std::size_t k) { systems[k] = prepare(meshes[k], op, options.solver); });
@@ -258,20 +259,22 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
 
     Solution solution;
     SolveReport& report = solution.report;
-    report.converged = true;
+    bool converged = true;
     std::size_t most = 0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::size_t unknowns = meshes[k].vertices.size() - meshes[k].rimVertexCount();
         report.unknowns += unknowns;
         report.iterations = std::max(report.iterations, units[k].linear.iterations);
         report.residual = std::max(report.residual, units[k].linear.residual);
-        report.converged = report.converged && units[k].linear.converged && units[k].volume > 0.0;
+        converged = converged && units[k].linear.converged && units[k].volume > 0.0;
         if (unknowns > most) {
             most = unknowns;
             report.method = nameOf(units[k].solver);
         }
     }
-    if (!report.converged) {
+    report.newton_steps = 1;
+    report.termination = converged ? Termination::Converged : Termination::NotConverged;
+    if (!converged) {
         return solution;
     }
 
@@ -298,6 +301,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         field.rim_slope.resize(rim);
         for (std::uint32_t v = 0; v < rim; ++v) {
             field.rim_slope[v] = pressures[k] * units[k].slope[v];
+            field.contact_angle.push_back(std::atan(field.rim_slope[v]));
         }
         solution.droplets.push_back(std::move(field));
     }

