@@ -65,27 +65,42 @@ struct CholmodFactor::State {
     cholmod_factor* factor = nullptr;
 };
 
-CholmodFactor::CholmodFactor(const Eigen::SparseMatrix<double>& matrix) : state_(std::make_unique<State>())
+CholmodFactor::CholmodFactor() : state_(std::make_unique<State>())
 {
-    const Library& library = state_->library;
     cholmod_common& common = state_->common;
-    library.start(&common);
+    state_->library.start(&common);
     common.print = 0;  // what goes wrong is ours to tell
     common.supernodal = CHOLMOD_SUPERNODAL;
     // Nested dissection takes longer than it saves up to a million triangles.
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_AMD;
-    cholmod_sparse view = Eigen::viewAsCholmod(matrix.selfadjointView<Eigen::Lower>());
-    state_->factor = library.analyze(&view, &common);
-    if (state_->factor != nullptr) {
-        library.factorize(&view, state_->factor, &common);
-    }
+}
+
+CholmodFactor::CholmodFactor(const Eigen::SparseMatrix<double>& matrix) : CholmodFactor()
+{
+    analyzePattern(matrix);
+    factorize(matrix);
 }
 
 CholmodFactor::~CholmodFactor()
 {
     state_->library.free_factor(&state_->factor, &state_->common);
     state_->library.finish(&state_->common);
+}
+
+void CholmodFactor::analyzePattern(const Eigen::SparseMatrix<double>& matrix)
+{
+    state_->library.free_factor(&state_->factor, &state_->common);
+    cholmod_sparse view = Eigen::viewAsCholmod(matrix.selfadjointView<Eigen::Lower>());
+    state_->factor = state_->library.analyze(&view, &state_->common);
+}
+
+void CholmodFactor::factorize(const Eigen::SparseMatrix<double>& matrix)
+{
+    if (state_->factor != nullptr) {
+        cholmod_sparse view = Eigen::viewAsCholmod(matrix.selfadjointView<Eigen::Lower>());
+        state_->library.factorize(&view, state_->factor, &state_->common);
+    }
 }
 
 Eigen::ComputationInfo CholmodFactor::info() const

@@ -13,7 +13,7 @@ namespace droplet {
 
 /// What is asked of a constrained system: Ax = right + λm with mᵀx = volume, A the operator and m = ∫φ.
 struct ConstrainedProblem {
-    std::vector<double> right;  ///< at inner vertices [m]; empty: 0
+    std::vector<double> right;  ///< at inner vertices [m], without effect where held; empty: 0
     double volume = 0.0;        ///< [m³]
     double tolerance = 1e-10;   ///< for iterations: residual in terms of the first
 };
@@ -22,12 +22,13 @@ struct ConstrainedProblem {
 struct ConstrainedSolution {
     std::vector<double> values;  ///< x at the mesh's inner vertices, 0 where held [m]
     double multiplier = 0.0;     ///< λ [1/m]
-    double residual = 0.0;       ///< ‖right + λm − Ax‖ by the larger of ‖right‖ and ‖λm‖
+    double residual = 0.0;  ///< ‖right + λm − Ax‖ by the largest of ‖right‖, ‖λm‖ and the weight ‖wm∘x‖
     std::size_t iterations = 0;  ///< 1 for a factorisation
     bool converged = false;
 };
 
-/// Solves constrained systems of one mesh for one operator after another; keeps what they have in common.
+/// Solves constrained systems of one mesh, which must outlive it, for one operator after another; keeps what they have
+/// in common.
 class ConstrainedSolver {
 public:
     virtual ~ConstrainedSolver() = default;
