@@ -21,7 +21,7 @@ struct SymmetricTensor {
 
 /// The operator K + wM, divided by the surface tension: ∫∇φ·G∇φ + w∫φφ over functions linear on triangles.
 struct Operator {
-    double mass_weight = 0.0;              ///< w = ρg⊥/σ, by size the inverse square of the capillary length [1/m²]
+    double mass_weight = 0.0;  ///< w = ρg⊥/σ, by size the inverse square of the capillary length [1/m²]
     std::vector<SymmetricTensor> tensors;  ///< G on every triangle; empty: the identity, the linear model
     std::vector<std::uint8_t> held;        ///< 1 at inner vertices that are no unknowns but 0; empty: at none
 

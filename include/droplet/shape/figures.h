@@ -25,14 +25,14 @@ struct ShapeFigures {
     double volume = 0.0;          ///< ∫(u − h) [m³]
     double height_max = 0.0;      ///< largest u − h [m]
     double depth_max = 0.0;       ///< largest h − u: how far the surface sinks into the ground [m]
-    double liquid_area = 0.0;     ///< ∫√(1+|∇u|²) but for what is dry, the true area of the liquid's surface [m²]
-    double linear_area = 0.0;     ///< ∫(1 + ½|∇u|²) there, what the linear model takes for it [m²]
+    double liquid_area = 0.0;  ///< ∫√(1+|∇u|²) but for what is dry, the true area of the liquid's surface [m²]
+    double linear_area = 0.0;  ///< ∫(1 + ½|∇u|²) there, what the linear model takes for it [m²]
     double surface_energy = 0.0;  ///< σ · liquid_area [J]
     double gravity_energy = 0.0;  ///< ½ρg⊥∫(u² − h²) − ρ∫(g∥·x)(u − h) [J]
     double slope_max = 0.0;       ///< steepest triangle [rad]
     double steep_area = 0.0;      ///< of the footprint, where triangles are steeper than 50° [m²]
-    double bond_number = 0.0;     ///< ρ|g|A/(πσ): gravity against surface tension, at the radius of a disc of that area
-    double projected_width = 0.0; ///< ½∮|n·d|, the rim's width seen from downhill; 0 without tilt [m]
+    double bond_number = 0.0;  ///< ρ|g|A/(πσ): gravity against surface tension, at the radius of a disc of that area
+    double projected_width = 0.0;  ///< ½∮|n·d|, the rim's width seen from downhill; 0 without tilt [m]
     ContactAngle contact_angle;
 };
 
@@ -53,8 +53,8 @@ struct Retention {
     [[nodiscard]] bool wouldSlide() const { return driving_force > retention_force; }
 };
 
-/// The balance of C. G. L. Furmidge, "Studies at phase interfaces" (1962), for a rim of any shape: the retaining force is
-/// largest where the angle is θ_A along all of the rim that faces downhill and θ_R along the rest.
+/// The balance of C. G. L. Furmidge, "Studies at phase interfaces" (1962), for a rim of any shape: the retaining force
+/// is largest where the angle is θ_A along all of the rim that faces downhill and θ_R along the rest.
 Retention retention(const ShapeFigures& figures, const SolveOptions& options, const Hysteresis& hysteresis);
 
 /// Measures one droplet.
@@ -63,7 +63,7 @@ Retention retention(const ShapeFigures& figures, const SolveOptions& options, co
 /// @param options  the physics it was solved with
 ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options);
 
-/// Figures of several droplets together: sums, extremes, means weighted by rim length.
+/// Figures of several droplets together: sums, extremes (also of the Bond number), means weighted by rim length.
 ShapeFigures combine(const std::vector<ShapeFigures>& droplets);
 
 }  // namespace droplet

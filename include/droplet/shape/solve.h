@@ -17,10 +17,10 @@ namespace droplet {
 
 /// The surface of the liquid over one footprint, linear on every triangle.
 struct HeightField {
-    std::vector<double> height;         ///< u at every vertex of the mesh, out of the plane [m]; on the rim the ground's
-    std::vector<double> ground;         ///< h at every vertex [m]; empty where the ground is flat, at 0
-    std::vector<std::uint8_t> dry;      ///< 1 at inner vertices where the liquid is held on the ground; empty if at none
-    std::vector<double> rim_slope;      ///< ∂u/∂n along the inward normal at every rim vertex
+    std::vector<double> height;     ///< u at every vertex of the mesh, out of the plane [m]; on the rim the ground's
+    std::vector<double> ground;     ///< h at every vertex [m]; empty where the ground is flat, at 0
+    std::vector<std::uint8_t> dry;  ///< 1 at inner vertices where the liquid is held on the ground; empty if at none
+    std::vector<double> rim_slope;  ///< ∂u/∂n along the inward normal at every rim vertex
     std::vector<double> contact_angle;  ///< between liquid and ground, at every rim vertex [rad]
     double pressure = 0.0;              ///< λ, the pressure at height 0 above the plane's origin [Pa]
 
@@ -54,17 +54,17 @@ enum class Termination {
 
 /// How solving went: numbers, not words, except `method`.
 struct SolveReport {
-    std::string method;        ///< "simplicial-llt", "simplicial-ldlt", "cholmod-supernodal", "multigrid-pcg"; where
-                               ///< droplets differ, the one with most unknowns
-    std::size_t unknowns = 0;  ///< interior vertices of all droplets
-    std::size_t iterations = 0;    ///< most of any linear system; 1 for a factorisation
+    std::string method;          ///< "simplicial-llt", "simplicial-ldlt", "cholmod-supernodal", "multigrid-pcg"; where
+                                 ///< droplets differ, the one with most unknowns
+    std::size_t unknowns = 0;    ///< interior vertices of all droplets
+    std::size_t iterations = 0;  ///< most of any linear system; 1 for a factorisation
     std::size_t newton_steps = 0;  ///< most of any droplet; 1 for the linear model
-    double residual = 0.0;         ///< largest relative residual of any droplet: ‖Ax − b‖/‖b‖, or of the exact model's
-                                   ///< equations
+    double residual = 0.0;  ///< largest relative residual of any droplet: ‖Ax − b‖/‖b‖, or of the exact model's
+                            ///< equations
     Termination termination = Termination::NotConverged;
-    std::size_t failed_droplet = 0;   ///< of several the first, if termination is not Converged
-    double largest_volume = 0.0;      ///< with NoHeightField: that one's, or of all with FillSharing::Total [m³]
-    double bond_number = 0.0;         ///< with Unstable: ρ|g|A/(πσ) of that one's footprint
+    std::size_t failed_droplet = 0;     ///< of several the first, if termination is not Converged
+    double largest_volume = 0.0;        ///< with NoHeightField: that one's, or of all with FillSharing::Total [m³]
+    double bond_number = 0.0;           ///< with Unstable: ρ|g|A/(πσ) of that one's footprint
     double critical_bond_number = 0.0;  ///< with Unstable: beyond which it cannot hang
 
     [[nodiscard]] bool usable() const { return termination == Termination::Converged; }
@@ -80,7 +80,7 @@ struct Solution {
 struct SolveOptions {
     Liquid liquid;
     double gravity = kStandardGravity;  ///< into the ground when level; negative under a ceiling [m/s²]
-    double tilt = 0.0;                  ///< of the plane against level, 0 … π [rad]: upright at π/2, a ceiling at π
+    double tilt = 0.0;  ///< of the plane against level, 0 … π [rad]: upright at π/2, a ceiling at π
     double tilt_direction = -0.5 * std::numbers::pi;  ///< of downhill in the plane, counter-clockwise from +x [rad]
     Model model = Model::Linear;
     BaseSurface ground;

@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Newton's method on the energy with the fill as a constraint. Rows of the rim, left out of the systems, give the flux
+// through it: G. F. Carey, "Derivative calculation from finite element solutions" (1982). Contact with the ground: the
+// primal–dual active set of M. Hintermüller, K. Ito, K. Kunisch, "The primal-dual active set strategy as a semismooth
+// Newton method" (2002), on every step's quadratic problem, so that steps stay above the ground and the line search is
+// one among admissible sheets.
+
+#include "shape/equilibrium.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "blocks.h"
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+/// Where a Newton step may lead one droplet: affine in the volume it gains.
+struct Step {
+    std::vector<double> base;       ///< change of the inner heights without gain [m]; empty: none
+    std::vector<double> rise;       ///< and per volume gained [1/m²]; empty where no volume is to be gained
+    double pressure = 0.0;          ///< λ/σ then [1/m]
+    double pressure_rise = 0.0;     ///< [1/m⁴]
+    std::vector<double> flux;       ///< through the rim then
+    std::vector<double> flux_rise;  ///< [1/m³]
+    ConstrainedSolution base_solution;
+    bool converged = true;
+    std::size_t iterations = 0;
+    double residual = 0.0;
+};
+
+/// A number and its derivative.
+struct Jet {
+    double value = 0.0;
+    double derivative = 0.0;
+};
+
+/// Where an increasing function takes a value: Newton inside a bracket that bisection keeps.
+/// @param scale   a distance over which the function is expected to change
+/// @return        nothing if the value is not within 2⁶⁰ scales
+std::optional<double> whereIncreasing(const std::function<Jet(double)>& f, double wanted, double start, double scale)
+{
+    Jet at = f(start);
+    const double side = at.value < wanted ? 1.0 : -1.0;
+    double near = start;
+    double far = start;
+    for (int k = 0; side * (wanted - at.value) > 0.0; ++k) {
+        if (k == 60 || !std::isfinite(at.value)) {
+            return std::nullopt;
+        }
+        near = far;
+        far = start + side * scale * std::ldexp(1.0, k);
+        at = f(far);
+    }
+    double low = std::min(near, far);
+    double high = std::max(near, far);
+    double x = far;
+    for (int k = 0; k < 200; ++k) {
+        if (at.value == wanted) {
+            return x;
+        }
+        (at.value < wanted ? low : high) = x;
+        const double newton = x + (wanted - at.value) / at.derivative;
+        const bool inside = newton > low && newton < high;
+        const double next = inside ? newton : 0.5 * (low + high);
+        if (std::abs(next - x) <= 2.0 * kEpsilon * std::max(std::abs(x), std::abs(scale))) {
+            return next;
+        }
+        x = next;
+        at = f(x);
+    }
+    return x;
+}
+
+std::uint32_t rimOf(const Member& member)
+{
+    return member.energy->mesh().rimVertexCount();
+}
+
+double thickness(const Member& member, std::size_t vertex)
+{
+    const std::vector<double>& ground = member.energy->ground();
+    return member.sheet->height[vertex] - (ground.empty() ? 0.0 : ground[vertex]);
+}
+
+/// The largest thickness a step leads to at a gain of volume.
+Jet heightAt(const Member& member, const Step& step, double gain)
+{
+    const std::uint32_t rim = rimOf(member);
+    const std::size_t inner = member.sheet->height.size() - rim;
+    const std::vector<Jet> blocks = mapBlocks<Jet>(inner, [&](std::size_t begin, std::size_t end) {
+        Jet best{-std::numeric_limits<double>::infinity(), 0.0};
+        for (std::size_t i = begin; i < end; ++i) {
+            const double here =
+                thickness(member, rim + i) + (step.base.empty() ? 0.0 : step.base[i]) + gain * step.rise[i];
+            if (here > best.value) {
+                best = {here, step.rise[i]};
+            }
+        }
+        return best;
+    });
+    return *std::max_element(blocks.begin(), blocks.end(),
+                             [](const Jet& a, const Jet& b) { return a.value < b.value; });
+}
+
+/// The mean contact angle, times the rim's length, that a step leads to at a gain of volume.
+Jet angleAt(const Member& member, const Step& step, double gain)
+{
+    Jet sum;
+    const std::vector<double>& weights = member.energy->rimWeights();
+    for (std::uint32_t v = 0; v < weights.size(); ++v) {
+        const auto [angle, derivative] = member.energy->contactAngle(v, step.flux[v] + gain * step.flux_rise[v]);
+        sum.value += weights[v] * angle;
+        sum.derivative += weights[v] * derivative * step.flux_rise[v];
+    }
+    return sum;
+}
+
+/// How much each member gains, and by which part of what all gain together.
+std::vector<Jet> sharesOf(const std::vector<Step>& steps, double gain)
+{
+    if (steps.size() == 1) {
+        return {{gain, 1.0}};
+    }
+    // At one pressure p each gains (p − its pressure) / its rise.
+    double compliance = 0.0;
+    double offset = 0.0;
+    for (const Step& step : steps) {
+        compliance += 1.0 / step.pressure_rise;
+        offset += step.pressure / step.pressure_rise;
+    }
+    const double pressure = (gain + offset) / compliance;
+    std::vector<Jet> shares;
+    for (const Step& step : steps) {
+        shares.push_back({(pressure - step.pressure) / step.pressure_rise, 1.0 / (step.pressure_rise * compliance)});
+    }
+    return shares;
+}
+
+/// The largest thickness of all members, or the mean angle along all rims.
+Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps, FillBy by, double gain)
+{
+    const std::vector<Jet> shares = sharesOf(steps, gain);
+    Jet total;
+    double rim_length = 0.0;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const Jet part = by == FillBy::Height ? heightAt(members[k], steps[k], shares[k].value)
+                                              : angleAt(members[k], steps[k], shares[k].value);
+        const double derivative = part.derivative * shares[k].derivative;
+        if (by == FillBy::ContactAngle) {
+            const std::vector<double>& weights = members[k].energy->rimWeights();
+            rim_length += std::accumulate(weights.begin(), weights.end(), 0.0);
+            total = {total.value + part.value, total.derivative + derivative};
+        } else if (k == 0 || part.value > total.value) {
+            total = {part.value, derivative};
+        }
+    }
+    return by == FillBy::ContactAngle ? Jet{total.value / rim_length, total.derivative / rim_length} : total;
+}
+
+/// The gain of volume after which the fill is met.
+double gainFor(const std::vector<Member>& members, const std::vector<Step>& steps, const Fill& fill)
+{
+    double volume = 0.0;
+    double footprint = 0.0;
+    for (const Member& member : members) {
+        const std::vector<double>& load = member.energy->load();
+        volume += member.sheet->volume;
+        footprint += std::accumulate(load.begin(), load.end(), 0.0);
+    }
+    if (fill.by == FillBy::Volume) {
+        return fill.amount - volume;
+    }
+    // Of the order of what a droplet of that footprint holds.
+    const double scale = 1e-3 * std::pow(footprint, 1.5);
+    const auto gain =
+        whereIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
+    if (!gain) {
+        // Rim pieces in sharp corners steepen slowly, so the mean may lag behind for long, but not for ever.
+        throw Error(ErrorCode::NoSuchDroplet, fill.by == FillBy::Height
+                                                  ? "no volume gives a droplet of that height on this footprint"
+                                                  : "no volume gives a mean contact angle of " +
+                                                        std::to_string(fill.amount / kDegree) +
+                                                        " degrees on this footprint; ask for a smaller angle");
+    }
+    return *gain;
+}
+
+bool isVolumeOfOne(const std::vector<Member>& members, const Fill& fill)
+{
+    return members.size() == 1 && fill.by == FillBy::Volume;
+}
+
+/// The flux through the rim that balances the rim's rows, λm − ∂E/∂u.
+std::vector<double> fluxThroughRim(const Member& member, double pressure, const std::vector<double>& gradient)
+{
+    std::vector<double> forces(rimOf(member));
+    for (std::size_t v = 0; v < forces.size(); ++v) {
+        forces[v] = pressure * member.energy->load()[v] - gradient[v];
+    }
+    return member.energy->fluxOf(std::move(forces));
+}
+
+/// A function of the inner vertices, at all of them.
+std::vector<double> withRim(const std::vector<double>& inner, std::uint32_t rim)
+{
+    std::vector<double> all(rim, 0.0);
+    all.insert(all.end(), inner.begin(), inner.end());
+    return all;
+}
+
+/// One member's Newton step at its sheet, with the vertices held that are said to be; they go to the ground.
+Step stepOf(const Member& member, const Operator& op, const std::vector<double>& gradient, bool with_rise,
+            double tolerance)
+{
+    const Energy& energy = *member.energy;
+    const std::uint32_t rim = rimOf(member);
+    const std::size_t inner = energy.mesh().vertices.size() - rim;
+    Step step;
+    const auto take = [&](const ConstrainedSolution& solution) {
+        step.converged = step.converged && solution.converged;
+        step.iterations = std::max(step.iterations, solution.iterations);
+        step.residual = std::max(step.residual, solution.residual);
+    };
+    if (!gradient.empty()) {
+        ConstrainedProblem problem;
+        problem.tolerance = tolerance;
+        problem.right.resize(inner);
+        for (std::size_t i = 0; i < inner; ++i) {
+            problem.right[i] = -gradient[rim + i];
+        }
+        std::vector<double> down;  // of the held vertices, to the ground
+        if (!op.held.empty()) {
+            down.assign(energy.mesh().vertices.size(), 0.0);
+            for (std::size_t i = 0; i < inner; ++i) {
+                if (op.held[i] != 0) {
+                    down[rim + i] = -thickness(member, rim + i);
+                    problem.volume -= down[rim + i] * energy.load()[rim + i];
+                }
+            }
+            const std::vector<double> pull = energy.applied(op, down);
+            for (std::size_t i = 0; i < inner; ++i) {
+                problem.right[i] -= pull[rim + i];
+            }
+        }
+        ConstrainedSolution solution = member.solver->solve(problem);
+        take(solution);
+        step.pressure = solution.multiplier;
+        step.base = std::move(solution.values);
+        for (std::size_t i = 0; i < inner && !down.empty(); ++i) {
+            step.base[i] += down[rim + i];
+        }
+    }
+    if (with_rise) {
+        ConstrainedSolution solution = member.solver->solve({{}, 1.0, tolerance});
+        take(solution);
+        step.pressure_rise = solution.multiplier;
+        step.rise = std::move(solution.values);
+        step.flux_rise = fluxThroughRim(member, step.pressure_rise, energy.appliedOnRim(op, withRim(step.rise, rim)));
+    }
+    step.flux.assign(rim, 0.0);
+    if (!gradient.empty()) {
+        std::vector<double> after = energy.appliedOnRim(op, withRim(step.base, rim));
+        for (std::uint32_t v = 0; v < rim; ++v) {
+            after[v] += gradient[v];
+        }
+        step.flux = fluxThroughRim(member, step.pressure, after);
+    }
+    return step;
+}
+
+/// The change of a member's heights, at all vertices.
+std::vector<double> changeOf(const Member& member, const Step& step, double gain)
+{
+    std::vector<double> change(member.sheet->height.size(), 0.0);
+    const std::uint32_t rim = rimOf(member);
+    for (std::size_t i = rim; i < change.size(); ++i) {
+        change[i] =
+            (step.base.empty() ? 0.0 : step.base[i - rim]) + (step.rise.empty() ? 0.0 : gain * step.rise[i - rim]);
+    }
+    return change;
+}
+
+double pressureAfter(const Step& step, double gain)
+{
+    return step.pressure + gain * step.pressure_rise;
+}
+
+/// Which inner vertices the ground should hold: those held that it pushes up, and those that sank in.
+std::vector<std::uint8_t> heldAfter(const Member& member, const Operator& op, const std::vector<double>& gradient,
+                                    const std::vector<double>& change, double pressure)
+{
+    const Energy& energy = *member.energy;
+    const std::uint32_t rim = rimOf(member);
+    const std::size_t inner = change.size() - rim;
+    const bool any = !op.held.empty();
+    const std::vector<double> pull = any ? energy.applied(op, change) : std::vector<double>{};
+    std::vector<std::uint8_t> held(inner, 0);
+    bool some = false;
+    for (std::size_t i = 0; i < inner; ++i) {
+        const std::size_t v = rim + i;
+        if (any && op.held[i] != 0) {
+            held[i] = (gradient.empty() ? 0.0 : gradient[v]) + pull[v] - pressure * energy.load()[v] > 0.0 ? 1 : 0;
+        } else {
+            held[i] = thickness(member, v) + change[v] < 0.0 ? 1 : 0;
+        }
+        some = some || held[i] != 0;
+    }
+    return some ? held : std::vector<std::uint8_t>{};
+}
+
+/// One Newton step of all members together.
+struct Advance {
+    std::vector<Operator> operators;
+    std::vector<std::vector<double>> changes;  ///< at all vertices [m]
+    std::vector<double> pressures;             ///< [1/m]
+    std::vector<double> gains;                 ///< [m³]
+    std::vector<std::vector<double>> fluxes;   ///< at rim vertices, as the step foresees them
+    bool converged = true;
+    bool stable = true;
+    std::size_t iterations = 0;
+    double residual = 0.0;
+};
+
+/// One reservoir under a ceiling drains from one droplet into another unless at most one of them would empty itself at
+/// its pressure, and all together would not.
+bool isStable(const std::vector<Step>& steps)
+{
+    double compliance = 0.0;
+    std::size_t falling = 0;
+    for (const Step& step : steps) {
+        compliance += 1.0 / step.pressure_rise;
+        falling += step.pressure_rise < 0.0 ? 1 : 0;
+    }
+    return falling == 0 || (falling == 1 && compliance < 0.0);
+}
+
+/// Tolerances of one step.
+struct StepOptions {
+    Fill fill;
+    bool no_penetration = false;
+    double tolerance = 1e-10;  ///< of linear systems
+};
+
+Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vector<double>>& gradients,
+                  const StepOptions& options)
+{
+    const std::size_t count = members.size();
+    Advance advance;
+    advance.operators.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        advance.operators[k] = members[k].energy->hessian(members[k].sheet->height);
+        advance.operators[k].held = members[k].sheet->held;
+    }
+    std::vector<Step> steps(count);
+    std::vector<std::uint8_t> changed(count, 1);
+    // Sets of held vertices that were tried, lest they come round again.
+    std::set<std::vector<std::vector<std::uint8_t>>> tried;
+    for (;;) {
+        const bool with_rise = !isVolumeOfOne(members, options.fill) ||
+                               std::abs(options.fill.amount - members[0].sheet->volume) > 1e-13 * options.fill.amount;
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+            if (changed[k] != 0) {
+                members[k].solver->prepare(advance.operators[k]);
+                steps[k] = stepOf(members[k], advance.operators[k], gradients[k], with_rise, options.tolerance);
+            }
+        });
+        for (const Step& step : steps) {
+            advance.converged = advance.converged && step.converged;
+            advance.iterations = std::max(advance.iterations, step.iterations);
+            advance.residual = std::max(advance.residual, step.residual);
+        }
+        advance.stable = count == 1 || isStable(steps);
+        if (!advance.converged || !advance.stable) {
+            return advance;
+        }
+        const std::vector<Jet> shares = sharesOf(steps, with_rise ? gainFor(members, steps, options.fill) : 0.0);
+        advance.changes.resize(count);
+        advance.pressures.resize(count);
+        advance.gains.resize(count);
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+            advance.gains[k] = shares[k].value;
+            advance.pressures[k] = pressureAfter(steps[k], shares[k].value);
+            advance.changes[k] = changeOf(members[k], steps[k], shares[k].value);
+            changed[k] = 0;
+        });
+        if (options.no_penetration) {
+            std::vector<std::vector<std::uint8_t>> held(count);
+            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+                held[k] =
+                    heldAfter(members[k], advance.operators[k], gradients[k], advance.changes[k], advance.pressures[k]);
+            });
+            bool settled = true;
+            for (std::size_t k = 0; k < count; ++k) {
+                changed[k] = held[k] != advance.operators[k].held ? 1 : 0;
+                settled = settled && changed[k] == 0;
+                advance.operators[k].held = held[k];
+            }
+            if (!settled && tried.insert(std::move(held)).second) {
+                continue;
+            }
+            advance.converged = settled;
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            std::vector<double>& flux = advance.fluxes.emplace_back(std::move(steps[k].flux));
+            for (std::size_t v = 0; v < flux.size() && !steps[k].flux_rise.empty(); ++v) {
+                flux[v] += shares[k].value * steps[k].flux_rise[v];
+            }
+        }
+        return advance;
+    }
+}
+
+/// ∂E/∂u of every member; empty where it is known to be 0.
+std::vector<std::vector<double>> gradientsOf(const std::vector<Member>& members)
+{
+    std::vector<std::vector<double>> gradients(members.size());
+    tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
+        const bool empty = members[k].sheet->volume == 0.0 && members[k].sheet->pressure == 0.0;
+        if (!(empty && members[k].energy->restsOnGround())) {
+            gradients[k] = members[k].energy->gradient(members[k].sheet->height);
+        }
+    });
+    return gradients;
+}
+
+/// ‖λm − ∂E/∂u‖ over what is free, by ‖λm‖; where there is next to no pressure, by that of a droplet's size.
+double residualOf(const Member& member, const std::vector<double>& gradient)
+{
+    const std::vector<double>& load = member.energy->load();
+    const std::vector<std::uint8_t>& held = member.sheet->held;
+    const std::uint32_t rim = rimOf(member);
+    double squares = 0.0;
+    double loads = 0.0;
+    double footprint = 0.0;
+    for (std::size_t v = 0; v < load.size(); ++v) {
+        footprint += load[v];
+        if (v >= rim && (held.empty() || held[v - rim] == 0)) {
+            const double force = member.sheet->pressure * load[v] - gradient[v];
+            squares += force * force;
+            loads += load[v] * load[v];
+        }
+    }
+    const double pressure = std::max(std::abs(member.sheet->pressure), 1.0 / std::sqrt(footprint));
+    return std::sqrt(squares / loads) / pressure;
+}
+
+/// The slope of all energies less the pressures' work along a step, a part of it done.
+double slopeAlong(const std::vector<Member>& members, const Advance& advance, double part)
+{
+    std::vector<double> slopes(members.size());
+    tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
+        std::vector<double> height = members[k].sheet->height;
+        const std::vector<double>& change = advance.changes[k];
+        for (std::size_t v = 0; v < height.size(); ++v) {
+            height[v] += part * change[v];
+        }
+        const std::vector<double> gradient = members[k].energy->gradient(height);
+        for (std::size_t v = 0; v < height.size(); ++v) {
+            slopes[k] += (gradient[v] - advance.pressures[k] * members[k].energy->load()[v]) * change[v];
+        }
+    });
+    return std::accumulate(slopes.begin(), slopes.end(), 0.0);
+}
+
+/// How much of a step to go. The energy is convex along it, so its slope there rises; enough is done where little of
+/// the first slope is left, and too much where the other side is as steep.
+double partOf(const std::vector<Member>& members, const Advance& advance)
+{
+    constexpr double kEnough = 0.5;
+    constexpr int kMostCuts = 12;
+    const double first = slopeAlong(members, advance, 0.0);
+    double part = 1.0;
+    for (int k = 0; k < kMostCuts; ++k) {
+        const double slope = slopeAlong(members, advance, part);
+        if (slope <= kEnough * std::abs(first)) {
+            return part;
+        }
+        // Where a line through both slopes meets 0, but no more than to a tenth.
+        part *= std::clamp(first / (first - slope), 0.1, 0.7);
+    }
+    return part;
+}
+
+void advance(const Member& member, const Advance& by, std::size_t k, double part)
+{
+    Sheet& sheet = *member.sheet;
+    for (std::size_t v = 0; v < sheet.height.size(); ++v) {
+        sheet.height[v] += part * by.changes[k][v];
+    }
+    sheet.volume += part * by.gains[k];
+    sheet.pressure = by.pressures[k];
+    sheet.held = by.operators[k].held;
+    const std::vector<double>& ground = member.energy->ground();
+    const std::uint32_t rim = rimOf(member);
+    for (std::size_t i = 0; i < sheet.held.size(); ++i) {
+        if (sheet.held[i] != 0 && part == 1.0) {
+            sheet.height[rim + i] = ground.empty() ? 0.0 : ground[rim + i];
+        }
+    }
+}
+
+}  // namespace
+
+Sheet emptySheet(const Energy& energy)
+{
+    Sheet sheet;
+    sheet.height = energy.ground();
+    sheet.height.resize(energy.mesh().vertices.size(), 0.0);
+    return sheet;
+}
+
+Settled settle(const std::vector<Member>& members, const SettleOptions& options)
+{
+    const bool exact = members.front().energy->physics().model == Model::Exact;
+    Settled settled;
+    std::vector<std::vector<double>> gradients = gradientsOf(members);
+    StepOptions step{options.fill, options.no_penetration, exact ? 1e-3 : 1e-10};
+    while (settled.newton_steps < options.most_steps) {
+        const Advance next = advanceOf(members, gradients, step);
+        ++settled.newton_steps;
+        settled.iterations = std::max(settled.iterations, next.iterations);
+        settled.stable = next.stable;
+        if (!next.converged || !next.stable) {
+            settled.residual = next.residual;
+            return settled;
+        }
+        const double part = exact ? partOf(members, next) : 1.0;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            advance(members[k], next, k, part);
+            members[k].sheet->flux = next.fluxes[k];
+        }
+        if (!exact) {
+            settled.residual = next.residual;
+            settled.converged = true;
+            return settled;
+        }
+        gradients = gradientsOf(members);
+        settled.residual = 0.0;
+        double missed = 0.0;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            settled.residual = std::max(settled.residual, residualOf(members[k], gradients[k]));
+            missed = std::max(missed, std::abs(next.gains[k]) / std::max(std::abs(members[k].sheet->volume), 1e-300));
+        }
+        if (settled.residual <= options.tolerance && part == 1.0 &&
+            (isVolumeOfOne(members, options.fill) || missed < 1e-9)) {
+            settled.converged = true;
+            for (std::size_t k = 0; k < members.size(); ++k) {
+                members[k].sheet->flux = fluxThroughRim(members[k], members[k].sheet->pressure, gradients[k]);
+            }
+            return settled;
+        }
+        // As exact as this step's error is worth: the next is of the order of its square.
+        step.tolerance = std::clamp(0.1 * settled.residual, 1e-10, 1e-3);
+    }
+    return settled;
+}
+
+double amountOf(const std::vector<Member>& members, FillBy by)
+{
+    std::vector<Step> steps(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        steps[k].flux = members[k].sheet->flux;
+        steps[k].flux_rise.assign(steps[k].flux.size(), 0.0);
+        steps[k].rise.assign(members[k].sheet->height.size() - rimOf(members[k]), 0.0);
+        steps[k].pressure_rise = 1.0;
+    }
+    return amountAt(members, steps, by, 0.0).value;
+}
+
+}  // namespace droplet

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A sheet over a footprint stands upright where the flux through its rim reaches 1: R. Finn, "Equilibrium Capillary
+// Surfaces" (1986), chapter 1. At corners that point into the liquid it always does, at the very tip.
+
+#include "shape/existence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "droplet/units.h"
+#include "shape/cap.h"
+#include "shape/hanging.h"
+
+namespace droplet {
+namespace {
+
+double footprintOf(const Energy& energy)
+{
+    return std::accumulate(energy.load().begin(), energy.load().end(), 0.0);
+}
+
+double bondNumber(const Energy& energy, double weight)
+{
+    return std::abs(weight) * footprintOf(energy) / std::numbers::pi;
+}
+
+/// The angle that a fiftieth of the rim exceeds: tips of corners that point into the liquid are upright always, and
+/// take less.
+double steepestAngle(const Member& member)
+{
+    constexpr double kShare = 0.02;
+    constexpr int kEvenings = 8;  // no single vertex decides
+    const std::vector<double>& weights = member.energy->rimWeights();
+    std::vector<double> forces = weights;
+    for (std::size_t v = 0; v < forces.size(); ++v) {
+        forces[v] *= member.sheet->flux[v];
+    }
+    forces = member.energy->evenedOut(std::move(forces), kEvenings);
+    const std::vector<double> lengths = member.energy->evenedOut(weights, kEvenings);
+    std::vector<std::pair<double, double>> fluxes;
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        fluxes.emplace_back(-forces[v] / lengths[v], weights[v]);
+    }
+    std::sort(fluxes.begin(), fluxes.end());
+    double left = kShare * std::accumulate(weights.begin(), weights.end(), 0.0);
+    auto steepest = fluxes.begin();
+    for (; left > steepest->second && steepest + 1 != fluxes.end(); ++steepest) {
+        left -= steepest->second;
+    }
+    return std::asin(std::clamp(-steepest->first, -1.0, 1.0));
+}
+
+/// A mean angle at which the linear model and the exact one are close.
+constexpr double kGentle = 20.0 * kDegree;
+
+/// Up to here angles recovered from fluxes are good to some tenths of a degree; volumes of steeper sheets follow from
+/// those of less steep ones.
+constexpr double kReliable = 88.5 * kDegree;
+
+/// A sheet and how steep it is.
+struct Waypoint {
+    double volume = 0.0;  ///< [m³]
+    double angle = 0.0;   ///< [rad]
+};
+
+/// The volume at which the rim stands upright: the volume as a function of the angle, smooth there, through three
+/// waypoints.
+double uprightVolume(const std::array<Waypoint, 3>& way)
+{
+    constexpr double kUpright = 90.0 * kDegree;
+    double volume = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double weight = 1.0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            weight *= i == j ? 1.0 : (kUpright - way[j].angle) / (way[i].angle - way[j].angle);
+        }
+        volume += weight * way[i].volume;
+    }
+    return volume;
+}
+
+class Search {
+public:
+    Search(const std::vector<Member>& members, const SolveOptions& options) : members_(&members), options_(&options) {}
+
+    Outcome run()
+    {
+        const bool hanging = members_->front().energy->physics().normal < 0.0;
+        if ((hanging && !canHang()) || !settleLinear(linearFill(options_->fill))) {
+            return outcome_;
+        }
+        if (options_->model == Model::Linear) {
+            outcome_.termination = Termination::Converged;
+            return outcome_;
+        }
+        outcome_.iterations = 0;
+        use(Model::Exact);
+        if ((settleExact(options_->fill) && isStable() && steepest() < kReliable) || climb()) {
+            outcome_.termination = Termination::Converged;
+        }
+        return outcome_;
+    }
+
+private:
+    void use(Model model) const
+    {
+        for (const Member& member : *members_) {
+            member.energy->use(model);
+        }
+    }
+
+    /// What to fill the linear model with, so that it holds about what the exact one will.
+    [[nodiscard]] Fill linearFill(Fill fill) const
+    {
+        if (options_->model == Model::Exact && fill.by == FillBy::ContactAngle) {
+            fill.amount = linearAngleOfCap(fill.amount);
+        }
+        return fill;
+    }
+
+    bool settleLinear(const Fill& fill)
+    {
+        const Settled settled = settle(*members_, {.fill = fill, .no_penetration = options_->no_penetration});
+        outcome_.iterations = settled.iterations;
+        outcome_.residual = settled.residual;
+        outcome_.newton_steps = options_->model == Model::Linear ? settled.newton_steps : 0;
+        if (!settled.stable) {
+            refuseAsUnstable(0, 0.0);
+        }
+        return settled.converged;
+    }
+
+    bool settleExact(const Fill& fill)
+    {
+        const Settled settled = settle(*members_, {.fill = fill, .no_penetration = options_->no_penetration});
+        outcome_.residual = settled.residual;
+        outcome_.newton_steps += settled.newton_steps;
+        outcome_.iterations = outcome_.newton_steps;
+        return settled.converged;
+    }
+
+    void refuseAsUnstable(std::size_t member, double critical_weight)
+    {
+        const Energy& energy = *(*members_)[member].energy;
+        outcome_.termination = Termination::Unstable;
+        outcome_.failed_member = member;
+        outcome_.bond_number = bondNumber(energy, energy.physics().normal);
+        outcome_.critical_bond_number = bondNumber(energy, critical_weight);
+    }
+
+    /// Whether gravity away from the ground leaves every droplet in its place, however small.
+    bool canHang()
+    {
+        for (std::size_t k = 0; k < members_->size(); ++k) {
+            const Member& member = (*members_)[k];
+            const double critical = criticalWeight(*member.energy, Operator{}, *member.solver);
+            if (-member.energy->physics().normal >= critical) {
+                refuseAsUnstable(k, critical);
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// The steepest angle of all members; that one is the first to fail.
+    double steepest()
+    {
+        double angle = -1.0;
+        for (std::size_t k = 0; k < members_->size(); ++k) {
+            const double here = steepestAngle((*members_)[k]);
+            if (here > angle) {
+                angle = here;
+                outcome_.failed_member = k;
+            }
+        }
+        return angle;
+    }
+
+    /// Whether no droplet would leave what was settled for the ceiling's sake.
+    [[nodiscard]] bool isStable() const
+    {
+        return std::all_of(members_->begin(), members_->end(), [](const Member& member) {
+            const Energy& energy = *member.energy;
+            if (energy.physics().normal >= 0.0) {
+                return true;
+            }
+            Operator op = energy.hessian(member.sheet->height);
+            op.held = member.sheet->held;
+            return -energy.physics().normal < criticalWeight(energy, op, *member.solver);
+        });
+    }
+
+    [[nodiscard]] std::vector<Sheet> sheets() const
+    {
+        std::vector<Sheet> copies;
+        for (const Member& member : *members_) {
+            copies.push_back(*member.sheet);
+        }
+        return copies;
+    }
+
+    void putBack(const std::vector<Sheet>& sheets) const
+    {
+        for (std::size_t k = 0; k < sheets.size(); ++k) {
+            *(*members_)[k].sheet = sheets[k];
+        }
+    }
+
+    [[nodiscard]] double volume() const
+    {
+        return std::accumulate(members_->begin(), members_->end(), 0.0,
+                               [](double sum, const Member& member) { return sum + member.sheet->volume; });
+    }
+
+    /// Little liquid, the start of the way up.
+    bool settleLittle()
+    {
+        use(Model::Linear);
+        for (const Member& member : *members_) {
+            *member.sheet = emptySheet(*member.energy);
+        }
+        const Fill& wanted = options_->fill;
+        const Fill gentle{FillBy::ContactAngle, kGentle, wanted.sharing};
+        const Settled start = settle(*members_, {.fill = gentle, .no_penetration = options_->no_penetration});
+        use(Model::Exact);
+        const double little = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
+        return start.converged && settleExact({FillBy::Volume, little, wanted.sharing}) && isStable();
+    }
+
+    /// From little liquid to what is asked for.
+    bool climb()
+    {
+        if (!settleLittle()) {
+            return false;
+        }
+        constexpr int kMostTries = 80;
+        constexpr double kCloseEnough = 1e-2;  // of the last waypoint; the rest is extrapolated
+        const Fill& wanted = options_->fill;
+        const bool by_volume = wanted.by == FillBy::Volume;
+        double here = volume();
+        std::vector<Sheet> good = sheets();
+        std::optional<double> too_much;
+        bool upright = false;
+        for (int k = 0; k < kMostTries; ++k) {
+            if (by_volume && here >= wanted.amount) {
+                return true;
+            }
+            if (!by_volume && amountOf(*members_, wanted.by) >= wanted.amount) {
+                return settleExact(wanted) && isStable();
+            }
+            if (too_much && *too_much - here <= kCloseEnough * here) {
+                break;
+            }
+            double next = too_much ? std::sqrt(here * *too_much) : 1.5 * here;
+            next = by_volume ? std::min(next, wanted.amount) : next;
+            const bool found = settleExact({FillBy::Volume, next, wanted.sharing}) && isStable();
+            if (found && steepest() < kReliable) {
+                here = next;
+                good = sheets();
+            } else {
+                upright = found;
+                too_much = next;
+                putBack(good);
+            }
+        }
+        outcome_.largest_volume = upright ? uprightFrom(here) : here;
+        putBack(good);
+        // Between the last sheet whose angle is reliable and the upright one, there is one for the asking.
+        if (upright && (!by_volume || wanted.amount <= outcome_.largest_volume) && settleExact(wanted) && isStable() &&
+            volume() <= outcome_.largest_volume) {
+            return true;
+        }
+        outcome_.termination = Termination::NoHeightField;
+        return false;
+    }
+
+    /// The volume at which the rim stands upright, from sheets of somewhat less than what they hold now.
+    double uprightFrom(double now)
+    {
+        std::array<Waypoint, 3> way;
+        const std::array<double, 3> parts{1.0, 0.9, 0.8};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!settleExact({FillBy::Volume, parts[i] * now, options_->fill.sharing})) {
+                return now;
+            }
+            way[i] = {parts[i] * now, steepest()};
+        }
+        return way[0].angle > way[1].angle && way[1].angle > way[2].angle ? std::max(uprightVolume(way), now) : now;
+    }
+
+    const std::vector<Member>* members_;
+    const SolveOptions* options_;
+    Outcome outcome_;
+};
+
+}  // namespace
+
+Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options)
+{
+    return Search(members, options).run();
+}
+
+}  // namespace droplet

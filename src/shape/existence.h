@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "droplet/shape/solve.h"
+#include "shape/equilibrium.h"
+
+namespace droplet {
+
+/// What came of the search for an equilibrium; the sheets hold it if it converged.
+struct Outcome {
+    Termination termination = Termination::NotConverged;
+    std::size_t failed_member = 0;
+    std::size_t newton_steps = 0;
+    std::size_t iterations = 0;
+    double residual = 0.0;
+    double largest_volume = 0.0;        ///< with NoHeightField [m³]
+    double bond_number = 0.0;           ///< with Unstable
+    double critical_bond_number = 0.0;  ///< with Unstable
+};
+
+/// Finds the equilibrium of droplets at one pressure by the model asked for, or shows that there is none.
+///
+/// The exact model starts from the linear solution. Where that leads nowhere, or to a sheet that stands upright along
+/// some of its rim, the volume is raised from small values: up to what is asked, or to the largest that exists.
+/// @param members  with empty sheets, their energies of the linear model
+Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options);
+
+}  // namespace droplet

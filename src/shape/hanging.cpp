@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape/hanging.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace droplet {
+namespace {
+
+double dotOf(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/// ∫φφ·x at inner vertices, of an x that is 0 on the rim.
+std::vector<double> massTimes(const PlanarMesh& mesh, const std::vector<double>& x)
+{
+    const std::uint32_t rim = mesh.rimVertexCount();
+    std::vector<double> result(x.size(), 0.0);
+    const auto at = [&](std::uint32_t v) { return mesh.onRim(v) ? 0.0 : x[v - rim]; };
+    for (const Triangle& t : mesh.triangles) {
+        const double twelfth = doubleArea(mesh, t) / 24.0;
+        const double sum = at(t[0]) + at(t[1]) + at(t[2]);
+        for (const std::uint32_t v : t) {
+            if (!mesh.onRim(v)) {
+                result[v - rim] += twelfth * (sum + at(v));
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolver& solver)
+{
+    constexpr int kMostIterations = 300;
+    constexpr double kTolerance = 1e-9;  // of the eigenvalue: its error is of the square of the vector's
+    const PlanarMesh& mesh = energy.mesh();
+    Operator stiffness = op;
+    stiffness.mass_weight = 0.0;
+    solver.prepare(stiffness);
+
+    // Inverse iteration. The start has a share in every direction: fractions of multiples of the golden ratio.
+    const std::size_t inner = mesh.vertices.size() - mesh.rimVertexCount();
+    std::vector<double> x(inner);
+    for (std::size_t i = 0; i < inner; ++i) {
+        x[i] = std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0) - 0.5;
+        x[i] = op.held.empty() || op.held[i] == 0 ? x[i] : 0.0;
+    }
+    double eigenvalue = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kMostIterations; ++k) {
+        ConstrainedProblem problem;
+        problem.right = massTimes(mesh, x);
+        ConstrainedSolution solution = solver.solve(problem);
+        if (!solution.converged) {
+            return 0.0;
+        }
+        const std::vector<double>& y = solution.values;
+        const std::vector<double> mass = massTimes(mesh, y);
+        // Ky = Mx + λm and mᵀy = 0: the Rayleigh quotient is yᵀMx / yᵀMy.
+        const double quotient = dotOf(y, problem.right) / dotOf(y, mass);
+        const double scale = 1.0 / std::sqrt(dotOf(y, mass));
+        x = std::move(solution.values);
+        for (double& value : x) {
+            value *= scale;
+        }
+        const bool settled = std::abs(quotient - eigenvalue) <= kTolerance * quotient;
+        eigenvalue = quotient;
+        if (settled) {
+            break;
+        }
+    }
+    return eigenvalue;
+}
+
+}  // namespace droplet

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/shape/spread.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "droplet/shape/figures.h"
+#include "droplet/units.h"
+#include "shape/cap.h"
+#include "shape/gradient.h"
+
+namespace droplet {
+namespace {
+
+/// Below it meshes even on the ground do as well, and stay lattices. At 60° the rim's triangles are twice as long on
+/// the surface as on the ground.
+constexpr double kSteep = 60.0 * kDegree;
+
+/// Up to which steepness meshes are spread: triangles at the rim become infinitely thin toward 90°.
+constexpr double kSteepest = 86.0 * kDegree;
+
+/// Area-weighted means of the gradients on the triangles around every vertex.
+std::vector<Vec2> meanGradients(const PlanarMesh& mesh, const std::vector<double>& u)
+{
+    std::vector<Vec2> gradients(mesh.vertices.size());
+    std::vector<double> weights(mesh.vertices.size(), 0.0);
+    for (const Triangle& t : mesh.triangles) {
+        const double twice = doubleArea(mesh, t);
+        const Vec2 g = gradient(mesh, t, u);
+        for (const std::uint32_t v : t) {
+            gradients[v] = gradients[v] + twice * g;
+            weights[v] += twice;
+        }
+    }
+    for (std::size_t v = 0; v < gradients.size(); ++v) {
+        gradients[v] = (1.0 / weights[v]) * gradients[v];
+    }
+    return gradients;
+}
+
+/// Mean of the squared slope along the rim.
+double meanSquaredSlope(const PlanarMesh& mesh, const HeightField& field)
+{
+    double sum = 0.0;
+    double rim_length = 0.0;
+    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+            const double edge = length(mesh.vertices[nextOnRim(mesh, loop, v)] - mesh.vertices[v]);
+            sum += edge * field.rim_slope[v] * field.rim_slope[v];
+            rim_length += edge;
+        }
+    }
+    return sum / rim_length;
+}
+
+/// Where every vertex wants to go [m].
+std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field, double angle)
+{
+    const std::vector<double>& u = field.height;
+    const double highest = *std::max_element(u.begin(), u.end());
+    const double t = std::tan(0.5 * angle);
+    const double squared = t * t;
+    // On a disc of radius 1, u ∝ 1 − r², the projection takes r to r(1 + t²) / (1 + t²r²): along −r, which is the
+    // direction of ∇u, by t²(1 − r²) / (1 + t²r²). Of u's size and the footprint's that is made independent so that the
+    // spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ wherever the slope is the rim's mean.
+    const double scale = 2.0 * highest / meanSquaredSlope(mesh, field);
+    const double most = 2.0 * squared / (1.0 + squared);
+    const std::vector<Vec2> gradients = meanGradients(mesh, u);
+    std::vector<Vec2> moves(u.size());
+    for (std::size_t v = mesh.rimVertexCount(); v < u.size(); ++v) {
+        const double share = u[v] / highest;
+        const double slope = length(gradients[v]);
+        if (!(slope > 0.0 && share > 0.0)) {
+            continue;
+        }
+        const double wanted = scale * squared * share / (1.0 + squared * (1.0 - share)) * slope;
+        // u / |∇u| is about the distance to the rim.
+        moves[v] = (-std::min(wanted, most * u[v] / slope) / slope) * gradients[v];
+    }
+    return moves;
+}
+
+/// The mesh with its vertices moved, as far as no triangle becomes thinner than a share of what it was.
+void move(PlanarMesh& mesh, const std::vector<Vec2>& moves, double angle)
+{
+    constexpr double kShrink = 0.7;
+    constexpr int kMostShrinks = 40;
+    // A triangle at a cap's rim keeps cos θ of its area, and some are less lucky.
+    const double least = 0.25 * std::cos(angle);
+    PlanarMesh moved = mesh;
+    double part = 1.0;
+    for (int k = 0; k < kMostShrinks; ++k, part *= kShrink) {
+        for (std::size_t v = 0; v < moves.size(); ++v) {
+            moved.vertices[v] = mesh.vertices[v] + part * moves[v];
+        }
+        const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+            return doubleArea(moved, t) >= least * doubleArea(mesh, t);
+        });
+        if (whole) {
+            moved.lattice = {};
+            mesh = std::move(moved);
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options)
+{
+    // How steep it gets, is a matter of the mean: no tilt, no ground, and no gravity but that which flattens.
+    SolveOptions level = options;
+    level.model = Model::Linear;
+    level.gravity = std::max(planeGravity(options).normal, 0.0);
+    level.tilt = 0.0;
+    level.ground = {};
+    level.no_penetration = false;
+    if (level.fill.by == FillBy::ContactAngle) {
+        level.fill.amount = linearAngleOfCap(level.fill.amount);
+    }
+    const Solution solution = solve(meshes, level);
+    if (!solution.report.usable()) {
+        return meshes;
+    }
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
+        const HeightField& field = solution.droplets[k];
+        const double linear = measure(meshes[k], field, level).contact_angle.mean;
+        const double angle = std::min(capAngleOfLinear(linear), kSteepest);
+        if (angle > kSteep) {
+            move(meshes[k], displacements(meshes[k], field, angle), angle);
+        }
+    });
+    return meshes;
+}
+
+}  // namespace droplet
