@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "droplet/mesh/triangulate.h"
-#include "shape/direct.h"
 #include "support/domains.h"
 #include "support/masks.h"
 #include "support/operators.h"
@@ -179,7 +178,7 @@ std::vector<NamedOperator> operatorsFor(const PlanarMesh& mesh)
 void expectMatrix(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy, const Level& level)
 {
     std::mt19937 random(1);
-    const SparseSystem system = assemble(mesh, op);
+    const testing::Assembled system = testing::assembled(mesh, op);
     const std::vector<std::uint32_t>& index = hierarchy.index_of_vertex;
     ASSERT_EQ(index.size(), static_cast<std::size_t>(system.load.size()));
     const Vector x = randomVector(level, random);
@@ -194,7 +193,7 @@ void expectMatrix(const PlanarMesh& mesh, const Operator& op, const Hierarchy& h
     }
     ASSERT_EQ(unknowns, level.unknowns);
     const Vector product = applied(level, x);
-    const Eigen::VectorXd wanted = system.matrix.selfadjointView<Eigen::Lower>() * same;
+    const Eigen::VectorXd wanted = system.matrix * same;
     const double scale = wanted.lpNorm<Eigen::Infinity>();
     const double largest_load = system.load.lpNorm<Eigen::Infinity>();
     for (std::size_t v = 0; v < index.size(); ++v) {
