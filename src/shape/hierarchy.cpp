@@ -14,6 +14,8 @@
 #include <numbers>
 #include <utility>
 
+#include "blocks.h"
+
 namespace droplet {
 namespace {
 
@@ -211,24 +213,54 @@ LatticeTriangle triangleAround(Vec2 p, double edge)
     return {{{{row + 1, above + 1}, {row + 1, above}, {row, column + 1}}}, {right + up - 1.0, 1.0 - right, 1.0 - up}};
 }
 
+/// The lattice's runs between held vertices.
+Lattice withoutHeld(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
+{
+    if (held.empty()) {
+        return mesh.lattice;
+    }
+    const std::uint32_t rim = mesh.rimVertexCount();
+    Lattice lattice{mesh.lattice.edge, {}, mesh.lattice.first_regular_triangle};
+    for (const LatticeRun& run : mesh.lattice.runs) {
+        Index begin = 0;
+        for (Index i = 0; i <= run.count; ++i) {
+            if (i == run.count || held[run.vertex - rim + i] != 0) {
+                if (begin < i) {
+                    lattice.runs.push_back(
+                        {run.row, run.column + static_cast<std::int32_t>(begin), run.vertex + begin, i - begin});
+                }
+                begin = i + 1;
+            }
+        }
+    }
+    return lattice;
+}
+
+/// One more than the last vertex off the lattice.
+std::uint32_t endOffLattice(const PlanarMesh& mesh)
+{
+    return mesh.lattice.runs.empty() ? static_cast<std::uint32_t>(mesh.vertices.size())
+                                     : mesh.lattice.runs.front().vertex;
+}
+
 /// Numbers and rows of the finest level.
-void planFinest(const PlanarMesh& mesh, const LatticeRegion& parents, Hierarchy& hierarchy, Level& level, Plan& plan)
+void planFinest(const PlanarMesh& mesh, const Lattice& lattice, const std::vector<std::uint8_t>& held,
+                const LatticeRegion& parents, Hierarchy& hierarchy, Level& level, Plan& plan)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
     const auto inner = static_cast<Index>(mesh.vertices.size()) - rim;
-    Index on_lattice = 0;
-    for (const LatticeRun& run : mesh.lattice.runs) {
-        on_lattice += run.count;
-    }
-    plan.region = regionOf(mesh.lattice);
-    plan.off_lattice = inner - on_lattice;
+    plan.region = regionOf(lattice);
+    plan.off_lattice = endOffLattice(mesh) - rim;
     plan.grid = gridFor(plan.region, parents, plan.off_lattice);
     plan.row.assign(plan.grid.end(), kNone);
     level.size = plan.grid.end();
-    level.unknowns = inner;
 
-    hierarchy.index_of_vertex.resize(inner);
+    hierarchy.index_of_vertex.assign(inner, kNoUnknown);
     for (Index i = 0; i < plan.off_lattice; ++i) {
+        if (!held.empty() && held[i] != 0) {
+            continue;
+        }
+        ++level.unknowns;
         hierarchy.index_of_vertex[i] = i;
         plan.row[i] = static_cast<Index>(level.irregular.unknowns.size());
         level.irregular.unknowns.push_back(i);
@@ -238,7 +270,8 @@ void planFinest(const PlanarMesh& mesh, const LatticeRegion& parents, Hierarchy&
         std::fill_n(plan.row.begin() + first, i.end - i.begin, kRegular);
         addRegularRuns(level, plan, r, i);
     });
-    for (const LatticeRun& run : mesh.lattice.runs) {
+    for (const LatticeRun& run : lattice.runs) {
+        level.unknowns += run.count;
         const Index first = plan.grid.at({run.row, run.column});
         for (Index i = 0; i < run.count; ++i) {
             hierarchy.index_of_vertex[run.vertex - rim + i] = first + i;
@@ -250,12 +283,140 @@ void planFinest(const PlanarMesh& mesh, const LatticeRegion& parents, Hierarchy&
     }
 }
 
+/// Stiffness between the corners of a lattice triangle, by the direction of the edge that joins them: the same in
+/// upward triangles as in downward ones, and linear in the tensor.
+struct EdgeStiffness {
+    double next = 0.0;
+    double above_left = 0.0;
+    double above_right = 0.0;
+};
+
+EdgeStiffness edgeStiffness(const SymmetricTensor& g)
+{
+    // A corner's gradient is the edge facing it, turned by 90°, over twice the area.
+    const double half_shear = 0.5 * g.xy;
+    const double half = 0.5 * std::numbers::inv_sqrt3;
+    return {half * (0.5 * g.yy - 1.5 * g.xx), half_shear - half * g.yy, -half_shear - half * g.yy};
+}
+
+/// Triangles of the lattice: upward with the point of an index at its lower left, downward with it as the lower corner.
+struct LatticeTriangles {
+    std::vector<EdgeStiffness> upward;
+    std::vector<EdgeStiffness> downward;
+
+    explicit LatticeTriangles(std::size_t size = 0) : upward(size), downward(size) {}
+};
+
+/// The unknowns on a level's lattice with their neighbours.
+std::vector<RegularRun> latticeRuns(const Plan& plan)
+{
+    std::vector<RegularRun> runs;
+    forEachInterval(plan.region, [&](std::int32_t r, ColumnInterval i) {
+        forEachPiece(i, [&](ColumnInterval piece) { runs.push_back(regularRun(plan.grid, r, piece)); });
+    });
+    return runs;
+}
+
+/// Stiffness on those triangles of a mesh that are its lattice's.
+LatticeTriangles finestTriangles(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy,
+                                 const Plan& plan)
+{
+    std::vector<Index> above(plan.grid.end(), kNone);
+    for (const RegularRun& run : latticeRuns(plan)) {
+        for (Index k = 0; k < run.count; ++k) {
+            above[run.first + k] = run.above + k;
+        }
+    }
+    LatticeTriangles triangles(plan.grid.end());
+    const std::uint32_t rim = mesh.rimVertexCount();
+    forBlocks(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            std::array<Index, 3> at{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t v = mesh.triangles[i][k];
+                at[k] = mesh.onRim(v) ? kNoUnknown : hierarchy.index_of_vertex[v - rim];
+            }
+            std::sort(at.begin(), at.end());
+            if (at[0] < plan.off_lattice || at[2] == kNoUnknown) {
+                continue;
+            }
+            if (at[1] == at[0] + 1 && at[2] == above[at[0]] + 1) {
+                triangles.upward[at[0]] = edgeStiffness(op.tensors[i]);
+            } else if (at[1] == above[at[0]] && at[2] == at[1] + 1) {
+                triangles.downward[at[0]] = edgeStiffness(op.tensors[i]);
+            }
+        }
+    });
+    return triangles;
+}
+
+/// Galerkin's product on the triangles of the coarser lattice: gradients there are constant, so that tensors, and what
+/// is linear in them, become the mean over the four parts.
+LatticeTriangles coarserTriangles(const LatticeTriangles& fine, const std::vector<RestrictionRun>& runs,
+                                  std::size_t size)
+{
+    const auto mean = [](const EdgeStiffness& a, const EdgeStiffness& b, const EdgeStiffness& c,
+                         const EdgeStiffness& d) -> EdgeStiffness {
+        return {0.25 * ((a.next + b.next) + (c.next + d.next)),
+                0.25 * ((a.above_left + b.above_left) + (c.above_left + d.above_left)),
+                0.25 * ((a.above_right + b.above_right) + (c.above_right + d.above_right))};
+    };
+    LatticeTriangles coarse(size);
+    tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
+        const RestrictionRun& run = runs[i];
+        for (Index k = 0; k < run.count; ++k) {
+            const Index at = run.fine + 2 * k;
+            const Index above = run.above + 2 * k;
+            coarse.upward[run.first + k] =
+                mean(fine.upward[at], fine.upward[at + 1], fine.upward[above + 1], fine.downward[at + 1]);
+            coarse.downward[run.first + k] =
+                mean(fine.downward[at], fine.downward[above], fine.downward[above + 1], fine.upward[above]);
+        }
+    });
+    return coarse;
+}
+
+/// Rows from the triangles of the lattice.
+LatticeRows rowsOf(const LatticeTriangles& triangles, const Plan& plan, const Operator& op, double edge)
+{
+    const double mass = op.mass_weight * 0.25 * std::numbers::sqrt3 * edge * edge;
+    const double shared = mass / 6.0;
+    const std::size_t size = plan.grid.end();
+    LatticeRows rows{std::vector<double>(size, 0.0), std::vector<double>(size, 0.0), std::vector<double>(size, 0.0),
+                     std::vector<double>(size, 0.0)};
+    const std::vector<RegularRun> runs = latticeRuns(plan);
+    tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
+        const RegularRun& run = runs[r];
+        for (Index k = 0; k < run.count; ++k) {
+            const Index i = run.first + k;
+            const EdgeStiffness& up = triangles.upward[i];
+            const EdgeStiffness& down = triangles.downward[i];
+            const EdgeStiffness& up_left = triangles.upward[i - 1];
+            const EdgeStiffness& up_below = triangles.upward[run.below + k];
+            const EdgeStiffness& down_left = triangles.downward[run.below + k];
+            const EdgeStiffness& down_right = triangles.downward[run.below + k + 1];
+            const double next = up.next + down_right.next;
+            const double above_left = down.above_left + up_left.above_left;
+            const double above_right = down.above_right + up.above_right;
+            const double others = (up_left.next + down_left.next) + (down_left.above_right + up_below.above_right) +
+                                  (down_right.above_left + up_below.above_left);
+            // A row of K sums to 0.
+            rows.diagonal[i] = mass - (next + above_left + above_right) - others;
+            rows.next[i] = next + shared;
+            rows.above_left[i] = above_left + shared;
+            rows.above_right[i] = above_right + shared;
+        }
+    });
+    return rows;
+}
+
 /// Rows of the unknowns whose triangles are not all regular, and the load of all.
 void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hierarchy, Level& level, const Plan& plan)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
-    const auto index = [&](std::uint32_t v) { return hierarchy.index_of_vertex[v - rim]; };
-    const std::size_t count = irregularTriangleCount(mesh);
+    const auto index = [&](std::uint32_t v) { return mesh.onRim(v) ? kNoUnknown : hierarchy.index_of_vertex[v - rim]; };
+    // Only around held vertices there are irregular rows among regular triangles.
+    const std::size_t count = op.held.empty() ? irregularTriangleCount(mesh) : mesh.triangles.size();
 
     // Triangles around every irregular unknown.
     const std::size_t rows = level.irregular.unknowns.size();
@@ -263,9 +424,9 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
     const auto for_each_corner = [&](const auto& visit) {
         for (std::uint32_t t = 0; t < count; ++t) {
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t v = mesh.triangles[t][k];
-                if (!mesh.onRim(v) && plan.row[index(v)] < kRegular) {
-                    visit(plan.row[index(v)], t, k);
+                const Index i = index(mesh.triangles[t][k]);
+                if (i != kNoUnknown && plan.row[i] < kRegular) {
+                    visit(plan.row[i], t, k);
                 }
             }
         }
@@ -291,7 +452,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
             const auto matrix = elementMatrix(mesh, corners[c].triangle, op);
             load += doubleArea(mesh, t) / 6.0;
             for (std::size_t b = 0; b < 3; ++b) {
-                if (!mesh.onRim(t[b])) {
+                if (index(t[b]) != kNoUnknown) {
                     row.add(index(t[b]), matrix[corners[c].corner][b]);
                 }
             }
@@ -333,17 +494,18 @@ struct OffLattice {
     LatticeRegion corners;
 };
 
-OffLattice findOffLattice(const PlanarMesh& mesh, double coarse_edge)
+OffLattice findOffLattice(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held, double coarse_edge)
 {
     OffLattice off;
     const std::uint32_t rim = mesh.rimVertexCount();
-    const std::uint32_t end =
-        mesh.lattice.runs.empty() ? static_cast<std::uint32_t>(mesh.vertices.size()) : mesh.lattice.runs.front().vertex;
     RegionBuilder corners;
-    for (std::uint32_t v = rim; v < end; ++v) {
-        const LatticeTriangle triangle = triangleAround(mesh.vertices[v], coarse_edge);
+    for (std::uint32_t v = rim; v < endOffLattice(mesh); ++v) {
+        LatticeTriangle triangle = triangleAround(mesh.vertices[v], coarse_edge);
         for (const Site& s : triangle.corners) {
             corners.add(s.row, {s.column, s.column + 1});
+        }
+        if (!held.empty() && held[v - rim] != 0) {
+            triangle.weights = {};
         }
         off.triangles.push_back(triangle);
     }
@@ -509,11 +671,14 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
         };
         const Site centre = onFiner(plan.grid.siteOf(coarse.irregular.unknowns[k]));
         const auto add_child = [&](Site child, double weight) {
-            const Index row = fine_plan.row[fine_plan.grid.at(child)];
+            const Index index = fine_plan.grid.at(child);
+            const Index row = fine_plan.row[index];
             if (row == kRegular) {
-                add_parents(child, weight * fine.stencil.diagonal);
-                for (const Site& neighbour : neighboursOf(child)) {
-                    add_parents(neighbour, weight * fine.stencil.neighbour);
+                const std::array<Site, 6> neighbours = neighboursOf(child);
+                const RegularRow entries = regularRow(fine, index, fine_plan.grid.at(neighbours[2]));
+                add_parents(child, weight * entries.diagonal);
+                for (std::size_t n = 0; n < neighbours.size(); ++n) {
+                    add_parents(neighbours[n], weight * entries.neighbours[n]);
                 }
             } else if (row != kNone) {
                 add_irregular(row, weight);
@@ -533,23 +698,51 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
 
 }  // namespace
 
-Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& op)
+RegularRow regularRow(const Level& level, std::uint32_t index, std::uint32_t below)
 {
+    if (level.varying.empty()) {
+        const double n = level.stencil.neighbour;
+        return {level.stencil.diagonal, {n, n, n, n, n, n}};
+    }
+    const LatticeRows& rows = level.varying;
+    return {rows.diagonal[index],
+            {rows.next[index - 1], rows.next[index], rows.above_right[below], rows.above_left[below + 1],
+             rows.above_left[index], rows.above_right[index]}};
+}
+
+Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& whole)
+{
+    Operator op = whole;
+    op.mass_weight = std::max(op.mass_weight, 0.0);
     Hierarchy hierarchy;
     hierarchy.edge = mesh.lattice.runs.empty() ? meanEdge(mesh) : mesh.lattice.edge;
     double edge = hierarchy.edge;
-    const OffLattice off = findOffLattice(mesh, 2.0 * edge);
+    const Lattice lattice = withoutHeld(mesh, op.held);
+    const OffLattice off = findOffLattice(mesh, op.held, 2.0 * edge);
     LatticeRegion candidates;
     {
         RegionBuilder parents;
-        addParents(parents, regionOf(mesh.lattice));
+        addParents(parents, regionOf(lattice));
         forEachInterval(off.corners, [&](std::int32_t r, ColumnInterval i) { parents.add(r, i); });
         candidates = parents.build();
     }
     Plan plan;
     Level level;
     level.stencil = regularStencil(edge, op);
-    planFinest(mesh, candidates, hierarchy, level, plan);
+    planFinest(mesh, lattice, op.held, candidates, hierarchy, level, plan);
+    LatticeTriangles triangles;
+    if (!op.tensors.empty()) {
+        triangles = finestTriangles(mesh, op, hierarchy, plan);
+        level.varying = rowsOf(triangles, plan, op, edge);
+    }
+    if (whole.mass_weight < 0.0) {
+        hierarchy.indefinite = level;
+        hierarchy.indefinite->stencil = regularStencil(edge, whole);
+        if (!op.tensors.empty()) {
+            hierarchy.indefinite->varying = rowsOf(triangles, plan, whole, edge);
+        }
+        assembleFinest(mesh, whole, hierarchy, *hierarchy.indefinite, plan);
+    }
     assembleFinest(mesh, op, hierarchy, level, plan);
     while (level.unknowns > kCoarsest) {
         edge *= 2.0;
@@ -583,6 +776,10 @@ Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& op)
         }
         level.outside = transposed(level.inside, coarse_plan.grid.end());
         addTransfer(plan, coarse_plan, level);
+        if (!op.tensors.empty()) {
+            triangles = coarserTriangles(triangles, level.restriction, coarse_plan.grid.end());
+            coarse.varying = rowsOf(triangles, coarse_plan, op, edge);
+        }
         multiply(level, plan, coarse, coarse_plan);
         hierarchy.levels.push_back(std::move(level));
         level = std::move(coarse);

@@ -5,6 +5,10 @@
 // Tuminaro, "Parallel multigrid smoothing: polynomial versus Gauss-Seidel" (2003): it needs no order of the unknowns,
 // so threads do not change its result. The cycle is computed in single precision, which bounds how fast it converges,
 // not how far.
+//
+// With a right side, or where gravity pulls the liquid off, the iteration stays among functions without volume: N.
+// Gould, M. Hribar, J. Nocedal, "On the solution of equality constrained quadratic programming problems arising in
+// optimization" (2001), algorithm 6.1 (projected conjugate gradients with a constraint preconditioner).
 
 #include "shape/multigrid.h"
 
@@ -12,12 +16,17 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <random>
 #include <vector>
 
 #include "blocks.h"
+#include "shape/constrained.h"
 
 namespace droplet {
 namespace {
@@ -28,10 +37,14 @@ using Index = std::uint32_t;
 constexpr double kTolerance = 1e-10;
 constexpr std::size_t kMostIterations = 200;
 
+/// Residual down to which the probe for negative directions goes.
+constexpr double kProbed = 1e-8;
+
 /// The smoother damps the upper part of the spectrum, down to this share of its end; the coarser level sees the rest.
 constexpr double kSmoothedShare = 0.25;
 
-double dotOf(const std::vector<double>& a, const std::vector<double>& b)
+template <typename A>
+double dotOf(const std::vector<A>& a, const std::vector<double>& b)
 {
     return sumOverBlocks(a.size(), [&](std::size_t begin, std::size_t end) {
         // Four sums, so that they need not wait for one another.
@@ -41,13 +54,13 @@ double dotOf(const std::vector<double>& a, const std::vector<double>& b)
         double s3 = 0.0;
         std::size_t i = begin;
         for (; i + 4 <= end; i += 4) {
-            s0 += a[i] * b[i];
-            s1 += a[i + 1] * b[i + 1];
-            s2 += a[i + 2] * b[i + 2];
-            s3 += a[i + 3] * b[i + 3];
+            s0 += static_cast<double>(a[i]) * b[i];
+            s1 += static_cast<double>(a[i + 1]) * b[i + 1];
+            s2 += static_cast<double>(a[i + 2]) * b[i + 2];
+            s3 += static_cast<double>(a[i + 3]) * b[i + 3];
         }
         for (; i < end; ++i) {
-            s0 += a[i] * b[i];
+            s0 += static_cast<double>(a[i]) * b[i];
         }
         return (s0 + s1) + (s2 + s3);
     });
@@ -113,6 +126,37 @@ void applyRegular(const RegularRun& run, const Stencil& stencil, const Real* x, 
     }
 }
 
+/// The same where rows differ. `rows` has LatticeRows' members, as pointers.
+template <typename Real, typename Rows, typename Use>
+void applyVarying(const RegularRun& run, const Rows& rows, const Real* x, const Use& use)
+{
+    const Real* diagonal = rows.diagonal + run.first;
+    const Real* next = rows.next + run.first;
+    const Real* last = rows.next + run.first - 1;
+    const Real* above_left = rows.above_left + run.first;
+    const Real* above_right = rows.above_right + run.first;
+    const Real* below_left = rows.above_right + run.below;
+    const Real* below_right = rows.above_left + run.below + 1;
+    const Real* left = x + run.first - 1;
+    const Real* centre = x + run.first;
+    const Real* below = x + run.below;
+    const Real* above = x + run.above;
+    for (Index k = 0; k < run.count; ++k) {
+        const Real sum = (last[k] * left[k] + next[k] * centre[k + 1]) +
+                         (below_left[k] * below[k] + below_right[k] * below[k + 1]) +
+                         (above_left[k] * above[k] + above_right[k] * above[k + 1]);
+        use(run.first + k, diagonal[k] * centre[k] + sum);
+    }
+}
+
+template <typename Real>
+struct RowPointers {
+    const Real* diagonal;
+    const Real* next;
+    const Real* above_left;
+    const Real* above_right;
+};
+
 /// One level's matrix in a precision, and what the smoother needs.
 class Smoother {
 public:
@@ -138,6 +182,25 @@ public:
             }
             scale_[k] = static_cast<float>(1.0 / std::max(diagonal, sum / largest));
         }
+        if (!level.varying.empty()) {
+            const LatticeRows& varying = level.varying;
+            diagonal_.assign(varying.diagonal.begin(), varying.diagonal.end());
+            next_.assign(varying.next.begin(), varying.next.end());
+            above_left_.assign(varying.above_left.begin(), varying.above_left.end());
+            above_right_.assign(varying.above_right.begin(), varying.above_right.end());
+            varying_scale_.assign(level.size, 0.0F);
+            forPieces(regular_pieces_, [&](std::size_t i) {
+                const RegularRun& run = level.regular[i];
+                for (Index k = 0; k < run.count; ++k) {
+                    const RegularRow row = regularRow(level, run.first + k, run.below + k);
+                    double sum = row.diagonal;
+                    for (const double n : row.neighbours) {
+                        sum += std::abs(n);
+                    }
+                    varying_scale_[run.first + k] = static_cast<float>(1.0 / std::max(row.diagonal, sum / largest));
+                }
+            });
+        }
         // Chebyshev polynomial of degree 2 on [kSmoothedShare, 1]·largest.
         const double centre = 0.5 * largest * (1.0 + kSmoothedShare);
         const double half = 0.5 * largest * (1.0 - kSmoothedShare);
@@ -153,10 +216,19 @@ public:
     template <typename Use>
     void forEachRow(const float* x, const Use& use) const
     {
-        forPieces(regular_pieces_, [&](std::size_t i) {
-            applyRegular(level_->regular[i], level_->stencil, x,
-                         [&](Index at, float product) { use(at, regular_scale_, product); });
-        });
+        if (varying_scale_.empty()) {
+            forPieces(regular_pieces_, [&](std::size_t i) {
+                applyRegular(level_->regular[i], level_->stencil, x,
+                             [&](Index at, float product) { use(at, regular_scale_, product); });
+            });
+        } else {
+            const RowPointers<float> rows{diagonal_.data(), next_.data(), above_left_.data(), above_right_.data()};
+            const float* const scale = varying_scale_.data();
+            forPieces(regular_pieces_, [&](std::size_t i) {
+                applyVarying(level_->regular[i], rows, x,
+                             [&](Index at, float product) { use(at, scale[at], product); });
+            });
+        }
         const SparseRows& rows = level_->irregular;
         forBlocks(rows.unknowns.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end; ++k) {
@@ -176,7 +248,7 @@ public:
         forPieces(regular_pieces_, [&](std::size_t i) {
             const RegularRun& run = level_->regular[i];
             for (Index k = 0; k < run.count; ++k) {
-                use(run.first + k, regular_scale_);
+                use(run.first + k, varying_scale_.empty() ? regular_scale_ : varying_scale_[run.first + k]);
             }
         });
         const std::vector<Index>& unknowns = level_->irregular.unknowns;
@@ -194,6 +266,12 @@ private:
     std::vector<float> values_;
     std::vector<float> scale_;
     std::vector<std::size_t> regular_pieces_;
+    // Where rows differ.
+    std::vector<float> diagonal_;
+    std::vector<float> next_;
+    std::vector<float> above_left_;
+    std::vector<float> above_right_;
+    std::vector<float> varying_scale_;
     float regular_scale_ = 0.0F;
     float first_ = 0.0F;
     float momentum_ = 0.0F;
@@ -224,10 +302,12 @@ public:
         for (const RegularRun& run : level.regular) {
             for (Index k = 0; k < run.count; ++k) {
                 const Index at = run.first + k;
-                add(at, at, level.stencil.diagonal);
-                for (const Index other :
-                     {at - 1, at + 1, run.below + k, run.below + k + 1, run.above + k, run.above + k + 1}) {
-                    add(at, other, level.stencil.neighbour);
+                const RegularRow row = regularRow(level, at, run.below + k);
+                const std::array<Index, 6> others{at - 1,        at + 1,           run.below + k, run.below + k + 1,
+                                                  run.above + k, run.above + k + 1};
+                add(at, at, row.diagonal);
+                for (std::size_t n = 0; n < others.size(); ++n) {
+                    add(at, others[n], row.neighbours[n]);
                 }
             }
         }
@@ -243,7 +323,7 @@ public:
         factor_.compute(matrix);
     }
 
-    [[nodiscard]] bool usable() const { return factor_.info() == Eigen::Success; }
+    [[nodiscard]] bool usable() const { return !unknowns_.empty() && factor_.info() == Eigen::Success; }
 
     void solve(const std::vector<float>& right, std::vector<float>& x) const
     {
@@ -268,43 +348,58 @@ class Cycle {
 public:
     explicit Cycle(const std::vector<Level>& levels) : levels_(&levels), coarsest_(levels.back())
     {
-        for (std::size_t l = 0; l < levels.size(); ++l) {
-            Vectors& v = vectors_.emplace_back();
-            v.right.assign(levels[l].size, 0.0F);
-            v.x.assign(levels[l].size, 0.0F);
-            if (l + 1 < levels.size()) {
-                smoothers_.emplace_back(levels[l]);
-                v.next.assign(levels[l].size, 0.0F);
-                v.step.assign(levels[l].size, 0.0F);
-                restriction_pieces_.push_back(piecesOf(levels[l].restriction));
-                prolongation_pieces_.push_back(piecesOf(levels[l].prolongation));
-            }
+        for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
+            smoothers_.emplace_back(levels[l]);
+            restriction_pieces_.push_back(piecesOf(levels[l].restriction));
+            prolongation_pieces_.push_back(piecesOf(levels[l].prolongation));
         }
     }
 
-    [[nodiscard]] bool usable() const { return coarsest_.usable(); }
+    /// What a cycle works on.
+    class Workspace {
+    public:
+        explicit Workspace(const std::vector<Level>& levels)
+        {
+            for (std::size_t l = 0; l < levels.size(); ++l) {
+                Vectors& v = vectors_.emplace_back();
+                v.right.assign(levels[l].size, 0.0F);
+                v.x.assign(levels[l].size, 0.0F);
+                if (l + 1 < levels.size()) {
+                    v.next.assign(levels[l].size, 0.0F);
+                    v.step.assign(levels[l].size, 0.0F);
+                }
+            }
+        }
 
-    /// The residual to work on.
-    std::vector<float>& right() { return vectors_.front().right; }
-    /// What run() found.
-    [[nodiscard]] const std::vector<float>& result() const
-    {
-        return smoothers_.empty() ? vectors_.front().x : vectors_.front().next;
-    }
+        /// The residual to work on.
+        std::vector<float>& right() { return vectors_.front().right; }
+        /// What run() found.
+        [[nodiscard]] const std::vector<float>& result() const
+        {
+            return vectors_.size() == 1 ? vectors_.front().x : vectors_.front().next;
+        }
 
-    void run() { descend(0); }
-
-private:
-    struct Vectors {
-        std::vector<float> right;
-        std::vector<float> x;
-        std::vector<float> next;
-        std::vector<float> step;
+    private:
+        friend class Cycle;
+        struct Vectors {
+            std::vector<float> right;
+            std::vector<float> x;
+            std::vector<float> next;
+            std::vector<float> step;
+        };
+        std::vector<Vectors> vectors_;
     };
 
-    void descend(std::size_t l)
+    [[nodiscard]] bool usable() const { return coarsest_.usable(); }
+
+    void run(Workspace& workspace) const { descend(workspace.vectors_, 0); }
+
+private:
+    using Vectors = Workspace::Vectors;
+
+    void descend(std::vector<Vectors>& vectors, std::size_t l) const
     {
-        Vectors& v = vectors_[l];
+        Vectors& v = vectors[l];
         if (l + 1 == levels_->size()) {
             coarsest_.solve(v.right, v.x);
             return;
@@ -318,9 +413,9 @@ private:
         smoother.forEachScale([=](Index i, float scale) { x[i] = step[i] = first * scale * right[i]; });
         secondStep(smoother, v);
         smoother.forEachRow(next, [=](Index i, float, float product) { step[i] = right[i] - product; });
-        restrictTo(l);
-        descend(l + 1);
-        addFrom(l);
+        restrictTo(vectors, l);
+        descend(vectors, l + 1);
+        addFrom(vectors, l);
         smoother.forEachRow(next, [=](Index i, float scale, float product) {
             step[i] = first * scale * (right[i] - product);
             x[i] = next[i] + step[i];
@@ -343,11 +438,11 @@ private:
     }
 
     /// The residual in `step`, to the next level.
-    void restrictTo(std::size_t l)
+    void restrictTo(std::vector<Vectors>& vectors, std::size_t l) const
     {
         const Level& level = (*levels_)[l];
-        const float* fine = vectors_[l].step.data();
-        float* coarse = vectors_[l + 1].right.data();
+        const float* fine = vectors[l].step.data();
+        float* coarse = vectors[l + 1].right.data();
         forPieces(restriction_pieces_[l], [&](std::size_t i) {
             const RestrictionRun& run = level.restriction[i];
             const float* left = fine + run.fine - 1;
@@ -371,12 +466,12 @@ private:
     }
 
     /// The next level's result, to `next`.
-    void addFrom(std::size_t l)
+    void addFrom(std::vector<Vectors>& vectors, std::size_t l) const
     {
         const Level& level = (*levels_)[l];
-        const std::vector<float>& result = l + 2 == levels_->size() ? vectors_[l + 1].x : vectors_[l + 1].next;
+        const std::vector<float>& result = l + 2 == levels_->size() ? vectors[l + 1].x : vectors[l + 1].next;
         const float* coarse = result.data();
-        float* fine = vectors_[l].next.data();
+        float* fine = vectors[l].next.data();
         forPieces(prolongation_pieces_[l], [&](std::size_t i) {
             const ProlongationRun& run = level.prolongation[i];
             const float* early = coarse + run.early;
@@ -404,7 +499,6 @@ private:
     const std::vector<Level>* levels_;
     CoarsestSolver coarsest_;
     std::vector<Smoother> smoothers_;
-    std::vector<Vectors> vectors_;
     std::vector<std::vector<std::size_t>> restriction_pieces_;
     std::vector<std::vector<std::size_t>> prolongation_pieces_;
 };
@@ -416,9 +510,16 @@ public:
 
     void operator()(const std::vector<double>& x, std::vector<double>& result) const
     {
+        const auto use = [&](Index at, double product) { result[at] = product; };
+        const LatticeRows& varying = level_->varying;
+        const RowPointers<double> pointers{varying.diagonal.data(), varying.next.data(), varying.above_left.data(),
+                                           varying.above_right.data()};
         forPieces(pieces_, [&](std::size_t i) {
-            applyRegular(level_->regular[i], level_->stencil, x.data(),
-                         [&](Index at, double product) { result[at] = product; });
+            if (varying.empty()) {
+                applyRegular(level_->regular[i], level_->stencil, x.data(), use);
+            } else {
+                applyVarying(level_->regular[i], pointers, x.data(), use);
+            }
         });
         const SparseRows& rows = level_->irregular;
         forBlocks(rows.unknowns.size(), [&](std::size_t begin, std::size_t end) {
@@ -437,33 +538,36 @@ private:
     std::vector<std::size_t> pieces_;
 };
 
-}  // namespace
+/// A·solution = load.
+struct Unit {
+    std::vector<double> solution;
+    double residual = 0.0;
+    std::size_t iterations = 0;
+};
 
-LinearSolution solveByMultigrid(const Hierarchy& hierarchy)
+Unit solveUnit(const Hierarchy& hierarchy, const Cycle& cycle, double tolerance)
 {
-    LinearSolution solution;
-    Cycle cycle(hierarchy.levels);
-    if (!cycle.usable()) {
-        return solution;
-    }
+    Unit unit;
+    Cycle::Workspace workspace(hierarchy.levels);
     const Product product(hierarchy.levels.front());
     const std::size_t size = hierarchy.load.size();
     const double target = std::sqrt(dotOf(hierarchy.load, hierarchy.load));
-    std::vector<double> x(size, 0.0);
+    std::vector<double>& x = unit.solution;
+    x.assign(size, 0.0);
     std::vector<double> r = hierarchy.load;
     std::vector<double> p(size, 0.0);
     std::vector<double> q(size, 0.0);
     double last_rz = 0.0;
     double norm = target;
-    while (norm > kTolerance * target && solution.iterations < kMostIterations) {
-        std::vector<float>& right = cycle.right();
+    while (norm > tolerance * target && unit.iterations < kMostIterations) {
+        std::vector<float>& right = workspace.right();
         forBlocks(size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 right[i] = static_cast<float>(r[i]);
             }
         });
-        cycle.run();
-        const std::vector<float>& z = cycle.result();
+        cycle.run(workspace);
+        const std::vector<float>& z = workspace.result();
         const double rz = sumOverBlocks(size, [&](std::size_t begin, std::size_t end) {
             double sum = 0.0;
             for (std::size_t i = begin; i < end; ++i) {
@@ -474,7 +578,7 @@ LinearSolution solveByMultigrid(const Hierarchy& hierarchy)
         if (!(rz > 0.0)) {
             break;
         }
-        const double beta = solution.iterations == 0 ? 0.0 : rz / last_rz;
+        const double beta = unit.iterations == 0 ? 0.0 : rz / last_rz;
         forBlocks(size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 p[i] = static_cast<double>(z[i]) + beta * p[i];
@@ -492,29 +596,302 @@ LinearSolution solveByMultigrid(const Hierarchy& hierarchy)
             return sum;
         }));
         last_rz = rz;
-        ++solution.iterations;
+        ++unit.iterations;
     }
     product(x, q);
-    solution.residual = std::sqrt(sumOverBlocks(size,
-                                                [&](std::size_t begin, std::size_t end) {
-                                                    double sum = 0.0;
-                                                    for (std::size_t i = begin; i < end; ++i) {
-                                                        const double here = hierarchy.load[i] - q[i];
-                                                        sum += here * here;
-                                                    }
-                                                    return sum;
-                                                })) /
-                        target;
-    solution.converged = solution.residual < kLargestResidual;
-    const double scale = hierarchy.edge * hierarchy.edge;
-    solution.integral = scale * scale * dotOf(hierarchy.load, x);
-    solution.values.resize(hierarchy.index_of_vertex.size());
-    forBlocks(solution.values.size(), [&](std::size_t begin, std::size_t end) {
+    unit.residual = std::sqrt(sumOverBlocks(size,
+                                            [&](std::size_t begin, std::size_t end) {
+                                                double sum = 0.0;
+                                                for (std::size_t i = begin; i < end; ++i) {
+                                                    const double here = hierarchy.load[i] - q[i];
+                                                    sum += here * here;
+                                                }
+                                                return sum;
+                                            })) /
+                    target;
+    return unit;
+}
+
+/// Values at inner vertices, from those at indices.
+std::vector<double> gathered(const Hierarchy& hierarchy, const std::vector<double>& x, double factor)
+{
+    std::vector<double> values(hierarchy.index_of_vertex.size());
+    forBlocks(values.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            solution.values[i] = scale * x[hierarchy.index_of_vertex[i]];
+            const Index at = hierarchy.index_of_vertex[i];
+            values[i] = at == kNoUnknown ? 0.0 : factor * x[at];
         }
     });
+    return values;
+}
+
+/// Ax = right + λ·load, loadᵀx = volume.
+struct Projected {
+    std::vector<double> x;
+    double multiplier = 0.0;
+    double residual = 0.0;
+    std::size_t iterations = 0;
+    bool indefinite = false;  ///< A is not positive definite on functions without volume
+};
+
+class ProjectedIteration {
+public:
+    /// @param weight  |w|·edge²
+    ProjectedIteration(const Hierarchy& hierarchy, const Cycle& cycle, double weight)
+        : cycle_(&cycle),
+          load_(&hierarchy.load),
+          product_(hierarchy.indefinite ? *hierarchy.indefinite : hierarchy.levels.front()),
+          workspace_(hierarchy.levels),
+          load_norm_(std::sqrt(dotOf(hierarchy.load, hierarchy.load))),
+          weight_(weight)
+    {
+        precondition(hierarchy.load);
+        unit_.assign(workspace_.result().begin(), workspace_.result().end());
+        unit_volume_ = dotOf(hierarchy.load, unit_);
+    }
+
+    Projected solve(std::vector<double> right, double volume, double tolerance)
+    {
+        const std::vector<double>& load = *load_;
+        const std::size_t size = load.size();
+        Projected result;
+        result.x.assign(size, 0.0);
+        std::vector<double>& x = result.x;
+        // Brought to a size that single precision holds.
+        const double right_norm = std::sqrt(dotOf(right, right));
+        const double unit = std::max(right_norm, std::abs(volume / unit_volume_) * load_norm_);
+        if (!(unit > 0.0)) {
+            return result;
+        }
+        const double wanted = volume / unit;
+        forBlocks(size, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                right[i] /= unit;
+                x[i] = wanted / unit_volume_ * unit_[i];
+            }
+        });
+        std::vector<double> r(size);
+        std::vector<double> p(size, 0.0);
+        std::vector<double> q(size, 0.0);
+        double norm = 0.0;
+        double scale = 0.0;
+        const auto measure = [&] {
+            product_(x, q);
+            forBlocks(size, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    r[i] = right[i] - q[i];
+                }
+            });
+            result.multiplier = 0.0;
+            norm = takeMultiplier(r, result.multiplier);
+            scale = scaleOf(right_norm / unit, result.multiplier, x);
+        };
+        measure();
+        double last_rz = 0.0;
+        while (norm > tolerance * scale && result.iterations < kMostIterations) {
+            precondition(r);
+            const std::vector<float>& z = workspace_.result();
+            const double shift = dotOf(z, load) / unit_volume_;
+            const double rz = dotOf(z, r) - shift * dotOf(unit_, r);
+            if (!(rz > 0.0)) {
+                break;
+            }
+            const double beta = result.iterations == 0 ? 0.0 : rz / last_rz;
+            forBlocks(size, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    p[i] = (static_cast<double>(z[i]) - shift * unit_[i]) + beta * p[i];
+                }
+            });
+            product_(p, q);
+            const double curvature = dotOf(p, q);
+            if (!(curvature > 0.0)) {
+                result.indefinite = true;
+                break;
+            }
+            const double alpha = rz / curvature;
+            forBlocks(size, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    x[i] += alpha * p[i];
+                    r[i] -= alpha * q[i];
+                }
+            });
+            norm = takeMultiplier(r, result.multiplier);
+            scale = scaleOf(right_norm / unit, result.multiplier, x);
+            last_rz = rz;
+            ++result.iterations;
+        }
+        // What rounding took from the volume.
+        const double missing = (wanted - dotOf(load, x)) / unit_volume_;
+        forBlocks(size, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                x[i] += missing * unit_[i];
+            }
+        });
+        measure();
+        result.residual = norm / scale;
+        result.multiplier *= unit;
+        for (double& value : x) {
+            value *= unit;
+        }
+        return result;
+    }
+
+private:
+    void precondition(const std::vector<double>& r)
+    {
+        std::vector<float>& right = workspace_.right();
+        forBlocks(r.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                right[i] = static_cast<float>(r[i]);
+            }
+        });
+        cycle_->run(workspace_);
+    }
+
+    /// Adds so much of the load to a residual that it becomes smallest.
+    /// @return its norm
+    double takeMultiplier(std::vector<double>& r, double& multiplier) const
+    {
+        const std::vector<double>& load = *load_;
+        const double more = -dotOf(load, r) / (load_norm_ * load_norm_);
+        multiplier += more;
+        return std::sqrt(sumOverBlocks(r.size(), [&](std::size_t begin, std::size_t end) {
+            double sum = 0.0;
+            for (std::size_t i = begin; i < end; ++i) {
+                r[i] += more * load[i];
+                sum += r[i] * r[i];
+            }
+            return sum;
+        }));
+    }
+
+    /// What a residual is measured by.
+    [[nodiscard]] double scaleOf(double right, double multiplier, const std::vector<double>& x) const
+    {
+        const double others = std::max(right, std::abs(multiplier) * load_norm_);
+        if (weight_ == 0.0) {
+            return others;
+        }
+        const double square = sumOverBlocks(x.size(), [&](std::size_t begin, std::size_t end) {
+            double sum = 0.0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const double here = (*load_)[i] * x[i];
+                sum += here * here;
+            }
+            return sum;
+        });
+        return std::max(others, weight_ * std::sqrt(square));
+    }
+
+    const Cycle* cycle_;
+    const std::vector<double>* load_;
+    Product product_;
+    Cycle::Workspace workspace_;
+    std::vector<double> unit_;  ///< what a cycle makes of the load
+    double unit_volume_ = 0.0;
+    double load_norm_ = 0.0;
+    double weight_ = 0.0;
+};
+
+class MultigridSolver final : public ConstrainedSolver {
+public:
+    explicit MultigridSolver(const PlanarMesh& mesh) : mesh_(&mesh) {}
+
+    void prepare(const Operator& op) override
+    {
+        cycle_.reset();
+        hierarchy_ = buildHierarchy(*mesh_, op);
+        cycle_.emplace(hierarchy_.levels);
+        weight_ = std::abs(op.mass_weight) * hierarchy_.edge * hierarchy_.edge;
+        usable_ = cycle_->usable() && (!hierarchy_.indefinite || isDefinite());
+    }
+
+    [[nodiscard]] ConstrainedSolution solve(const ConstrainedProblem& problem) const override
+    {
+        ConstrainedSolution solution;
+        if (!usable_) {
+            return solution;
+        }
+        const double scale = hierarchy_.edge * hierarchy_.edge;
+        if (problem.right.empty() && !hierarchy_.indefinite) {
+            const Unit unit = solveUnit(hierarchy_, *cycle_, problem.tolerance);
+            const double factor = problem.volume / (scale * dotOf(hierarchy_.load, unit.solution));
+            solution.values = gathered(hierarchy_, unit.solution, factor);
+            solution.multiplier = factor / scale;
+            solution.residual = unit.residual;
+            solution.iterations = unit.iterations;
+        } else {
+            ProjectedIteration iteration(hierarchy_, *cycle_, weight_);
+            const Projected projected =
+                iteration.solve(scattered(problem.right), problem.volume / scale, problem.tolerance);
+            solution.values = gathered(hierarchy_, projected.x, 1.0);
+            solution.multiplier = projected.multiplier / scale;
+            solution.residual = projected.residual;
+            solution.iterations = projected.iterations;
+            if (projected.indefinite) {
+                return solution;
+            }
+        }
+        solution.converged = solution.residual < kLargestResidual;
+        return solution;
+    }
+
+    [[nodiscard]] const char* method() const override { return "multigrid-pcg"; }
+
+private:
+    [[nodiscard]] std::vector<double> scattered(const std::vector<double>& right) const
+    {
+        std::vector<double> x(hierarchy_.load.size(), 0.0);
+        for (std::size_t i = 0; i < right.size(); ++i) {
+            if (const Index at = hierarchy_.index_of_vertex[i]; at != kNoUnknown) {
+                x[at] = right[i];
+            }
+        }
+        return x;
+    }
+
+    /// Whether the iteration finds no direction in which the operator is negative, beginning with a bit of every one: a
+    /// solution of what is asked may be symmetric, and the way in which the liquid falls not.
+    [[nodiscard]] bool isDefinite() const
+    {
+        std::mt19937 random(1);
+        std::vector<double> right(hierarchy_.index_of_vertex.size());
+        for (double& r : right) {
+            r = static_cast<double>(random()) - 0.5 * static_cast<double>(std::mt19937::max());
+        }
+        ProjectedIteration iteration(hierarchy_, *cycle_, weight_);
+        return !iteration.solve(scattered(right), 0.0, kProbed).indefinite;
+    }
+
+    const PlanarMesh* mesh_;
+    Hierarchy hierarchy_;
+    std::optional<Cycle> cycle_;
+    double weight_ = 0.0;
+    bool usable_ = false;
+};
+
+}  // namespace
+
+LinearSolution solveByMultigrid(const Hierarchy& hierarchy)
+{
+    LinearSolution solution;
+    const Cycle cycle(hierarchy.levels);
+    if (!cycle.usable()) {
+        return solution;
+    }
+    const Unit unit = solveUnit(hierarchy, cycle, kTolerance);
+    const double scale = hierarchy.edge * hierarchy.edge;
+    solution.residual = unit.residual;
+    solution.iterations = unit.iterations;
+    solution.converged = solution.residual < kLargestResidual;
+    solution.integral = scale * scale * dotOf(hierarchy.load, unit.solution);
+    solution.values = gathered(hierarchy, unit.solution, scale);
     return solution;
+}
+
+std::unique_ptr<ConstrainedSolver> multigridSolver(const PlanarMesh& mesh)
+{
+    return std::make_unique<MultigridSolver>(mesh);
 }
 
 }  // namespace droplet

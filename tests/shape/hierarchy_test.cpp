@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -11,9 +12,9 @@
 #include <vector>
 
 #include "droplet/mesh/triangulate.h"
-#include "shape/direct.h"
 #include "support/domains.h"
 #include "support/masks.h"
+#include "support/operators.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -62,9 +63,13 @@ Vector applied(const Level& level, const Vector& x)
     for (const RegularRun& run : level.regular) {
         for (std::uint32_t k = 0; k < run.count; ++k) {
             const std::uint32_t i = run.first + k;
-            result[i] = level.stencil.diagonal * x[i] +
-                        level.stencil.neighbour * (x[i - 1] + x[i + 1] + x[run.below + k] + x[run.below + k + 1] +
-                                                   x[run.above + k] + x[run.above + k + 1]);
+            const RegularRow row = regularRow(level, i, run.below + k);
+            const std::array<double, 6> neighbours{
+                x[i - 1], x[i + 1], x[run.below + k], x[run.below + k + 1], x[run.above + k], x[run.above + k + 1]};
+            result[i] = row.diagonal * x[i];
+            for (std::size_t n = 0; n < neighbours.size(); ++n) {
+                result[i] += row.neighbours[n] * neighbours[n];
+            }
         }
     }
     const SparseRows& rows = level.irregular;
@@ -143,38 +148,89 @@ constexpr double kMasses[] = {0.0, 0.01, 5.0};
 
 Operator operatorFor(const PlanarMesh& mesh, double mass)
 {
-    return {mass * static_cast<double>(mesh.triangles.size()) / (2.0 * area(mesh))};
+    return {mass * static_cast<double>(mesh.triangles.size()) / (2.0 * area(mesh)), {}, {}};
+}
+
+struct NamedOperator {
+    std::string name;
+    Operator op;
+};
+
+/// The same on every triangle, different on each, with held vertices, and all that under a ceiling.
+std::vector<NamedOperator> operatorsFor(const PlanarMesh& mesh)
+{
+    std::mt19937 random(4);
+    std::vector<NamedOperator> result;
+    for (const double mass : kMasses) {
+        result.push_back({"mass " + std::to_string(mass), operatorFor(mesh, mass)});
+    }
+    result.push_back({"held", operatorFor(mesh, 0.01)});
+    result.back().op.held = testing::heldPatches(mesh);
+    result.push_back({"tensors", operatorFor(mesh, 0.01)});
+    result.back().op.tensors = testing::randomTensors(mesh, random);
+    result.push_back({"tensors, held", operatorFor(mesh, 0.01)});
+    result.back().op.tensors = testing::randomTensors(mesh, random);
+    result.back().op.held = testing::heldPatches(mesh);
+    return result;
+}
+
+/// Compares a level with the matrix assembled triangle by triangle, in every row of an unknown.
+void expectMatrix(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy, const Level& level)
+{
+    std::mt19937 random(1);
+    const testing::Assembled system = testing::assembled(mesh, op);
+    const std::vector<std::uint32_t>& index = hierarchy.index_of_vertex;
+    ASSERT_EQ(index.size(), static_cast<std::size_t>(system.load.size()));
+    const Vector x = randomVector(level, random);
+    Eigen::VectorXd same = Eigen::VectorXd::Zero(system.load.size());
+    std::size_t unknowns = 0;
+    for (std::size_t v = 0; v < index.size(); ++v) {
+        ASSERT_EQ(index[v] == kNoUnknown, !op.held.empty() && op.held[v] != 0);
+        if (index[v] != kNoUnknown) {
+            same[static_cast<Eigen::Index>(v)] = x[index[v]];
+            ++unknowns;
+        }
+    }
+    ASSERT_EQ(unknowns, level.unknowns);
+    const Vector product = applied(level, x);
+    const Eigen::VectorXd wanted = system.matrix * same;
+    const double scale = wanted.lpNorm<Eigen::Infinity>();
+    const double largest_load = system.load.lpNorm<Eigen::Infinity>();
+    for (std::size_t v = 0; v < index.size(); ++v) {
+        if (index[v] != kNoUnknown) {
+            const auto row = static_cast<Eigen::Index>(v);
+            ASSERT_NEAR(product[index[v]], wanted[row], 1e-11 * scale) << v;
+            ASSERT_NEAR(hierarchy.load[index[v]] * hierarchy.edge * hierarchy.edge, system.load[row],
+                        1e-11 * largest_load)
+                << v;
+        }
+    }
 }
 
 TEST(Hierarchy, FinestLevelIsTheMatrix)
 {
-    std::mt19937 random(1);
     for (const Case& c : cases()) {
-        for (const double mass : kMasses) {
-            SCOPED_TRACE(c.name + " " + std::to_string(mass));
-            const Operator op = operatorFor(c.mesh, mass);
+        for (const auto& [name, op] : operatorsFor(c.mesh)) {
+            SCOPED_TRACE(c.name + " " + name);
             const Hierarchy hierarchy = buildHierarchy(c.mesh, op);
-            const SparseSystem system = assemble(c.mesh, op);
-            const Level& finest = hierarchy.levels.front();
-            const std::vector<std::uint32_t>& index = hierarchy.index_of_vertex;
-            ASSERT_EQ(index.size(), static_cast<std::size_t>(system.load.size()));
-            ASSERT_EQ(index.size(), finest.unknowns);
-            const Vector x = randomVector(finest, random);
-            Eigen::VectorXd same(system.load.size());
-            for (std::size_t v = 0; v < index.size(); ++v) {
-                same[static_cast<Eigen::Index>(v)] = x[index[v]];
-            }
-            const Vector product = applied(finest, x);
-            const Eigen::VectorXd wanted = system.matrix.selfadjointView<Eigen::Lower>() * same;
-            const double scale = wanted.lpNorm<Eigen::Infinity>();
-            const double largest_load = system.load.lpNorm<Eigen::Infinity>();
-            for (std::size_t v = 0; v < index.size(); ++v) {
-                const auto row = static_cast<Eigen::Index>(v);
-                ASSERT_NEAR(product[index[v]], wanted[row], 1e-11 * scale) << v;
-                ASSERT_NEAR(hierarchy.load[index[v]] * hierarchy.edge * hierarchy.edge, system.load[row],
-                            1e-11 * largest_load)
-                    << v;
-            }
+            EXPECT_FALSE(hierarchy.indefinite);
+            expectMatrix(c.mesh, op, hierarchy, hierarchy.levels.front());
+        }
+    }
+}
+
+// Under a ceiling the levels have to be positive, and the matrix itself stands aside.
+TEST(Hierarchy, NegativeMassIsInTheMatrixAlone)
+{
+    for (const Case& c : cases()) {
+        for (auto [name, op] : operatorsFor(c.mesh)) {
+            SCOPED_TRACE(c.name + " " + name);
+            op.mass_weight = -0.1 - op.mass_weight;
+            const Hierarchy hierarchy = buildHierarchy(c.mesh, op);
+            ASSERT_TRUE(hierarchy.indefinite);
+            expectMatrix(c.mesh, op, hierarchy, *hierarchy.indefinite);
+            op.mass_weight = 0.0;
+            expectMatrix(c.mesh, op, hierarchy, hierarchy.levels.front());
         }
     }
 }
@@ -182,24 +238,26 @@ TEST(Hierarchy, FinestLevelIsTheMatrix)
 TEST(Hierarchy, UnknownsAreCountedAndFewerOnEveryLevel)
 {
     for (const Case& c : cases()) {
-        SCOPED_TRACE(c.name);
-        const Hierarchy hierarchy = buildHierarchy(c.mesh, operatorFor(c.mesh, 0.01));
-        EXPECT_GE(hierarchy.levels.size(), 3U);
-        for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
-            const Level& level = hierarchy.levels[l];
-            std::vector<int> met(level.size, 0);
-            forEachUnknown(level, [&](std::uint32_t i) { ++met.at(i); });
-            std::size_t count = 0;
-            for (const int m : met) {
-                ASSERT_LE(m, 1);
-                count += static_cast<std::size_t>(m);
+        for (const auto& [name, op] : operatorsFor(c.mesh)) {
+            SCOPED_TRACE(c.name + " " + name);
+            const Hierarchy hierarchy = buildHierarchy(c.mesh, op);
+            EXPECT_GE(hierarchy.levels.size(), 3U);
+            for (std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
+                const Level& level = hierarchy.levels[l];
+                std::vector<int> met(level.size, 0);
+                forEachUnknown(level, [&](std::uint32_t i) { ++met.at(i); });
+                std::size_t count = 0;
+                for (const int m : met) {
+                    ASSERT_LE(m, 1);
+                    count += static_cast<std::size_t>(m);
+                }
+                EXPECT_EQ(count, level.unknowns);
+                if (l > 0) {
+                    EXPECT_LT(1.5 * level.unknowns, hierarchy.levels[l - 1].unknowns);
+                }
             }
-            EXPECT_EQ(count, level.unknowns);
-            if (l > 0) {
-                EXPECT_LT(1.5 * level.unknowns, hierarchy.levels[l - 1].unknowns);
-            }
+            EXPECT_LE(hierarchy.levels.back().unknowns, 400U);
         }
-        EXPECT_LE(hierarchy.levels.back().unknowns, 400U);
     }
 }
 
@@ -207,17 +265,19 @@ TEST(Hierarchy, RestrictionIsTheTransposeOfProlongation)
 {
     std::mt19937 random(2);
     for (const Case& c : cases()) {
-        SCOPED_TRACE(c.name);
-        const Hierarchy hierarchy = buildHierarchy(c.mesh, operatorFor(c.mesh, 0.01));
-        for (std::size_t l = 0; l + 1 < hierarchy.levels.size(); ++l) {
-            const Level& fine = hierarchy.levels[l];
-            const Level& coarse = hierarchy.levels[l + 1];
-            for (int k = 0; k < 3; ++k) {
-                const Vector x = randomVector(coarse, random);
-                const Vector y = randomVector(fine, random);
-                const double there = dotOf(prolonged(fine, x), y);
-                const double back = dotOf(x, restricted(fine, coarse.size, y));
-                EXPECT_NEAR(there, back, 1e-12 * std::sqrt(dotOf(x, x) * dotOf(y, y))) << l;
+        for (const auto& [name, op] : operatorsFor(c.mesh)) {
+            SCOPED_TRACE(c.name + " " + name);
+            const Hierarchy hierarchy = buildHierarchy(c.mesh, op);
+            for (std::size_t l = 0; l + 1 < hierarchy.levels.size(); ++l) {
+                const Level& fine = hierarchy.levels[l];
+                const Level& coarse = hierarchy.levels[l + 1];
+                for (int k = 0; k < 3; ++k) {
+                    const Vector x = randomVector(coarse, random);
+                    const Vector y = randomVector(fine, random);
+                    const double there = dotOf(prolonged(fine, x), y);
+                    const double back = dotOf(x, restricted(fine, coarse.size, y));
+                    EXPECT_NEAR(there, back, 1e-12 * std::sqrt(dotOf(x, x) * dotOf(y, y))) << l;
+                }
             }
         }
     }
@@ -228,9 +288,9 @@ TEST(Hierarchy, CoarserLevelsAreGalerkinsProducts)
 {
     std::mt19937 random(3);
     for (const Case& c : cases()) {
-        for (const double mass : kMasses) {
-            SCOPED_TRACE(c.name + " " + std::to_string(mass));
-            const Hierarchy hierarchy = buildHierarchy(c.mesh, operatorFor(c.mesh, mass));
+        for (const auto& [name, op] : operatorsFor(c.mesh)) {
+            SCOPED_TRACE(c.name + " " + name);
+            const Hierarchy hierarchy = buildHierarchy(c.mesh, op);
             for (std::size_t l = 0; l + 1 < hierarchy.levels.size(); ++l) {
                 const Level& fine = hierarchy.levels[l];
                 const Level& coarse = hierarchy.levels[l + 1];

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape/multigrid.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -9,14 +7,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "droplet/mesh/triangulate.h"
 #include "droplet/shape/solve.h"
-#include "shape/direct.h"
+#include "shape/constrained.h"
+#include "shape/hierarchy.h"
 #include "support/domains.h"
+#include "support/operators.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -24,6 +26,7 @@ namespace {
 
 using testing::domainOf;
 using testing::ellipseLoop;
+using testing::weighing;
 
 constexpr Solver kSolvers[] = {Solver::Llt, Solver::Cholmod, Solver::Multigrid, Solver::Auto};
 
@@ -50,14 +53,28 @@ PlanarMesh stretched(PlanarMesh mesh, double by)
     return mesh;
 }
 
-/// ‖Ax − b‖/‖b‖ by the matrix assembled triangle by triangle.
-double trueResidual(const PlanarMesh& mesh, const Operator& op, const LinearSolution& solution)
+/// Of unit volume.
+ConstrainedSolution solvedAlone(const PlanarMesh& mesh, const Operator& op,
+                                const std::function<std::unique_ptr<ConstrainedSolver>(const PlanarMesh&)>& make)
 {
-    const SparseSystem system = assemble(mesh, op);
+    const std::unique_ptr<ConstrainedSolver> solver = make(mesh);
+    solver->prepare(op);
+    return solver->solve({{}, 1.0});
+}
+
+ConstrainedSolution solvedByMultigrid(const PlanarMesh& mesh, const Operator& op)
+{
+    return solvedAlone(mesh, op, multigridSolver);
+}
+
+/// ‖Ax − λm‖/‖λm‖ by the matrix assembled triangle by triangle.
+double trueResidual(const PlanarMesh& mesh, const Operator& op, const ConstrainedSolution& solution)
+{
+    const testing::Assembled system = testing::assembled(mesh, op);
     const Eigen::Map<const Eigen::VectorXd> x(solution.values.data(),
                                               static_cast<Eigen::Index>(solution.values.size()));
-    const Eigen::VectorXd product = system.matrix.selfadjointView<Eigen::Lower>() * x;
-    return (system.load - product).norm() / system.load.norm();
+    const Eigen::VectorXd load = solution.multiplier * system.load;
+    return (load - system.matrix * x).norm() / load.norm();
 }
 
 /// The droplets of a footprint, every one 1 mm high.
@@ -116,14 +133,15 @@ TEST(Multigrid, ResidualIsTheTrueOne)
     const PlanarMesh bare = stretched(discMesh(10000), 1.0);
     for (const PlanarMesh* mesh : {&disc, &graded, &bare}) {
         for (const double mass : {0.0, 25.0, 1e4}) {
-            const LinearSolution solution = solveByMultigrid(buildHierarchy(*mesh, {mass}));
+            const ConstrainedSolution solution = solvedByMultigrid(*mesh, weighing(mass));
             EXPECT_TRUE(solution.converged);
-            const double residual = trueResidual(*mesh, {mass}, solution);
+            const double residual = trueResidual(*mesh, weighing(mass), solution);
             EXPECT_LT(residual, 1e-9);
             // The last digits depend on the order of sums.
             EXPECT_NEAR(residual, solution.residual, 1e-12);
-            const LinearSolution reference = solveByLlt(assemble(*mesh, {mass}));
-            EXPECT_NEAR(solution.integral / reference.integral, 1.0, 1e-9);
+            const ConstrainedSolution reference =
+                solvedAlone(*mesh, weighing(mass), [](const PlanarMesh& m) { return directSolver(m, Solver::Llt); });
+            EXPECT_NEAR(solution.multiplier / reference.multiplier, 1.0, 1e-9);
         }
     }
 }
@@ -138,7 +156,7 @@ TEST(Multigrid, IterationsHardlyGrowWithTheMesh)
     for (const double mass : {0.0, 25.0}) {
         std::vector<std::size_t> iterations;
         for (const std::size_t triangles : sizes) {
-            const LinearSolution solution = solveByMultigrid(buildHierarchy(discMesh(triangles), {mass}));
+            const ConstrainedSolution solution = solvedByMultigrid(discMesh(triangles), weighing(mass));
             EXPECT_TRUE(solution.converged) << triangles;
             iterations.push_back(solution.iterations);
         }
@@ -150,9 +168,8 @@ TEST(Multigrid, IterationsHardlyGrowWithTheMesh)
 TEST(Multigrid, OneLevelIsAFactorisation)
 {
     const PlanarMesh mesh = discMesh(400);
-    const Hierarchy hierarchy = buildHierarchy(mesh, {});
-    ASSERT_EQ(hierarchy.levels.size(), 1U);
-    const LinearSolution solution = solveByMultigrid(hierarchy);
+    ASSERT_EQ(buildHierarchy(mesh, {}).levels.size(), 1U);
+    const ConstrainedSolution solution = solvedByMultigrid(mesh, {});
     EXPECT_TRUE(solution.converged);
     // The factor is exact but for single precision, which one more iteration makes up for.
     EXPECT_LE(solution.iterations, 3U);
@@ -161,16 +178,16 @@ TEST(Multigrid, OneLevelIsAFactorisation)
 TEST(Multigrid, SameBitsAtAnyNumberOfThreads)
 {
     for (const PlanarMesh& mesh : {discMesh(150'000), stretched(discMesh(60000), 1.0)}) {
-        std::vector<LinearSolution> runs;
+        std::vector<ConstrainedSolution> runs;
         for (const int threads : {1, 2, 2, 7}) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(threads));
             tbb::task_arena arena(threads);
-            arena.execute([&] { runs.push_back(solveByMultigrid(buildHierarchy(mesh, {25.0}))); });
+            arena.execute([&] { runs.push_back(solvedByMultigrid(mesh, weighing(25.0))); });
         }
-        for (const LinearSolution& run : runs) {
+        for (const ConstrainedSolution& run : runs) {
             EXPECT_EQ(run.values, runs[0].values);
-            EXPECT_EQ(run.integral, runs[0].integral);
+            EXPECT_EQ(run.multiplier, runs[0].multiplier);
             EXPECT_EQ(run.residual, runs[0].residual);
             EXPECT_EQ(run.iterations, runs[0].iterations);
         }
