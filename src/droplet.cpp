@@ -70,8 +70,8 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
         droplet.figures.push_back(measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
     }
     droplet.total = combine(droplet.figures);
-    droplet.surface =
-        loft(droplet.meshes, droplet.solution.droplets, {.open = options.open, .extent = droplet.domain.extent});
+    droplet.surface = loft(droplet.meshes, droplet.solution.droplets,
+                           {.open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground});
     droplet.warnings = warningsOf(droplet, options);
     return droplet;
 }

@@ -109,11 +109,12 @@ Turn turnOf(int orientation, std::ptrdiff_t width, std::ptrdiff_t height)
     }
 }
 
-void turnPlane(std::vector<std::uint16_t>& plane, const Turn& turn, int width, int height)
+template <class Sample>
+void turnPlane(std::vector<Sample>& plane, const Turn& turn, int width, int height)
 {
-    // A tile of both images stays in the first-level cache: 2 × 8 KiB.
+    // A tile of both images stays in the first-level cache: 2 × 8 KiB, of floats 2 × 16.
     constexpr int kTile = 64;
-    std::vector<std::uint16_t> turned(plane.size());
+    std::vector<Sample> turned(plane.size());
     for (int y0 = 0; y0 < height; y0 += kTile) {
         for (int x0 = 0; x0 < width; x0 += kTile) {
             for (int y = y0; y < std::min(y0 + kTile, height); ++y) {
@@ -196,10 +197,38 @@ Image upright(Image image, int orientation)
     return image;
 }
 
+std::vector<std::uint16_t> lumaOverBlack(Image image)
+{
+    if (!image.premultiplied) {
+        for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+            const std::uint32_t product = std::uint32_t{image.luma[i]} * image.alpha[i];
+            image.luma[i] = static_cast<std::uint16_t>((product + 32767U) / 65535U);
+        }
+    }
+    return std::move(image.luma);
+}
+
 Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels)
 {
     const ImageHeader header = readImageHeader(encoded, max_pixels);
     return upright(decodeAsStored(encoded, header), header.orientation);
+}
+
+std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels)
+{
+    const ImageHeader header = readImageHeader(encoded, max_pixels);
+    if (header.format != ImageFormat::Tiff || !isFloatTiff(encoded)) {
+        return std::nullopt;
+    }
+    FloatImage image = decodeFloatTiff(encoded, header);
+    if (header.orientation > 1) {
+        const Turn turn = turnOf(header.orientation, image.width, image.height);
+        if (turn.swaps_sides) {
+            std::swap(image.width, image.height);
+        }
+        turnPlane(image.samples, turn, image.width, image.height);
+    }
+    return image;
 }
 
 }  // namespace droplet

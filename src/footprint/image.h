@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,21 @@ Image upright(Image image, int orientation);
 /// Decodes an image of any format this library reads, upright. The size in its header is checked first.
 /// @throws Error InvalidInput
 Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels);
+
+/// What is seen of an image in front of black: its luma, as much of it as is opaque.
+std::vector<std::uint16_t> lumaOverBlack(Image image);
+
+/// A decoded image of floating-point samples, one a pixel.
+struct FloatImage {
+    int width = 0;
+    int height = 0;
+    std::vector<float> samples;  ///< row by row from the top left, as stored; not all need be finite
+};
+
+/// Decodes an image of floating-point samples, upright; none if the samples are integers. The size in its header is
+/// checked first.
+/// @throws Error InvalidInput
+std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels);
 
 /// Decides which levels are liquid, and turns one plane of the image into coverage in place.
 /// @throws Error InvalidInput: no alpha where alpha was asked

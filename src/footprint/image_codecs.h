@@ -24,4 +24,10 @@ Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodeWebp(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodePnm(std::span<const std::byte> encoded, const ImageHeader& header);
 
+/// Whether the samples of a TIFF are floating-point numbers, and one a pixel.
+bool isFloatTiff(std::span<const std::byte> encoded);
+
+/// Of one sample a pixel, of 16, 32 or 64 bits; otherwise as decodeTiff.
+FloatImage decodeFloatTiff(std::span<const std::byte> encoded, const ImageHeader& header);
+
 }  // namespace droplet

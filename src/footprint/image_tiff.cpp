@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -102,6 +104,11 @@ struct Tiff {
         }
     }
 };
+
+std::uint64_t pixelsOf(const ImageHeader& header)
+{
+    return static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
+}
 
 Tiff openTiff(std::span<const std::byte> encoded, std::uint64_t pixels)
 {
@@ -322,7 +329,8 @@ struct Planes {
     std::vector<std::vector<std::uint8_t>> buffers;  ///< a row or a tile each
 };
 
-void readStrips(Planes& planes, RowReader& reader, const ImageHeader& header)
+template <class Reader>
+void readStrips(Planes& planes, Reader& reader, const ImageHeader& header)
 {
     const auto width = static_cast<std::size_t>(header.width);
     RowSource row;
@@ -349,7 +357,8 @@ void readStrips(Planes& planes, RowReader& reader, const ImageHeader& header)
     }
 }
 
-void readTiles(Planes& planes, RowReader& reader, const ImageHeader& header)
+template <class Reader>
+void readTiles(Planes& planes, Reader& reader, const ImageHeader& header)
 {
     const auto width = static_cast<std::size_t>(header.width);
     const auto height = static_cast<std::size_t>(header.height);
@@ -395,14 +404,23 @@ void readTiles(Planes& planes, RowReader& reader, const ImageHeader& header)
     }
 }
 
-}  // namespace
-
-Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header)
+template <class Reader>
+void readPixels(Planes& planes, Reader& reader, const ImageHeader& header)
 {
-    const auto pixels = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
-    Planes planes;
-    planes.tiffs.push_back(openTiff(encoded, pixels));
-    TIFF* tiff = planes.tiffs[0].get();
+    planes.buffers.resize(planes.tiffs.size());
+    planes.tiffs[0].checkErrors();
+    if (TIFFIsTiled(planes.tiffs[0].get()) != 0) {
+        readTiles(planes, reader, header);
+    } else {
+        readStrips(planes, reader, header);
+    }
+}
+
+/// A handle on a file whose size is its header's and whose compression is known.
+Tiff openChecked(std::span<const std::byte> encoded, const ImageHeader& header)
+{
+    Tiff opened = openTiff(encoded, pixelsOf(header));
+    TIFF* tiff = opened.get();
     if (field<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0) != static_cast<std::uint32_t>(header.width) ||
         field<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0) != static_cast<std::uint32_t>(header.height)) {
         throwDamaged(ImageFormat::Tiff, "it names two sizes");
@@ -411,27 +429,93 @@ Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header)
     if (TIFFIsCODECConfigured(compression) != 1) {
         throwUnsupported(ImageFormat::Tiff, "compression " + std::to_string(compression));
     }
-    const Layout layout = readLayout(tiff, encoded);
-    const bool tiled = TIFFIsTiled(tiff) != 0;
+    return opened;
+}
+
+/// A number of IEEE 754's binary16.
+float halfToFloat(std::uint16_t half)
+{
+    const int exponent = half >> 10 & 0x1f;
+    const int fraction = half & 0x3ff;
+    const float sign = (half & 0x8000) != 0 ? -1.0F : 1.0F;
+    if (exponent == 0x1f) {
+        return fraction == 0 ? sign * std::numeric_limits<float>::infinity() : std::numeric_limits<float>::quiet_NaN();
+    }
+    return exponent == 0 ? sign * std::ldexp(static_cast<float>(fraction), -24)
+                         : sign * std::ldexp(static_cast<float>(fraction + 0x400), exponent - 25);
+}
+
+template <class Number>
+Number numberAt(const std::uint8_t* row, std::size_t index)
+{
+    Number number;
+    std::memcpy(&number, row + sizeof number * index, sizeof number);  // libtiff has brought it into our order
+    return number;
+}
+
+class FloatReader {
+public:
+    FloatReader(Layout layout, FloatImage& image) : layout_(std::move(layout)), image_(image) {}
+
+    [[nodiscard]] const Layout& layout() const { return layout_; }
+
+    void put(const RowSource& row)
+    {
+        const std::uint8_t* from = row.planes[0];
+        float* to = image_.samples.data() + row.first;
+        for (std::size_t i = 0; i < row.count; ++i) {
+            to[i] = layout_.bits == 16   ? halfToFloat(numberAt<std::uint16_t>(from, i))
+                    : layout_.bits == 32 ? numberAt<float>(from, i)
+                                         : static_cast<float>(numberAt<double>(from, i));
+        }
+    }
+
+private:
+    Layout layout_;
+    FloatImage& image_;
+};
+
+}  // namespace
+
+Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header)
+{
+    Planes planes;
+    planes.tiffs.push_back(openChecked(encoded, header));
+    const Layout layout = readLayout(planes.tiffs[0].get(), encoded);
     if (layout.separate) {
         planes.samples = layout.used;
         while (planes.tiffs.size() < planes.samples.size()) {
-            planes.tiffs.push_back(openTiff(encoded, pixels));
+            planes.tiffs.push_back(openTiff(encoded, pixelsOf(header)));
         }
     } else {
         planes.samples = {0};
     }
-    planes.buffers.resize(planes.tiffs.size());
-    planes.tiffs[0].checkErrors();
-
     Image image = blankImage(header.width, header.height, layout.has_alpha);
     image.premultiplied = layout.premultiplied;
     RowReader reader(layout, image);
-    if (tiled) {
-        readTiles(planes, reader, header);
-    } else {
-        readStrips(planes, reader, header);
+    readPixels(planes, reader, header);
+    return image;
+}
+
+bool isFloatTiff(std::span<const std::byte> encoded)
+{
+    return tiffField(encoded, TIFFTAG_SAMPLEFORMAT) == SAMPLEFORMAT_IEEEFP &&
+           tiffField(encoded, TIFFTAG_SAMPLESPERPIXEL).value_or(1) == 1;
+}
+
+FloatImage decodeFloatTiff(std::span<const std::byte> encoded, const ImageHeader& header)
+{
+    Planes planes;
+    planes.tiffs.push_back(openChecked(encoded, header));
+    planes.samples = {0};
+    Layout layout;
+    layout.bits = field<std::uint16_t>(planes.tiffs[0].get(), TIFFTAG_BITSPERSAMPLE, 1);
+    if (layout.bits != 16 && layout.bits != 32 && layout.bits != 64) {
+        throwUnsupported(ImageFormat::Tiff, "floating-point samples of " + std::to_string(layout.bits) + " bits");
     }
+    FloatImage image{header.width, header.height, std::vector<float>(pixelsOf(header))};
+    FloatReader reader(layout, image);
+    readPixels(planes, reader, header);
     return image;
 }
 

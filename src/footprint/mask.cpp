@@ -165,18 +165,6 @@ Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
     return {0, isClear(most) ? most : kWhite};
 }
 
-/// What is seen of an image in front of black.
-std::vector<std::uint16_t> lumaOverBlack(Image image)
-{
-    if (!image.premultiplied) {
-        for (std::size_t i = 0; i < image.alpha.size(); ++i) {
-            const std::uint32_t product = std::uint32_t{image.luma[i]} * image.alpha[i];
-            image.luma[i] = static_cast<std::uint16_t>((product + 32767U) / 65535U);
-        }
-    }
-    return std::move(image.luma);
-}
-
 void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool invert)
 {
     const std::int64_t distance = std::abs(range.liquid - range.dry);

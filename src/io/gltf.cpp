@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/units.h"
 #include "droplet/version.h"
 #include "io/axes.h"
 #include "io/byte_stream.h"
@@ -35,7 +36,11 @@ constexpr std::uint64_t kJsonBound = 4096;
 // 65535 restarts primitives; with fewer vertices it can be no index.
 constexpr std::size_t kVerticesBeyond16Bit = 65535;
 
-constexpr std::uint64_t kVertexBytes = 8 * sizeof(float);  // position 3, normal 3, uv 2
+// Position 3, normal 3, uv 2, contact angle 1.
+std::uint64_t vertexBytes(const Surface& surface)
+{
+    return (surface.contact_angle.empty() ? 8 : 9) * sizeof(float);
+}
 
 struct Look {
     Material material;
@@ -77,7 +82,8 @@ bool wideIndices(const Surface& surface)
 void checkFileSize(const Surface& surface, bool binary)
 {
     const std::uint64_t index_bytes = wideIndices(surface) ? 4 : 2;
-    const std::uint64_t buffer = kVertexBytes * surface.positions.size() + 3 * index_bytes * surface.triangles.size();
+    const std::uint64_t buffer =
+        vertexBytes(surface) * surface.positions.size() + 3 * index_bytes * surface.triangles.size();
     const std::uint64_t file = kJsonBound + (binary ? buffer : (buffer + 2) / 3 * 4);
     if (file >= kFileLimit) {
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
@@ -192,6 +198,9 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     addBounds(model.accessors.back(), surface.positions);
     primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
     primitive.attributes["TEXCOORD_0"] = addVertexArray(model, TINYGLTF_TYPE_VEC2, vertices);
+    if (!surface.contact_angle.empty()) {
+        primitive.attributes["_CONTACT_ANGLE"] = addVertexArray(model, TINYGLTF_TYPE_SCALAR, vertices);
+    }
     primitive.indices =
         addArray(model, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                  wideIndices(surface) ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
@@ -240,6 +249,9 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
     }
     for (const Vec2& uv : surface.uvs) {  // glTF's texture origin is the upper left, as the mask's
         bytes.f32(uv.x, uv.y);
+    }
+    for (const float angle : surface.contact_angle) {
+        bytes.f32(angle / kDegree);
     }
     for (const auto& [a, b, c] : surface.triangles) {
         if (wideIndices(surface)) {

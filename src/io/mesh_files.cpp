@@ -139,14 +139,17 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
                std::to_string(welded.first.size()) +
                "\nproperty float x\nproperty float y\nproperty float z\n"
                "property float nx\nproperty float ny\nproperty float nz\n"
-               "property float s\nproperty float t\n"
-               "element face " +
+               "property float s\nproperty float t\n" +
+               (surface.contact_angle.empty() ? "" : "property float contact_angle\n") + "element face " +
                std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
     for (const std::uint32_t i : welded.first) {
         writeVec3(bytes, surface.positions[i]);
         writeVec3(bytes, surface.normals[i]);
         const Vec2 texture = fromBelow(surface.uvs[i]);
         bytes.f32(texture.x, texture.y);
+        if (!surface.contact_angle.empty()) {
+            bytes.f32(surface.contact_angle[i] / kDegree);
+        }
     }
     for (const auto& [a, b, c] : surface.triangles) {
         bytes.u8(3);

@@ -1,10 +1,181 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Between pixels: R. G. Keys, "Cubic convolution interpolation for digital image processing" (1981), a = −1/2, which is
+// the spline of Catmull and Rom (1974): once differentiable, third order.
 #include "droplet/shape/base_surface.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <utility>
 
+#include "droplet/error.h"
+#include "droplet/units.h"
+
 namespace droplet {
+namespace {
+
+std::string millimetres(double length)
+{
+    return std::to_string(length / kMillimetre) + " mm";
+}
+
+/// What a ground of one radius is.
+enum class Body { Sphere, Cylinder };
+
+const char* nameOf(Body body)
+{
+    return body == Body::Sphere ? "sphere" : "cylinder";
+}
+
+void checkRadius(double radius, Body body)
+{
+    if (!(std::isfinite(radius) && radius != 0.0)) {
+        throw Error(ErrorCode::InvalidArgument, "radius " + millimetres(radius) + " of the ground's " + nameOf(body) +
+                                                    " must be finite and not zero");
+    }
+}
+
+[[noreturn]] void throwBeyond(double radius, double distance, Body body)
+{
+    throw Error(ErrorCode::InvalidArgument, "radius " + millimetres(std::abs(radius)) + " of the ground's " +
+                                                nameOf(body) + " must exceed " + millimetres(distance) +
+                                                ", how far the footprint reaches from its " +
+                                                (body == Body::Sphere ? "top" : "line"));
+}
+
+/// A circle that touches the plane, at a distance from there.
+struct Arc {
+    double height = 0.0;
+    double slope = 0.0;  ///< over the distance
+};
+
+Arc arcAt(double radius, double distance, Body body)
+{
+    const double size = std::abs(radius);
+    if (!(distance < size)) {
+        throwBeyond(radius, distance, body);
+    }
+    const double root = std::sqrt((size - distance) * (size + distance));
+    const double sign = radius > 0.0 ? -1.0 : 1.0;
+    // R − √(R² − r²), without cancellation.
+    return {sign * distance * distance / (size + root), sign / root};
+}
+
+/// Cubic convolution at t of the way from the second of four neighbours to the third: weights, and their derivatives.
+struct Weights {
+    std::array<double, 4> value{};
+    std::array<double, 4> slope{};
+};
+
+Weights weightsAt(double t)
+{
+    return {{0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (3.0 * t - 5.0),
+             0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)},
+            {0.5 * (-1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * (9.0 * t - 10.0), 0.5 * (1.0 + t * (8.0 - 9.0 * t)),
+             0.5 * t * (3.0 * t - 2.0)}};
+}
+
+/// The four pixels in a row around a place, those beyond the picture replaced by the last.
+struct Taps {
+    std::array<std::size_t, 4> index{};
+    Weights weights;
+};
+
+/// @param place  [px], 0 the first pixel's centre
+Taps tapsAt(double place, int count)
+{
+    // Farther out nothing changes any more, and every double fits an int.
+    const double within = std::clamp(place, -3.0, static_cast<double>(count) + 2.0);
+    const double left = std::floor(within);
+    Taps taps;
+    taps.weights = weightsAt(within - left);
+    for (int k = 0; k < 4; ++k) {
+        taps.index[static_cast<std::size_t>(k)] =
+            static_cast<std::size_t>(std::clamp(static_cast<int>(left) + k - 1, 0, count - 1));
+    }
+    return taps;
+}
+
+/// A height map stretched over a rectangle.
+class StretchedMap {
+public:
+    StretchedMap(HeightMap map, Vec2 extent, double depth) : map_(std::move(map)), extent_(extent), depth_(depth) {}
+
+    [[nodiscard]] GroundPoint at(Vec2 p) const
+    {
+        const Vec2 scale{map_.width / extent_.x, map_.height / extent_.y};
+        const Taps across = tapsAt(0.5 * map_.width + p.x * scale.x - 0.5, map_.width);
+        const Taps down = tapsAt(0.5 * map_.height - p.y * scale.y - 0.5, map_.height);
+        GroundPoint ground;
+        for (std::size_t j = 0; j < 4; ++j) {
+            const float* row = map_.levels.data() + down.index[j] * static_cast<std::size_t>(map_.width);
+            double level = 0.0;
+            double slope = 0.0;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const double tap = row[across.index[i]];
+                level += across.weights.value[i] * tap;
+                slope += across.weights.slope[i] * tap;
+            }
+            ground.height += depth_ * down.weights.value[j] * level;
+            ground.gradient.x += depth_ * down.weights.value[j] * slope * scale.x;
+            ground.gradient.y -= depth_ * down.weights.slope[j] * level * scale.y;
+        }
+        return ground;
+    }
+
+private:
+    HeightMap map_;
+    Vec2 extent_;
+    double depth_;
+};
+
+}  // namespace
 
 BaseSurface::BaseSurface(Sample sample) : sample_(std::move(sample)) {}
+
+BaseSurface BaseSurface::sphere(double radius)
+{
+    checkRadius(radius, Body::Sphere);
+    return BaseSurface([radius](Vec2 p) {
+        const Arc arc = arcAt(radius, length(p), Body::Sphere);
+        return GroundPoint{arc.height, arc.slope * p};
+    });
+}
+
+BaseSurface BaseSurface::cylinder(double radius, double axis)
+{
+    checkRadius(radius, Body::Cylinder);
+    if (!std::isfinite(axis)) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "axis " + std::to_string(axis / kDegree) + " degrees of the ground's cylinder must be finite");
+    }
+    const Vec2 across{-std::sin(axis), std::cos(axis)};
+    return BaseSurface([radius, across](Vec2 p) {
+        const double away = dot(across, p);
+        const Arc arc = arcAt(radius, std::abs(away), Body::Cylinder);
+        return GroundPoint{arc.height, arc.slope * away * across};
+    });
+}
+
+BaseSurface BaseSurface::heightMap(HeightMap map, Vec2 extent, std::optional<double> depth)
+{
+    map.validate();
+    if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
+        throw Error(ErrorCode::InvalidArgument, "extent " + millimetres(extent.x) + " × " + millimetres(extent.y) +
+                                                    " of the height map must be positive");
+    }
+    if (!depth && !map.in_floats) {
+        throw Error(ErrorCode::InvalidArgument, "depth of the height map must be given: its grey levels have no unit");
+    }
+    if (depth && !std::isfinite(*depth)) {
+        throw Error(ErrorCode::InvalidArgument, "depth " + millimetres(*depth) + " of the height map must be finite");
+    }
+    // Copies of the ground share it.
+    const auto stretched = std::make_shared<const StretchedMap>(std::move(map), extent, depth.value_or(1.0));
+    return BaseSurface([stretched](Vec2 p) { return stretched->at(p); });
+}
 
 }  // namespace droplet

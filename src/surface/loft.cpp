@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -18,34 +19,17 @@
 #include "droplet/mesh/triangulate.h"
 #include "mesh/regular_runs.h"
 #include "shape/gradient.h"
+#include "surface/rim_normals.h"
+#include "surface/wet_part.h"
 
 namespace droplet {
 namespace {
 
 constexpr double kRoot3 = std::numbers::sqrt3;
 
-/// Unit normals of the rim's two edges at every rim vertex, outward from the liquid, averaged by length.
-std::vector<Vec2> rimNormals(const PlanarMesh& mesh)
-{
-    std::vector<Vec2> normals(mesh.rimVertexCount());
-    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
-        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
-            const std::uint32_t next = nextOnRim(mesh, loop, v);
-            const Vec2 edge = mesh.vertices[next] - mesh.vertices[v];
-            const Vec2 outward{edge.y, -edge.x};
-            normals[v] = normals[v] + outward;
-            normals[next] = normals[next] + outward;
-        }
-    }
-    for (Vec2& n : normals) {
-        const double size = length(n);
-        n = size > 0.0 ? (1.0 / size) * n : Vec2{};
-    }
-    return normals;
-}
-
-/// Area-weighted means of the gradients on the triangles around every vertex; on the rim from the slope.
-std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const HeightField& field)
+/// Area-weighted means of the gradients on the triangles around every vertex; on the rim from the slope across it and
+/// the ground along it.
+std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
 {
     std::vector<Vec2> gradients(mesh.vertices.size());
     const std::size_t irregular = irregularTriangleCount(mesh);
@@ -82,6 +66,10 @@ std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const HeightField& 
     const std::vector<Vec2> outward = rimNormals(mesh);
     for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
         gradients[v] = -field.rim_slope[v] * outward[v];
+        if (!ground.flat()) {
+            const Vec2 along_rim{-outward[v].y, outward[v].x};
+            gradients[v] = gradients[v] + dot(ground.at(mesh.vertices[v]).gradient, along_rim) * along_rim;
+        }
     }
     return gradients;
 }
@@ -98,10 +86,16 @@ struct Counts {
     std::size_t triangles = 0;
 };
 
-/// Where a droplet's part of the surface begins.
-struct Part {
+/// A droplet, or a part of one, and where in the surface its own begins.
+struct Piece {
+    const PlanarMesh* mesh = nullptr;
+    const HeightField* field = nullptr;
+    bool mirrored = false;  ///< its base has the liquid's own triangles
+    PlanarMesh cover;       ///< otherwise the base
     Counts liquid;
-    Counts ground;
+    Counts base;
+
+    [[nodiscard]] const PlanarMesh& baseMesh() const { return mirrored ? *mesh : cover; }
 };
 
 Vec2 textureAt(Vec2 p, const LoftOptions& options)
@@ -112,7 +106,7 @@ Vec2 textureAt(Vec2 p, const LoftOptions& options)
 void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& options, const Counts& begin,
                 Surface& surface)
 {
-    const std::vector<Vec2> gradients = recoveredGradients(mesh, field);
+    const std::vector<Vec2> gradients = recoveredGradients(mesh, field, options.ground);
     const auto first = static_cast<std::uint32_t>(begin.vertices);
     forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
@@ -123,6 +117,8 @@ void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOpti
             surface.weld[first + v] = first + static_cast<std::uint32_t>(v);
         }
     });
+    std::transform(field.contact_angle.begin(), field.contact_angle.end(), surface.contact_angle.begin() + first,
+                   [](double angle) { return static_cast<float>(angle); });
     forBlocks(mesh.triangles.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const Triangle& t = mesh.triangles[i];
@@ -131,22 +127,29 @@ void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOpti
     });
 }
 
-/// The ground's rim vertices are those of the liquid once more, with a normal of their own.
-void fillGround(const PlanarMesh& ground, const LoftOptions& options, const Part& part, Surface& surface)
+/// The base's rim vertices are those of the liquid once more, with a normal of their own.
+void fillBase(const Piece& piece, const LoftOptions& options, Surface& surface)
 {
-    const auto first = static_cast<std::uint32_t>(part.ground.vertices);
-    const auto liquid = static_cast<std::uint32_t>(part.liquid.vertices);
-    for (std::uint32_t v = 0; v < ground.vertices.size(); ++v) {
-        const Vec2 p = ground.vertices[v];
-        surface.positions[first + v] = {p.x, p.y, 0.0};
-        surface.normals[first + v] = {0.0, 0.0, -1.0};
-        surface.uvs[first + v] = textureAt(p, options);
-        surface.weld[first + v] = ground.onRim(v) ? liquid + v : first + v;
-    }
-    for (std::size_t i = 0; i < ground.triangles.size(); ++i) {
-        const Triangle& t = ground.triangles[i];
-        surface.triangles[part.ground.triangles + i] = {first + t[0], first + t[2], first + t[1]};
-    }
+    const PlanarMesh& mesh = piece.baseMesh();
+    const auto first = static_cast<std::uint32_t>(piece.base.vertices);
+    const auto liquid = static_cast<std::uint32_t>(piece.liquid.vertices);
+    forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const auto v = static_cast<std::uint32_t>(i);
+            const Vec2 p = mesh.vertices[v];
+            surface.positions[first + v] =
+                mesh.onRim(v) ? surface.positions[liquid + v] : Vec3{p.x, p.y, piece.field->groundAt(v)};
+            surface.normals[first + v] = -1.0 * normalOf(options.ground.at(p).gradient);
+            surface.uvs[first + v] = textureAt(p, options);
+            surface.weld[first + v] = mesh.onRim(v) ? liquid + v : first + v;
+        }
+    });
+    forBlocks(mesh.triangles.size(), [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const Triangle& t = mesh.triangles[i];
+            surface.triangles[piece.base.triangles + i] = {first + t[0], first + t[2], first + t[1]};
+        }
+    });
 }
 
 /// Volume and area of a droplet, for the mean height.
@@ -164,12 +167,73 @@ Extent extentOf(const PlanarMesh& mesh, const HeightField& field)
                  const Triangle& t = mesh.triangles[i];
                  const double area = 0.5 * doubleArea(mesh, t);
                  sum.area += area;
-                 sum.volume += area * (field.height[t[0]] + field.height[t[1]] + field.height[t[2]]) / 3.0;
+                 sum.volume +=
+                     area * (field.thicknessAt(t[0]) + field.thicknessAt(t[1]) + field.thicknessAt(t[2])) / 3.0;
              }
              return sum;
          })) {
         total.volume += block.volume;
         total.area += block.area;
+    }
+    return total;
+}
+
+bool hasDry(const HeightField& field)
+{
+    return std::any_of(field.dry.begin(), field.dry.end(), [](std::uint8_t dry) { return dry != 0; });
+}
+
+void check(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& options, std::size_t k)
+{
+    const std::size_t vertices = mesh.vertices.size();
+    const std::size_t rim = mesh.rimVertexCount();
+    const auto all_or_none = [vertices](std::size_t count) { return count == 0 || count == vertices; };
+    if (field.height.size() != vertices || !all_or_none(field.ground.size()) || !all_or_none(field.dry.size()) ||
+        field.rim_slope.size() != rim || field.contact_angle.size() != rim) {
+        throw Error(ErrorCode::InvalidArgument, "field " + std::to_string(k) + " does not belong to its mesh");
+    }
+    if (field.ground.empty() != options.ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must be the one that field " + std::to_string(k) +
+                                                    " was solved on, which is " +
+                                                    (field.ground.empty() ? "flat" : "not flat"));
+    }
+}
+
+/// @param wet  parts of the droplets that have dry vertices
+std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
+                            const std::vector<std::vector<WetPart>>& wet, const LoftOptions& options)
+{
+    std::vector<Piece> pieces;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        for (const WetPart& part : wet[k]) {
+            pieces.push_back({&part.mesh, &part.field, true, {}, {}, {}});
+        }
+        if (!hasDry(fields[k])) {
+            pieces.push_back({&meshes[k], &fields[k], !options.ground.flat(), {}, {}, {}});
+        }
+    }
+    tbb::parallel_for(std::size_t{0}, options.open ? 0 : pieces.size(), [&](std::size_t k) {
+        if (!pieces[k].mirrored) {
+            pieces[k].cover = cover(*pieces[k].mesh);
+        }
+    });
+    return pieces;
+}
+
+/// Gives every piece its place in the surface; returns how large that becomes.
+Counts layOut(std::vector<Piece>& pieces, bool open)
+{
+    Counts total;
+    const auto take = [&total](Counts& begin, const PlanarMesh& mesh) {
+        begin = total;
+        total.vertices += mesh.vertices.size();
+        total.triangles += mesh.triangles.size();
+    };
+    for (Piece& piece : pieces) {
+        take(piece.liquid, *piece.mesh);
+        if (!open) {
+            take(piece.base, piece.baseMesh());
+        }
     }
     return total;
 }
@@ -191,41 +255,34 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
         throw Error(ErrorCode::InvalidArgument, "fields must be as many as meshes: " + std::to_string(fields.size()) +
                                                     " against " + std::to_string(meshes.size()));
     }
+    std::vector<std::vector<WetPart>> wet(meshes.size());
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (fields[k].height.size() != meshes[k].vertices.size() ||
-            fields[k].rim_slope.size() != meshes[k].rimVertexCount()) {
-            throw Error(ErrorCode::InvalidArgument, "field " + std::to_string(k) + " does not belong to its mesh");
-        }
+        check(meshes[k], fields[k], options, k);
     }
-    std::vector<PlanarMesh> grounds(options.open ? 0 : meshes.size());
-    tbb::parallel_for(std::size_t{0}, grounds.size(), [&](std::size_t k) { grounds[k] = cover(meshes[k]); });
-
-    std::vector<Part> parts(meshes.size());
-    Counts total;
-    const auto take = [&total](Counts& begin, const PlanarMesh& mesh) {
-        begin = total;
-        total.vertices += mesh.vertices.size();
-        total.triangles += mesh.triangles.size();
-    };
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        take(parts[k].liquid, meshes[k]);
-        if (!options.open) {
-            take(parts[k].ground, grounds[k]);
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
+        if (hasDry(fields[k])) {
+            wet[k] = wetParts(meshes[k], fields[k], options.ground);
         }
+    });
+    std::vector<Piece> pieces = piecesOf(meshes, fields, wet, options);
+    if (pieces.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "fields must leave some liquid; all of the footprint is dry");
     }
+    const Counts total = layOut(pieces, options.open);
     Surface surface;
     surface.positions.resize(total.vertices);
     surface.normals.resize(total.vertices);
     surface.uvs.resize(total.vertices);
+    surface.contact_angle.resize(total.vertices, 0.0F);
     surface.weld.resize(total.vertices);
     surface.triangles.resize(total.triangles);
-    std::vector<Extent> extents(meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
-        fillLiquid(meshes[k], fields[k], options, parts[k].liquid, surface);
+    std::vector<Extent> extents(pieces.size());
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {
+        fillLiquid(*pieces[k].mesh, *pieces[k].field, options, pieces[k].liquid, surface);
         if (!options.open) {
-            fillGround(grounds[k], options, parts[k], surface);
+            fillBase(pieces[k], options, surface);
         }
-        extents[k] = extentOf(meshes[k], fields[k]);
+        extents[k] = extentOf(*pieces[k].mesh, *pieces[k].field);
     });
     Extent whole;
     for (const Extent& extent : extents) {

@@ -281,6 +281,11 @@ void Surface::validate() const
                         " normals, " + std::to_string(uvs.size()) + " uvs, " + std::to_string(weld.size()) +
                         " weld entries; there must be equally many");
     }
+    if (!contact_angle.empty() && contact_angle.size() != count) {
+        throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(count) + " positions, " +
+                                                    std::to_string(contact_angle.size()) +
+                                                    " contact angles; there must be none or equally many");
+    }
     if (!std::isfinite(mean_height) || mean_height < 0.0) {
         throw Error(ErrorCode::InvalidArgument,
                     "surface.mean_height = " + std::to_string(mean_height) + " must be finite and not negative");
@@ -289,6 +294,11 @@ void Surface::validate() const
     const auto first_place = [&](std::size_t i) {
         return weld[i] <= i && weld[weld[i]] == weld[i] && positions[weld[i]] == positions[i];
     };
+    const std::size_t angle =
+        firstOf(contact_angle.size(), [&](std::size_t v) { return !std::isfinite(contact_angle[v]); });
+    if (angle < contact_angle.size()) {
+        refuse("contact_angle", angle, "must be finite");
+    }
     const std::size_t i = firstOf(count, [&](std::size_t v) {
         return !finite(positions[v]) || !unit(normals[v]) || !finite(uvs[v]) || !first_place(v);
     });

@@ -29,6 +29,7 @@ using ::testing::HasSubstr;
 using testing::kExtent;
 using testing::Pieces;
 using testing::roundDroplet;
+using testing::withContactAngles;
 
 std::string written(const Surface& surface, const GltfOptions& options = {})
 {
@@ -140,6 +141,30 @@ TEST_P(Gltf, HoldsTheSurfaceAsFloatsWithYUp)
     }
 }
 
+TEST_P(Gltf, ContactAnglesAreDegreesInAnAttributeOfOurOwn)
+{
+    const Surface surface = withContactAngles(roundDroplet());
+    const tinygltf::Model model = parsed(written(surface, {.binary = GetParam()}), GetParam());
+    const tinygltf::Primitive& primitive = onlyPrimitive(model);
+    ASSERT_EQ(primitive.attributes.size(), 4U);
+    const int index = primitive.attributes.at("_CONTACT_ANGLE");
+    EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(index)).type, TINYGLTF_TYPE_SCALAR);
+    const auto angles = numbersOf<float>(model, index);
+    ASSERT_EQ(angles.size(), surface.positions.size());
+    std::size_t on_rim = 0;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        on_rim += angles[i] > 0.0F ? 1 : 0;
+        EXPECT_EQ(angles[i], static_cast<float>(surface.contact_angle[i] * 180.0 / 3.14159265358979323846));
+    }
+    EXPECT_EQ(on_rim, 12U);
+    // The rest is what it is without.
+    const tinygltf::Model without = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
+    EXPECT_EQ(numbersOf<float>(model, primitive.attributes.at("POSITION")),
+              numbersOf<float>(without, onlyPrimitive(without).attributes.at("POSITION")));
+    EXPECT_EQ(numbersOf<std::uint16_t>(model, primitive.indices),
+              numbersOf<std::uint16_t>(without, onlyPrimitive(without).indices));
+}
+
 TEST_P(Gltf, TheImagesLowerEdgePointsToPositiveZ)
 {
     const tinygltf::Model model = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
@@ -199,7 +224,7 @@ TEST_P(Gltf, TheSameSurfaceGivesTheSameBytes)
 
 TEST_P(Gltf, IsByteForByteWhatTinygltfWrites)
 {
-    for (const Surface& surface : {roundDroplet(), strip(5), strip(70'000)}) {
+    for (const Surface& surface : {roundDroplet(), withContactAngles(roundDroplet()), strip(5), strip(70'000)}) {
         for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
             const std::string bytes = written(surface, {.binary = GetParam(), .material = materialNamed(name)});
             const tinygltf::Model model = parsed(bytes, GetParam());
@@ -249,9 +274,11 @@ TEST_P(Gltf, RefusesWhatIsNotFinite)
         [](Surface& s) { s.uvs[3].y = kNan; },
         [](Surface& s) { s.uvs.back().y = -1e39; },
         [](Surface& s) { s.mean_height = kNan; },
+        [](Surface& s) { s.contact_angle[3] = std::numeric_limits<float>::quiet_NaN(); },
+        [](Surface& s) { s.contact_angle.pop_back(); },
     };
     for (std::size_t i = 0; i < spoils.size(); ++i) {
-        Surface surface = roundDroplet();
+        Surface surface = withContactAngles(roundDroplet());
         spoils[i](surface);
         std::ostringstream out;
         try {
@@ -291,7 +318,7 @@ TEST_P(Gltf, RefusesFilesOf2GiB)
 
 TEST(Glb, IsAHeaderAndTwoPaddedChunks)
 {
-    const std::string bytes = written(roundDroplet());
+    const std::string bytes = written(withContactAngles(roundDroplet()), {.material = Material::Honey});
     const auto word = [&](std::size_t at) {
         std::uint32_t value = 0;
         std::memcpy(&value, bytes.data() + at, sizeof value);

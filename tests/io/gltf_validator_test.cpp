@@ -77,8 +77,8 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
     };
     for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
         for (const bool closed : {true, false}) {
-            add(std::string(name) + (closed ? "_closed" : "_open"), testing::roundDroplet({.open = !closed}),
-                materialNamed(name), closed);
+            add(std::string(name) + (closed ? "_closed" : "_open"),
+                testing::withContactAngles(testing::roundDroplet({.open = !closed})), materialNamed(name), closed);
         }
     }
     add("ring", testing::roundDroplet({.inner = 1e-3}), Material::Water, true);

@@ -178,6 +178,26 @@ TEST(Ply, IsBinaryLittleEndianWithNamedProperties)
     EXPECT_EQ(ply.size(), header.size() + 32 * places(surface) + 13 * surface.triangles.size());
 }
 
+TEST(Ply, HoldsContactAnglesInDegrees)
+{
+    const Surface surface = testing::withContactAngles(roundDroplet());
+    const std::string ply = written(writePly, surface);
+    EXPECT_THAT(ply, HasSubstr("property float t\nproperty float contact_angle\nelement face"));
+    const std::string without = written(writePly, roundDroplet());
+    EXPECT_EQ(ply.size(), without.size() + std::string("property float contact_angle\n").size() + 4 * places(surface));
+    std::size_t offset = ply.find("end_header\n") + 11;
+    for (std::uint32_t v = 0; v < surface.weld.size(); ++v) {
+        if (surface.weld[v] == v) {
+            const double degrees = surface.contact_angle[v] * 180.0 / 3.14159265358979323846;
+            EXPECT_EQ(at<float>(ply, offset + 32), static_cast<float>(degrees));
+            offset += 36;
+        }
+    }
+    // The others have no place for them.
+    EXPECT_EQ(written(writeObj, surface), written(writeObj, roundDroplet()));
+    EXPECT_EQ(written(writeStl, surface), written(writeStl, roundDroplet()));
+}
+
 TEST(Ply, TheRimHasTheLiquidsNormal)
 {
     const Surface surface = roundDroplet();

@@ -111,6 +111,19 @@ inline Surface roundDroplet(const RoundDroplet& wish = {})
     return surface;
 }
 
+/// The same with contact angles at the liquid's rim, which grow from vertex to vertex.
+inline Surface withContactAngles(Surface surface)
+{
+    surface.contact_angle.assign(surface.positions.size(), 0.0F);
+    float angle = 0.3F;
+    for (std::uint32_t v = 0; v < surface.weld.size(); ++v) {
+        if (surface.weld[v] != v) {
+            surface.contact_angle[surface.weld[v]] = angle += 0.01F;
+        }
+    }
+    return surface;
+}
+
 /// Triangles alone, on as many vertices as asked, every vertex at a place of its own.
 inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
 {

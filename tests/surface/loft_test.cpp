@@ -13,6 +13,7 @@
 #include "droplet/mesh/triangulate.h"
 #include "droplet/shape/figures.h"
 #include "support/domains.h"
+#include "support/grounded.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -169,6 +170,104 @@ TEST(Loft, RimIsCrisp)
     EXPECT_EQ(split, disc.meshes[0].rimVertexCount());
 }
 
+/// Grounds under footprints of about the unit disc.
+std::vector<BaseSurface> grounds()
+{
+    HeightMap map{5, 4, {}, false};
+    for (int i = 0; i < 20; ++i) {
+        map.levels.push_back(static_cast<float>(i * i % 7) / 7.0F);
+    }
+    return {BaseSurface::sphere(1.5), BaseSurface::sphere(-2.0), BaseSurface::cylinder(1.3, 0.4),
+            BaseSurface::heightMap(map, {2.2, 2.1}, 0.3)};
+}
+
+TEST(Loft, TheBaseFollowsTheGround)
+{
+    Loop hole = reversed(ellipseLoop(0.2, 0.3));
+    for (Vec2& p : hole.points) {
+        p.x += 0.3;
+    }
+    const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1), {hole}), {.edge = 0.07});
+    for (const BaseSurface& ground : grounds()) {
+        const HeightField field = testing::liquidOn(meshes[0], ground, [](Vec2 p) { return 0.4 + 0.2 * p.y; });
+        const Surface closed = loft(meshes, {field}, {.extent = {2, 2}, .ground = ground});
+        ASSERT_NO_THROW(closed.validate());
+        const Topology found = topology(closed);
+        EXPECT_TRUE(found.closed);
+        EXPECT_EQ(found.components, 1U);
+        EXPECT_EQ(found.euler, 0);
+        const double volume = testing::volumeOf(meshes[0], field);
+        EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-12);
+        EXPECT_NEAR(closed.mean_height * area(meshes[0]) / volume, 1.0, 1e-12);
+
+        // Liquid first, then the base: the same places and triangles, the other way round.
+        const std::size_t count = meshes[0].vertices.size();
+        ASSERT_EQ(closed.positions.size(), 2 * count);
+        for (std::size_t v = 0; v < count; ++v) {
+            const Vec3 below = closed.positions[count + v];
+            const GroundPoint exact = ground.at({below.x, below.y});
+            EXPECT_EQ(below.z, exact.height);
+            EXPECT_EQ(Vec2({below.x, below.y}), meshes[0].vertices[v]);
+            const Vec3 down{exact.gradient.x, exact.gradient.y, -1.0};
+            EXPECT_LT(length(closed.normals[count + v] - (1.0 / length(down)) * down), 1e-15);
+            EXPECT_EQ(closed.weld[count + v], meshes[0].onRim(static_cast<std::uint32_t>(v)) ? v : count + v);
+            EXPECT_EQ(closed.uvs[count + v], closed.uvs[v]);
+        }
+        const Surface open = loft(meshes, {field}, {.open = true, .extent = {2, 2}, .ground = ground});
+        EXPECT_EQ(open.positions.size(), count);
+        EXPECT_EQ(open.mean_height, closed.mean_height);
+    }
+}
+
+// On ground that slopes along the rim, too, the rim's normals are those of the surface itself.
+TEST(Loft, NormalsOnCurvedGroundAreExactOnTheRim)
+{
+    const BaseSurface ground([](Vec2 p) {
+        return GroundPoint{0.4 * p.x + 0.3 * p.x * p.y, {0.4 + 0.3 * p.y, 0.3 * p.x}};
+    });
+    const auto thickness = [](Vec2 p) { return 0.5 * (1.0 - dot(p, p)); };
+    double before = 10.0;
+    for (const double edge : {0.1, 0.05, 0.025}) {
+        const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = edge});
+        HeightField field = testing::liquidOn(meshes[0], ground, thickness);
+        const auto slope = [&](Vec2 p) { return ground.at(p).gradient - p; };
+        const std::uint32_t rim = meshes[0].rimVertexCount();
+        for (std::uint32_t v = 0; v < rim; ++v) {
+            const Vec2 p = meshes[0].vertices[v];
+            field.rim_slope[v] = -dot(slope(p), (1.0 / length(p)) * p);
+        }
+        const Surface surface = loft(meshes, {field}, {.open = true, .extent = {2, 2}, .ground = ground});
+        double worst = 0.0;
+        double worst_on_rim = 0.0;
+        for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+            const Vec2 g = slope(meshes[0].vertices[v]);
+            const Vec3 exact = (1.0 / std::sqrt(1.0 + dot(g, g))) * Vec3{-g.x, -g.y, 1.0};
+            double& error = meshes[0].onRim(v) ? worst_on_rim : worst;
+            error = std::max(error, length(exact - surface.normals[v]) * 180.0 / std::numbers::pi);
+        }
+        EXPECT_LT(worst, 0.65 * before) << edge;
+        EXPECT_LT(worst_on_rim, 2e-2 * edge * 180.0 / std::numbers::pi) << edge;
+        before = worst;
+    }
+}
+
+TEST(Loft, ContactAnglesStandAtTheLiquidsRim)
+{
+    const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = 0.2});
+    for (const BaseSurface& ground : {BaseSurface(), BaseSurface::sphere(2.0)}) {
+        HeightField field = testing::liquidOn(meshes[0], ground, [](Vec2) { return 0.4; });
+        const std::uint32_t rim = meshes[0].rimVertexCount();
+        for (std::uint32_t v = 0; v < rim; ++v) {
+            field.contact_angle[v] = 0.1 + 0.01 * v;
+        }
+        const Surface surface = loft(meshes, {field}, {.extent = {2, 2}, .ground = ground});
+        ASSERT_EQ(surface.contact_angle.size(), surface.positions.size());
+        for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+            EXPECT_EQ(surface.contact_angle[v], v < rim ? static_cast<float>(0.1 + 0.01 * v) : 0.0F);
+        }
+    }
+}
+
 TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
 {
     const SolvedDisc disc = solvedDisc(0.2);
@@ -184,8 +283,24 @@ TEST(Loft, RefusesWhatDoesNotBelongTogether)
     SolvedDisc disc = solvedDisc(0.2);
     EXPECT_THROW((void)loft(disc.meshes, {}, {.open = false, .extent = {2, 2}}), Error);
     EXPECT_THROW((void)loft(disc.meshes, disc.fields, {.open = false, .extent = {0, 2}}), Error);
-    disc.fields[0].height.pop_back();
-    EXPECT_THROW((void)loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}}), Error);
+    const auto refuses = [&](const HeightField& field, const BaseSurface& ground) {
+        EXPECT_THROW((void)loft(disc.meshes, {field}, {.open = false, .extent = {2, 2}, .ground = ground}), Error);
+    };
+    refuses(disc.fields[0], BaseSurface::sphere(2.0));
+    const BaseSurface bowl = BaseSurface::sphere(-2.0);
+    const HeightField good = testing::liquidOn(disc.meshes[0], bowl, [](Vec2) { return 0.1; });
+    EXPECT_NO_THROW((void)loft(disc.meshes, {good}, {.open = false, .extent = {2, 2}, .ground = bowl}));
+    refuses(good, {});
+    const auto spoilt = [&](const auto& spoil) {
+        HeightField field = good;
+        spoil(field);
+        refuses(field, bowl);
+    };
+    spoilt([](HeightField& field) { field.height.pop_back(); });
+    spoilt([](HeightField& field) { field.ground.pop_back(); });
+    spoilt([](HeightField& field) { field.dry.push_back(1); });
+    spoilt([](HeightField& field) { field.rim_slope.pop_back(); });
+    spoilt([](HeightField& field) { field.contact_angle.clear(); });
 }
 
 }  // namespace

@@ -415,14 +415,18 @@ TEST(Surface, RefusesWhatBreaksItsInvariants)
         {[](Surface& s) { s.normals[8] = 1.001 * s.normals[8]; }, "surface.normals[8]"},
         {[](Surface& s) { s.normals[8] = {}; }, "surface.normals[8]"},
         {[](Surface& s) { s.uvs[9].x = kInfinity; }, "surface.uvs[9]"},
+        {[](Surface& s) { s.contact_angle.pop_back(); }, "contact angles"},
+        {[](Surface& s) { s.contact_angle.resize(1); }, "contact angles"},
+        {[](Surface& s) { s.contact_angle[4] = std::numeric_limits<float>::infinity(); }, "surface.contact_angle[4]"},
         {[](Surface& s) { s.weld[3] = 4; }, "surface.weld[3]"},
         {[](Surface& s) { s.weld[3] = 2; }, "surface.weld[3]"},
         {[](Surface& s) { s.weld.back() = static_cast<std::uint32_t>(s.weld.size()); }, "surface.weld["},
         {[](Surface& s) { s.triangles[1][2] = static_cast<std::uint32_t>(s.weld.size()); }, "surface.triangles[1]"},
     };
     EXPECT_NO_THROW(roundDroplet().validate());
+    EXPECT_NO_THROW(testing::withContactAngles(roundDroplet()).validate());
     for (const Case& spoilt : cases) {
-        Surface surface = roundDroplet();
+        Surface surface = testing::withContactAngles(roundDroplet());
         spoilt.spoil(surface);
         try {
             surface.validate();

@@ -24,7 +24,9 @@ struct GltfOptions {
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
-/// and TEXCOORD_0, 32-bit indices where needed. No extension is required to show it; transmission, ior and volume
+/// and TEXCOORD_0, 32-bit indices where needed; and, if the surface has them, contact angles as a float scalar in
+/// degrees, _CONTACT_ANGLE: names of attributes that glTF does not define begin with an underscore (section 3.7.2.1),
+/// and viewers ignore them. No extension is required to show it; transmission, ior and volume
 /// are used where known. Colour by depth is given at the mean height; an open surface has it as plain tint.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.

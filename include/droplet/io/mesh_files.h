@@ -16,7 +16,7 @@ namespace droplet {
 std::uint64_t writeObj(const Surface& surface, std::ostream& out);
 
 /// PLY, binary little-endian, floats: metres, z up, positions welded, normals of the liquid's side on the rim, texture
-/// coordinates s, t with their origin at the lower left.
+/// coordinates s, t with their origin at the lower left, contact_angle in degrees if the surface has it.
 std::uint64_t writePly(const Surface& surface, std::ostream& out);
 
 /// STL, binary: millimetres, z up, as slicers expect; facet normals by the winding.

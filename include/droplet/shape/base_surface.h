@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
+#include "droplet/footprint/height_map.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -23,6 +25,29 @@ public:
 
     BaseSurface() = default;
     explicit BaseSurface(Sample sample);
+
+    /// A sphere whose top is the plane's origin; there is no ground beyond its radius.
+    /// @param radius  [m] ≠ 0; negative: a bowl whose deepest point is there
+    /// @throws Error  InvalidArgument
+    static BaseSurface sphere(double radius);
+
+    /// A cylinder that touches the plane from below along a line through the origin; there is no ground beyond its
+    /// radius from that line.
+    /// @param radius  [m] ≠ 0; negative: a gutter
+    /// @param axis    of the line in the plane, counter-clockwise from +x [rad]
+    /// @throws Error  InvalidArgument
+    static BaseSurface cylinder(double radius, double axis);
+
+    /// A picture stretched over the footprint's: height `depth` times its level.
+    ///
+    /// Guarantees: continuous with its gradient; exact in the pixels' centres, and between them where the levels are
+    /// those of a quadratic, but for the outermost two rows and columns. Beyond the outermost centres heights turn
+    /// into theirs within one pixel, and stay.
+    /// @param map     valid
+    /// @param extent  of the picture, centred at the origin [m]; both > 0
+    /// @param depth   height of level 1 [m]; not needed of a picture of floats, whose levels are then metres
+    /// @throws Error  InvalidArgument; InvalidInput for the map
+    static BaseSurface heightMap(HeightMap map, Vec2 extent, std::optional<double> depth = {});
 
     [[nodiscard]] bool flat() const { return !sample_; }
     [[nodiscard]] GroundPoint at(Vec2 p) const { return sample_ ? sample_(p) : GroundPoint{}; }

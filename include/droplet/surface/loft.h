@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/base_surface.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/surface.h"
 
@@ -13,19 +14,22 @@ namespace droplet {
 struct LoftOptions {
     bool open = false;  ///< leave out the base
     Vec2 extent;        ///< physical size of the image, centred at the origin, for texture coordinates [m]; both > 0
+    BaseSurface ground = {};  ///< what the fields were solved on
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// Raises every mesh to its height and closes it with a flat base of few triangles, which share the rim's places.
+/// Raises every mesh to its height and closes it with a base that shares the rim's places: flat ground with few
+/// triangles, any other with the liquid's own, at the ground's height. What the liquid left dry is in neither.
 ///
 /// Normals are those of the recovered gradient inside, and on the rim of the slope that balances the rim's force
-/// (Carey's boundary flux), so that a cap's rim shades like the cap. The base has its own normal: the rim is crisp.
+/// (Carey's boundary flux) across it and of the ground along it, so that a cap's rim shades like the cap. The base has
+/// the ground's normals: the rim is crisp.
 /// @param meshes   one per droplet
 /// @param fields   one per mesh
-/// @param options  open or closed, extent of the image
-/// @throws Error   InvalidArgument if counts differ
+/// @param options  open or closed, extent of the image, ground
+/// @throws Error   InvalidArgument if counts differ, a field is not of its mesh or of this ground, or all is dry
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
 }  // namespace droplet

@@ -12,16 +12,18 @@ namespace droplet {
 
 /// The droplets' surface in space, ready to be written.
 ///
-/// Invariants: arrays of vertices have one length, but contact_angle may be empty; triangles wind outward; normals have unit length. Where a crisp
-/// edge needs two normals (the rim), the position stands twice and `weld` maps both copies to the first.
+/// Invariants: arrays of vertices have one length, but contact_angle may be empty; triangles wind outward; normals have
+/// unit length. Where a crisp edge needs two normals (the rim), the position stands twice and `weld` maps both copies
+/// to the first.
 struct Surface {
     std::vector<Vec3> positions;  ///< [m], z up, the plane at z = 0
     std::vector<Vec3> normals;    ///< unit, outward
     std::vector<Vec2> uvs;        ///< mask coordinates: (0,0) top left of the image, (1,1) bottom right
-    std::vector<float> contact_angle;  ///< between liquid and ground at the liquid's vertices on the rim [rad]; 0 at others
+    std::vector<float>
+        contact_angle;  ///< between liquid and ground at the liquid's vertices on the rim [rad]; 0 at others
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> weld;  ///< smallest index of a vertex at the same place; weld[i] ≤ i
-    double mean_height = 0.0;         ///< volume over footprint area [m], ≥ 0
+    double mean_height = 0.0;         ///< volume over the area of the footprint that is not dry [m], ≥ 0
 
     /// Guarantees: returns only when the invariants hold that can be checked without topology: there is a triangle,
     /// the arrays fit together, indices are in range, numbers finite, normals unit to 1e-6, welded copies at one place.

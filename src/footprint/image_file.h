@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <new>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+
+namespace droplet {
+
+/// A path as it can stand in a message of one line.
+std::string shown(const std::filesystem::path& path);
+
+[[noreturn]] void throwOutOfMemory();
+
+/// The whole file, which may be a pipe; of one that does not begin like an image, the beginning, so that an
+/// endless device is not read for ever.
+/// @throws Error InvalidInput
+std::vector<std::byte> readImageFile(const std::filesystem::path& path);
+
+/// What `decode` makes of a file's bytes; its errors name the file.
+template <class Decode>
+auto fromImageFile(const std::filesystem::path& path, const Decode& decode)
+{
+    const std::vector<std::byte> encoded = readImageFile(path);
+    try {
+        return decode(std::span<const std::byte>(encoded));
+    } catch (const Error& error) {
+        throw Error(error.code(), shown(path) + ": " + error.what());
+    }
+}
+
+}  // namespace droplet
