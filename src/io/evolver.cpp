@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// K. A. Brakke, "The Surface Evolver", Experimental Mathematics 1 (1992); "Surface Evolver Manual", version 2.70
+// (2013), chapters "Datafile organization" and "Hessian".
+#include "droplet/io/evolver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "droplet/error.h"
+#include "droplet/version.h"
+#include "io/byte_stream.h"
+
+namespace droplet {
+namespace {
+
+/// Energies are integrals over the volume, turned into such over the surface by the divergence theorem: ρgz into the
+/// flux of (0, 0, ½z²), which a body's density is, and what pulls along the plane into that of (0, 0, −(s·x)z). Under a
+/// curved ground lies a constant part of both and of the volume.
+struct Physics {
+    double unit = 1.0;     ///< of length [m]
+    double weight = 0.0;   ///< ρg⊥/σ [1/unit²]
+    Vec2 pull;             ///< s = ρg∥/σ [1/unit²]
+    double tension = 1.0;  ///< σ [N/m]
+
+    [[nodiscard]] bool tilted() const { return pull.x != 0.0 || pull.y != 0.0; }
+};
+
+/// ∫½wz² − (s·x)z and ∫z of a function linear on every triangle.
+struct Column {
+    double energy = 0.0;
+    double volume = 0.0;
+};
+
+/// One droplet in the file's units.
+struct Drop {
+    const PlanarMesh* mesh = nullptr;
+    std::vector<Vec3> vertices;
+    std::vector<double> ground;  ///< at every vertex; empty where flat
+    double pressure = 0.0;
+    double area = 0.0;
+    Column liquid;
+    Column under;  ///< between the ground and z = 0
+};
+
+[[noreturn]] void refuse(const std::string& message)
+{
+    throw Error(ErrorCode::InvalidArgument, message);
+}
+
+void checkFits(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields)
+{
+    if (meshes.empty()) {
+        refuse("meshes must hold at least one droplet");
+    }
+    if (fields.size() != meshes.size()) {
+        refuse("fields has " + std::to_string(fields.size()) + " droplets, meshes " + std::to_string(meshes.size()));
+    }
+    const auto finite = [](const std::vector<double>& values) {
+        return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    };
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const HeightField& field = fields[k];
+        const std::size_t count = meshes[k].vertices.size();
+        const std::string name = "fields[" + std::to_string(k) + "]";
+        if (field.height.size() != count || !(field.ground.empty() || field.ground.size() == count)) {
+            refuse(name + " has " + std::to_string(field.height.size()) + " heights and " +
+                   std::to_string(field.ground.size()) + " of the ground, its mesh has " + std::to_string(count) +
+                   " vertices");
+        }
+        if (!finite(field.height) || !finite(field.ground) || !std::isfinite(field.pressure)) {
+            refuse(name + " must be finite");
+        }
+    }
+}
+
+/// The power of ten nearest to the radius of a disc as large as the mean footprint.
+double unitOfLength(const std::vector<PlanarMesh>& meshes)
+{
+    double total = 0.0;
+    for (const PlanarMesh& mesh : meshes) {
+        total += area(mesh);
+    }
+    const double mean = total / static_cast<double>(meshes.size());
+    return std::pow(10.0, std::round(0.5 * std::log10(mean / std::numbers::pi)));
+}
+
+Physics physicsOf(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+{
+    Physics physics;
+    physics.unit = unitOfLength(meshes);
+    physics.tension = options.liquid.surface_tension;
+    const PlaneGravity gravity = planeGravity(options);
+    const double scale = options.liquid.density / physics.tension * physics.unit * physics.unit;
+    physics.weight = scale * gravity.normal;
+    physics.pull = scale * gravity.along;
+    return physics;
+}
+
+Column columnUnder(const std::array<Vec3, 3>& corners, double area, const Physics& physics)
+{
+    double z = 0.0;
+    double zz = 0.0;
+    double sz = 0.0;
+    double s = 0.0;
+    for (const Vec3& p : corners) {
+        const double along = physics.pull.x * p.x + physics.pull.y * p.y;
+        z += p.z;
+        zz += p.z * p.z;
+        s += along;
+        sz += along * p.z;
+    }
+    // ∫fg = A/12·(Σf·Σg + Σfg) for linear functions on a triangle.
+    return {area / 12.0 * (0.5 * physics.weight * (z * z + zz) - (s * z + sz)), area / 3.0 * z};
+}
+
+Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& physics)
+{
+    Drop drop;
+    drop.mesh = &mesh;
+    drop.pressure = field.pressure / physics.tension * physics.unit;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        drop.vertices.push_back(
+            {mesh.vertices[i].x / physics.unit, mesh.vertices[i].y / physics.unit, field.height[i] / physics.unit});
+    }
+    for (const double h : field.ground) {
+        drop.ground.push_back(h / physics.unit);
+    }
+    const auto add = [](Column& sum, const Column& part) {
+        sum.energy += part.energy;
+        sum.volume += part.volume;
+    };
+    for (const Triangle& t : mesh.triangles) {
+        std::array<Vec3, 3> corners{drop.vertices[t[0]], drop.vertices[t[1]], drop.vertices[t[2]]};
+        const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        drop.area += 0.5 * length(normal);
+        add(drop.liquid, columnUnder(corners, 0.5 * normal.z, physics));
+        if (!drop.ground.empty()) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                corners[k].z = drop.ground[t[k]];
+            }
+            add(drop.under, columnUnder(corners, 0.5 * normal.z, physics));
+        }
+    }
+    return drop;
+}
+
+using Ends = std::array<std::uint32_t, 2>;
+
+/// Ends of every edge, the lesser first, in ascending order.
+std::vector<Ends> edgesOf(const PlanarMesh& mesh)
+{
+    std::vector<Ends> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+/// Words and numbers, each with a space or the line's end behind.
+class Lines {
+public:
+    explicit Lines(std::ostream& out) : bytes_(out) {}
+
+    template <class... Items>
+    void line(Items... items)
+    {
+        begin(items...);
+        end();
+    }
+
+    template <class... Items>
+    void begin(Items... items)
+    {
+        (item(items), ...);
+    }
+
+    void end() { bytes_.u8('\n'); }
+    std::uint64_t finish() { return bytes_.finish(); }
+
+private:
+    void item(std::string_view words) { bytes_.text(words); }
+    void item(const char* words) { bytes_.text(words); }
+    template <class Number>
+    void item(Number value)
+    {
+        if constexpr (std::is_floating_point_v<Number>) {
+            value += 0.0;  // no negative zero
+        }
+        bytes_.digits(value);
+    }
+
+    ByteStream bytes_;
+};
+
+/// What Evolver does and says. A step of no length finds the pressures that Newton's method starts from. hessian_seek
+/// looks along Newton's direction for the least energy: safe, but no better than energies can be told apart; from there
+/// hessian, the full step, squares what is left.
+constexpr const char* kCommands = R"(
+read
+hessian_normal on
+vertically := { hessian_special_normal on; }
+freely := { hessian_special_normal off; }
+steps := 0
+equilibrate := {
+  m 0; g;
+  do { before := total_energy; hessian_seek; steps += 1; }
+  while ( steps < 50 && before - total_energy > 1e-6*abs(total_energy) );
+  do { before := sum(body, pressure); hessian; steps += 1; }
+  while ( steps < 60 && abs(sum(body, pressure) - before) > 1e-10*abs(before) );
+}
+report := {
+  printf "energy %.17g height %.17g steps %g\n", total_energy - ground_energy, max(vertex, z - ground), steps;
+  foreach body bb do printf "body %g volume %.17g pressure %.17g\n", bb.id, bb.volume, bb.pressure;
+}
+vertically
+)";
+
+/// Which droplets are one body, by their numbers: [first, last).
+std::vector<std::array<std::size_t, 2>> bodiesOf(std::size_t droplets, const SolveOptions& options)
+{
+    if (options.fill.sharing == FillSharing::Total) {
+        return {{0, droplets}};
+    }
+    std::vector<std::array<std::size_t, 2>> bodies;
+    for (std::size_t k = 0; k < droplets; ++k) {
+        bodies.push_back({k, k + 1});
+    }
+    return bodies;
+}
+
+/// Sum of volumes above z = 0 and of those below the ground.
+std::array<double, 2> volumesOf(const std::vector<Drop>& drops, const std::array<std::size_t, 2>& body)
+{
+    std::array<double, 2> volumes{};
+    for (std::size_t k = body[0]; k < body[1]; ++k) {
+        volumes[0] += drops[k].liquid.volume;
+        volumes[1] += drops[k].under.volume;
+    }
+    return volumes;
+}
+
+double heightOf(const std::vector<Drop>& drops)
+{
+    double height = 0.0;
+    for (const Drop& drop : drops) {
+        for (std::size_t i = 0; i < drop.vertices.size(); ++i) {
+            height = std::max(height, drop.vertices[i].z - (drop.ground.empty() ? 0.0 : drop.ground[i]));
+        }
+    }
+    return height;
+}
+
+/// Writes a datafile of droplets in its units.
+class Datafile {
+public:
+    Datafile(std::ostream& out, const std::vector<Drop>& drops, const Physics& physics, const SolveOptions& options)
+        : lines_(out), drops_(drops), physics_(physics), options_(options), bodies_(bodiesOf(drops.size(), options))
+    {
+    }
+
+    std::uint64_t write()
+    {
+        writeOpening();
+        writeTop();
+        writeVertices();
+        writeEdgesAndFaces();
+        writeBodies();
+        lines_.line(kCommands);
+        return lines_.finish();
+    }
+
+private:
+    void writeOpening()
+    {
+        const double unit = physics_.unit;
+        const double sigma = physics_.tension;
+        lines_.line("// Droplets for Surface Evolver 2.70, by droplet-shape ", kVersion);
+        lines_.line("//");
+        lines_.line("// The unit of length is ", unit, " m, the surface tension 1. To SI:");
+        lines_.line("//   energy * ", sigma * unit * unit, " J, pressure * ", sigma / unit, " Pa");
+        lines_.line("//   height * ", unit, " m, volume * ", unit * unit * unit, " m3");
+        lines_.line(
+            "// Energy: area + int(weight/2*(u^2 - h^2) - (pull_x*x + pull_y*y)*(u - h)), of a surface u over the");
+        lines_.line("// ground h. Volume: int(u - h). Height: the largest u - h. Pressure: dE/dV, at the origin.");
+        lines_.line("//");
+        lines_.line("// The surface below has");
+        double energy = 0.0;
+        for (const Drop& drop : drops_) {
+            energy += drop.area + drop.liquid.energy - drop.under.energy;
+        }
+        lines_.line("//   energy ", energy, " height ", heightOf(drops_));
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            const auto [above, below] = volumesOf(drops_, bodies_[b]);
+            lines_.line("//   body ", b + 1, " volume ", above - below, " pressure ", drops_[bodies_[b][0]].pressure);
+        }
+        lines_.line("//");
+        lines_.line(
+            "// \"equilibrate; report\" finds the equilibrium and prints the same of it. Vertices move up and down "
+            "only,");
+        lines_.line(
+            "// which minimises among the functions that droplet-shape --model exact does; after \"freely\" they move");
+        lines_.line("// along the surface's normal and may hang over, after \"vertically\" up and down again.");
+    }
+
+    void writeTop()
+    {
+        lines_.line();
+        lines_.line("gravity_constant 1");
+        lines_.line("integral_order_2d 2");
+        double ground_energy = 0.0;
+        for (const Drop& drop : drops_) {
+            ground_energy += drop.under.energy;
+        }
+        lines_.line("parameter weight = ", physics_.weight);
+        lines_.line("parameter pull_x = ", physics_.pull.x);
+        lines_.line("parameter pull_y = ", physics_.pull.y);
+        lines_.line("parameter ground_energy = ", ground_energy);
+        lines_.line("define vertex attribute ground real");
+        lines_.line("hessian_special_normal_vector");
+        lines_.line("c1: 0\nc2: 0\nc3: 1");
+        if (physics_.tilted()) {
+            lines_.line("quantity tilt energy method facet_vector_integral global");
+            lines_.line("vector_integrand:");
+            lines_.line("q1: 0\nq2: 0\nq3: -(pull_x*x + pull_y*y)*z");
+        }
+        if (options_.no_penetration) {
+            lines_.line("constraint 1 nonnegative");
+            lines_.line("formula: z = ground");
+        }
+    }
+
+    void writeVertices()
+    {
+        lines_.line();
+        lines_.line("vertices");
+        std::size_t number = 0;
+        for (const Drop& drop : drops_) {
+            for (std::uint32_t v = 0; v < drop.vertices.size(); ++v) {
+                const Vec3& p = drop.vertices[v];
+                lines_.begin(++number, " ", p.x, " ", p.y, " ", p.z);
+                if (drop.mesh->onRim(v)) {
+                    lines_.begin(" fixed");
+                } else if (options_.no_penetration) {
+                    lines_.begin(" constraint 1");
+                }
+                if (!drop.ground.empty()) {
+                    lines_.begin(" ground ", drop.ground[v]);
+                }
+                lines_.line();
+            }
+        }
+    }
+
+    void writeEdgesAndFaces()
+    {
+        std::vector<std::vector<Ends>> edges;
+        lines_.line();
+        lines_.line("edges");
+        std::size_t number = 0;
+        std::size_t first_vertex = 1;
+        for (const Drop& drop : drops_) {
+            edges.push_back(edgesOf(*drop.mesh));
+            for (const auto& [a, b] : edges.back()) {
+                lines_.line(++number, " ", first_vertex + a, " ", first_vertex + b,
+                            drop.mesh->onRim(b) ? " fixed" : "");
+            }
+            first_vertex += drop.vertices.size();
+        }
+        lines_.line();
+        lines_.line("faces");
+        number = 0;
+        std::size_t first_edge = 1;
+        for (std::size_t k = 0; k < drops_.size(); ++k) {
+            for (const Triangle& t : drops_[k].mesh->triangles) {
+                lines_.begin(++number);
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const std::uint32_t from = t[i];
+                    const std::uint32_t to = t[(i + 1) % 3];
+                    const Ends ends{std::min(from, to), std::max(from, to)};
+                    const auto edge = std::lower_bound(edges[k].begin(), edges[k].end(), ends) - edges[k].begin();
+                    lines_.begin(from < to ? " " : " -", first_edge + static_cast<std::size_t>(edge));
+                }
+                lines_.line();
+            }
+            first_edge += edges[k].size();
+        }
+    }
+
+    void writeBodies()
+    {
+        constexpr std::size_t kFacesPerLine = 16;
+        lines_.line();
+        lines_.line("bodies");
+        std::size_t face = 0;
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            lines_.begin(b + 1);
+            for (std::size_t k = bodies_[b][0]; k < bodies_[b][1]; ++k) {
+                for (std::size_t i = 0; i < drops_[k].mesh->triangles.size(); ++i) {
+                    lines_.begin(i % kFacesPerLine == 0 ? " \\\n" : " ", ++face);
+                }
+            }
+            const auto [above, below] = volumesOf(drops_, bodies_[b]);
+            lines_.line(" \\\nvolume ", above - below, " volconst ", 0.0 - below, " density weight");
+        }
+    }
+
+    Lines lines_;
+    const std::vector<Drop>& drops_;
+    const Physics& physics_;
+    const SolveOptions& options_;
+    std::vector<std::array<std::size_t, 2>> bodies_;
+};
+
+}  // namespace
+
+std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& meshes,
+                           const std::vector<HeightField>& fields, const SolveOptions& options)
+{
+    options.validate();
+    checkFits(meshes, fields);
+    const Physics physics = physicsOf(meshes, options);
+    std::vector<Drop> drops;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        drops.push_back(makeDrop(meshes[k], fields[k], physics));
+    }
+    return Datafile(out, drops, physics, options).write();
+}
+
+}  // namespace droplet
