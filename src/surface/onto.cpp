@@ -318,7 +318,19 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
     return chart_facing;
 }
 
-/// Means over the facets around every corner, weighted by their area in the picture.
+/// Angles of a facet in the picture's plane, which sum up alike on either side of a vertex however it is cut.
+std::array<double, 3> anglesOf(const Facet& facet)
+{
+    std::array<double, 3> angles{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2 a = facet.flat[(k + 1) % 3] - facet.flat[k];
+        const Vec2 b = facet.flat[(k + 2) % 3] - facet.flat[k];
+        angles[k] = std::atan2(std::abs(cross(a, b)), dot(a, b));
+    }
+    return angles;
+}
+
+/// Means over the facets around every corner, weighted by their angles there.
 std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Facet>& facets,
                               const std::vector<std::array<std::uint32_t, 3>>& vertices)
 {
@@ -328,25 +340,24 @@ std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Face
     }
     std::vector<Corner> corners(count);
     std::vector<double> weights(count, 0.0);
-    std::vector<double> areas(count, 0.0);
     const auto add = [](std::array<Vec3, 2>& sum, double weight, const std::array<Vec3, 2>& value) {
         sum = {sum[0] + weight * value[0], sum[1] + weight * value[1]};
     };
     for (std::size_t f = 0; f < facets.size(); ++f) {
         const Facet& facet = facets[f];
+        const std::array<double, 3> angles = anglesOf(facet);
         std::array<Vec3, 3> places;
         for (std::size_t k = 0; k < 3; ++k) {
             places[k] = object.positions[vertices[f][k]];
         }
-        const double weight = std::abs(facet.twice_flat);
-        const double area = length(cross(places[1] - places[0], places[2] - places[0]));
+        const double stretch = length(cross(places[1] - places[0], places[2] - places[0])) / std::abs(facet.twice_flat);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t c = facet.corners[k];
             corners[c].place = places[k];
-            corners[c].normal = corners[c].normal + weight * object.normals[vertices[f][k]];
-            add(corners[c].along, weight, derivatives(facet, places));
-            weights[c] += weight;
-            areas[c] += area;
+            corners[c].normal = corners[c].normal + angles[k] * object.normals[vertices[f][k]];
+            corners[c].scale += angles[k] * stretch;
+            add(corners[c].along, angles[k], derivatives(facet, places));
+            weights[c] += angles[k];
         }
     }
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -357,17 +368,19 @@ std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Face
         }
     }
     for (std::size_t c = 0; c < count; ++c) {
-        corners[c].scale = std::sqrt(areas[c] / weights[c]);
+        corners[c].scale = std::sqrt(corners[c].scale / weights[c]);
         corners[c].along = {(1.0 / weights[c]) * corners[c].along[0], (1.0 / weights[c]) * corners[c].along[1]};
     }
     for (const Facet& facet : facets) {
+        const std::array<double, 3> angles = anglesOf(facet);
         std::array<Vec3, 3> heights;
         for (std::size_t k = 0; k < 3; ++k) {
             const Corner& corner = corners[facet.corners[k]];
             heights[k] = corner.scale * corner.normal;
         }
-        for (const std::uint32_t c : facet.corners) {
-            add(corners[c].swelling, std::abs(facet.twice_flat) / weights[c], derivatives(facet, heights));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t c = facet.corners[k];
+            add(corners[c].swelling, angles[k] / weights[c], derivatives(facet, heights));
         }
     }
     return corners;
