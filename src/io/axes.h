@@ -11,4 +11,10 @@ constexpr Vec3 yUp(Vec3 a)
     return {a.x, a.z, 0.0 - a.y};
 }
 
+/// Back from y up to z up.
+constexpr Vec3 zUp(Vec3 a)
+{
+    return {a.x, 0.0 - a.z, a.y};
+}
+
 }  // namespace droplet

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/io/object.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/io/gltf.h"
+#include "support/command.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::writeFile;
+
+std::string littleEndian(std::uint32_t value, std::size_t bytes = 4)
+{
+    std::string text;
+    for (std::size_t i = 0; i < bytes; ++i) {
+        text += static_cast<char>(value >> (8 * i));
+    }
+    return text;
+}
+
+std::string floats(const std::vector<float>& values)
+{
+    std::string text;
+    for (const float value : values) {
+        text += littleEndian(std::bit_cast<std::uint32_t>(value));
+    }
+    return text;
+}
+
+std::string glb(std::string json, std::string buffer)
+{
+    json.append((4 - json.size() % 4) % 4, ' ');
+    buffer.append((4 - buffer.size() % 4) % 4, '\0');
+    std::string chunks = littleEndian(static_cast<std::uint32_t>(json.size())) + "JSON" + json;
+    if (!buffer.empty()) {
+        chunks += littleEndian(static_cast<std::uint32_t>(buffer.size())) + std::string("BIN\0", 4) + buffer;
+    }
+    return "glTF" + littleEndian(2) + littleEndian(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
+}
+
+/// A file of one buffer, put together accessor by accessor.
+class Draft {
+public:
+    /// Returns the accessor's index.
+    std::size_t add(const std::string& bytes, int component, const std::string& type, std::size_t count,
+                    const std::string& more = "")
+    {
+        buffer_.append((4 - buffer_.size() % 4) % 4, '\0');
+        const std::string number = std::to_string(count_);
+        views_ += (count_ > 0 ? "," : "") + std::string(R"({"buffer":0,"byteOffset":)") +
+                  std::to_string(buffer_.size()) + R"(,"byteLength":)" + std::to_string(bytes.size()) + "}";
+        accessors_ += (count_ > 0 ? "," : "") + std::string(R"({"bufferView":)") + number + R"(,"componentType":)" +
+                      std::to_string(component) + R"(,"type":")" + type + R"(","count":)" + std::to_string(count) +
+                      more + "}";
+        buffer_ += bytes;
+        return count_++;
+    }
+    std::size_t addFloats(const std::vector<float>& values, const std::string& type)
+    {
+        const std::size_t width = type == "VEC2" ? 2 : 3;
+        return add(floats(values), 5126, type, values.size() / width);
+    }
+
+    [[nodiscard]] const std::string& buffer() const { return buffer_; }
+    /// @param rest  meshes, nodes, scenes
+    [[nodiscard]] std::string json(const std::string& rest, const std::string& uri = "") const
+    {
+        return R"({"asset":{"version":"2.0"},)" + rest + R"(,"accessors":[)" + accessors_ + R"(],"bufferViews":[)" +
+               views_ + R"(],"buffers":[{"byteLength":)" + std::to_string(buffer_.size()) +
+               (uri.empty() ? "" : R"(,"uri":")" + uri + "\"") + "}]}";
+    }
+    [[nodiscard]] std::string file(const std::string& rest) const { return glb(json(rest), buffer_); }
+
+private:
+    std::string views_;
+    std::string accessors_;
+    std::string buffer_;
+    std::size_t count_ = 0;
+};
+
+/// Two triangles in the plane y = 0 of glTF, normals and uv given: accessors 0, 1, 2.
+Draft square()
+{
+    Draft draft;
+    draft.addFloats({0, 0, 0, 1, 0, 0, 1, 0, 2, 0, 0, 2}, "VEC3");
+    draft.addFloats({0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3");
+    draft.addFloats({0, 0, 0.5F, 0, 0.5F, 1, 0, 1}, "VEC2");
+    return draft;
+}
+
+const std::string kSquare = R"("attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2})";
+
+std::string scene(const std::string& primitive, const std::string& node = "")
+{
+    return R"("meshes":[{"name":"lid","primitives":[{)" + primitive + R"(}]}],"nodes":[{"mesh":0)" + node +
+           R"(}],"scenes":[{"nodes":[0]}])";
+}
+
+class Object : public ::testing::Test {
+protected:
+    [[nodiscard]] TexturedMesh read(const std::string& bytes) const
+    {
+        writeFile(path(), bytes);
+        TexturedMesh mesh = readObject(path());
+        EXPECT_NO_THROW(mesh.validate());
+        return mesh;
+    }
+
+    void expectRefused(const std::string& bytes, const std::string& words) const
+    {
+        writeFile(path(), bytes);
+        expectFileRefused(path(), words);
+    }
+
+    static void expectFileRefused(const std::filesystem::path& file, const std::string& words)
+    {
+        try {
+            (void)readObject(file);
+            ADD_FAILURE() << "read; should say: " << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+            EXPECT_THAT(error.what(), HasSubstr(words));
+            EXPECT_THAT(error.what(), HasSubstr(file.string()));
+            EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("\n")));
+        }
+    }
+
+    [[nodiscard]] std::filesystem::path path(const std::string& name = "object.glb") const
+    {
+        return scratch_.path() / name;
+    }
+
+private:
+    testing::ScratchDirectory scratch_;
+};
+
+const std::string kIndices = R"(,"indices":3)";
+const std::vector<Triangle> kTwo = {{0, 3, 2}, {0, 2, 1}};
+
+Draft indexedSquare()
+{
+    Draft draft = square();
+    draft.add(littleEndian(0x00020300, 4) + littleEndian(0x0102, 2), 5121, "SCALAR", 6);
+    return draft;
+}
+
+TEST_F(Object, IsTurnedToZUp)
+{
+    const TexturedMesh mesh = read(indexedSquare().file(scene(kSquare + kIndices)));
+    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}, {0, -2, 0}}));
+    EXPECT_EQ(mesh.normals, (std::vector<Vec3>(4, {0, 0, 1})));
+    EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}}));
+    EXPECT_EQ(mesh.triangles, kTwo);
+}
+
+TEST_F(Object, ReadsBackWhatTheWriterWrites)
+{
+    const Surface surface = testing::roundDroplet({.inner = 1e-3, .centre = {2e-3, -3e-3}});
+    for (const bool binary : {true, false}) {
+        std::ostringstream out;
+        (void)writeGltf(surface, out, {.binary = binary});
+        const TexturedMesh mesh = read(out.str());
+        ASSERT_EQ(mesh.positions.size(), surface.positions.size());
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            EXPECT_LT(length(mesh.positions[v] - surface.positions[v]), 1e-9);
+            EXPECT_LT(length(mesh.normals[v] - surface.normals[v]), 1e-6);
+            EXPECT_LT(length(mesh.uvs[v] - surface.uvs[v]), 1e-6);
+        }
+        EXPECT_EQ(mesh.triangles, surface.triangles);
+    }
+}
+
+TEST_F(Object, IndicesHaveAnyWidthOrAreLeftOut)
+{
+    const std::vector<std::uint32_t> corners = {0, 3, 2, 0, 2, 1};
+    for (const auto& [component, bytes] : {std::pair{5121, 1}, {5123, 2}, {5125, 4}}) {
+        Draft draft = square();
+        std::string indices;
+        for (const std::uint32_t corner : corners) {
+            indices += littleEndian(corner, static_cast<std::size_t>(bytes));
+        }
+        draft.add(indices, component, "SCALAR", 6);
+        EXPECT_EQ(read(draft.file(scene(kSquare + kIndices))).triangles, kTwo);
+    }
+    EXPECT_EQ(read(square().file(scene(kSquare))).triangles, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
+// Section 3.7.2.1 of the specification.
+TEST_F(Object, StripsAndFansAreTriangles)
+{
+    EXPECT_EQ(read(square().file(scene(kSquare + R"(,"mode":5)"))).triangles,
+              (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
+    EXPECT_EQ(read(square().file(scene(kSquare + R"(,"mode":6)"))).triangles,
+              (std::vector<Triangle>{{1, 2, 0}, {2, 3, 0}}));
+    expectRefused(square().file(scene(kSquare + R"(,"mode":1)")), "no triangles");
+}
+
+TEST_F(Object, UvMayBeNormalisedIntegers)
+{
+    for (const auto& [component, bytes, largest] : {std::tuple{5121, 1, 255U}, {5123, 2, 65535U}}) {
+        Draft draft = square();
+        std::string uv;
+        for (const std::uint32_t value : {0U, 0U, largest, 0U, largest, largest / 5, 0U, largest}) {
+            uv += littleEndian(value, static_cast<std::size_t>(bytes));
+        }
+        draft.add(uv, component, "VEC2", 4, R"(,"normalized":true)");
+        const TexturedMesh mesh = read(draft.file(scene(R"("attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3})")));
+        EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 0.2}, {0, 1}}));
+    }
+}
+
+TEST_F(Object, InterleavedAttributesAreRead)
+{
+    const std::string buffer = floats({0, 0, 0, 7, 8, 1, 0, 0, 9, 10, 1, 0, 2, 11, 12});
+    const std::string json =
+        R"({"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1}}]}],"nodes":[{"mesh":0}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
+        R"({"bufferView":0,"byteOffset":12,"componentType":5126,"type":"VEC2","count":3}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":60,"byteStride":20}],"buffers":[{"byteLength":60}]})";
+    const TexturedMesh mesh = read(glb(json, buffer));
+    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}}));
+    EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{7, 8}, {9, 10}, {11, 12}}));
+}
+
+TEST_F(Object, BuffersMayLieBesideTheFile)
+{
+    const Draft draft = indexedSquare();
+    writeFile(path("its data.bin"), draft.buffer());
+    writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "its%20data.bin"));
+    EXPECT_EQ(readObject(path("object.gltf")).triangles, kTwo);
+
+    std::filesystem::remove(path("its data.bin"));
+    expectFileRefused(path("object.gltf"), "its%20data.bin: No such file");
+    writeFile(path("its data.bin"), draft.buffer().substr(1));
+    expectFileRefused(path("object.gltf"), "bytes of");
+    for (const char* const elsewhere : {"/etc/passwd", "https://example.org/a.bin"}) {
+        writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), elsewhere));
+        expectFileRefused(path("object.gltf"), "not beside the file");
+    }
+    writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "data:text/plain,abc"));
+    expectFileRefused(path("object.gltf"), "base64");
+    writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "data:;base64,!!!!"));
+    expectFileRefused(path("object.gltf"), "base64");
+}
+
+// A node with translation, rotation and scale within one with a matrix: as if the vertices had been moved one by one.
+TEST_F(Object, NodesMoveTheirMeshes)
+{
+    const std::string half = std::to_string(std::sqrt(0.5));
+    const std::string nodes =
+        R"("meshes":[{"primitives":[{)" + kSquare + kIndices +
+        R"(}]}],"nodes":[)"
+        R"({"mesh":0,"translation":[1,2,3],"rotation":[)" +
+        half + ",0,0," + half +
+        R"(],"scale":[2,3,5]},)"
+        R"({"children":[0],"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 10,20,30,1]}],"scenes":[{"nodes":[]},{"nodes":[1]}],"scene":1)";
+    const TexturedMesh mesh = read(indexedSquare().file(nodes));
+    const std::vector<Vec3> flat = {{0, 0, 0}, {1, 0, 0}, {1, 0, 2}, {0, 0, 2}};
+    for (std::size_t v = 0; v < 4; ++v) {
+        const Vec3 scaled{2 * flat[v].x, 3 * flat[v].y, 5 * flat[v].z};
+        const Vec3 rolled{scaled.x, -scaled.z, scaled.y};  // 90° about x
+        const Vec3 moved = rolled + Vec3{1, 2, 3};
+        const Vec3 outer = Vec3{-moved.y, moved.x, moved.z} + Vec3{10, 20, 30};
+        EXPECT_LT(length(mesh.positions[v] - Vec3{outer.x, -outer.z, outer.y}), 1e-5);
+        EXPECT_LT(length(mesh.normals[v] - Vec3{0, -1, 0}), 1e-6);  // +Y, rolled to +Z of glTF
+    }
+    EXPECT_EQ(mesh.triangles, kTwo);
+}
+
+// Normals of an unevenly scaled slope, and the winding of a mirrored one.
+TEST_F(Object, NormalsAndWindingFollowMirrorsAndUnevenScales)
+{
+    Draft draft;
+    draft.addFloats({0, 0, 0, 1, 1, 0, 0, 0, -1}, "VEC3");  // a slope of 45°, rising along x
+    const auto n = static_cast<float>(std::sqrt(0.5));
+    draft.addFloats({-n, n, 0, -n, n, 0, -n, n, 0}, "VEC3");
+    draft.addFloats({0, 0, 1, 0, 0, 1}, "VEC2");
+    for (const double x : {2.0, -2.0}) {
+        const TexturedMesh mesh = read(draft.file(scene(kSquare, R"(,"scale":[)" + std::to_string(x) + R"(,1,1])")));
+        const Vec3 a = mesh.positions[mesh.triangles[0][0]];
+        const Vec3 normal = cross(mesh.positions[mesh.triangles[0][1]] - a, mesh.positions[mesh.triangles[0][2]] - a);
+        EXPECT_LT(length(cross(mesh.normals[0], normal)), 1e-6);
+        EXPECT_GT(dot(mesh.normals[0], normal), 0.0);
+        EXPECT_GT(mesh.normals[0].z, 0.0);
+    }
+}
+
+// A cube whose faces have vertices of their own, each face cut by a diagonal, so that counting triangles would lean.
+TEST_F(Object, MissingNormalsAreThoseOfThePlacesAngles)
+{
+    Draft draft;
+    std::vector<float> positions;
+    std::vector<float> uvs;
+    std::string indices;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const int side : {-1, 1}) {
+            for (int corner = 0; corner < 4; ++corner) {
+                std::array<float, 3> p{};
+                p[static_cast<std::size_t>(axis)] = static_cast<float>(side);
+                p[static_cast<std::size_t>(axis + 1) % 3] = (corner == 1 || corner == 2) ? 1.0F : -1.0F;
+                p[static_cast<std::size_t>(axis + 2) % 3] = corner >= 2 ? 1.0F : -1.0F;
+                positions.insert(positions.end(), p.begin(), p.end());
+                uvs.insert(uvs.end(), {0.0F, 0.0F});
+            }
+            const auto first = static_cast<std::uint32_t>(positions.size() / 3 - 4);
+            for (const std::uint32_t k :
+                 side > 0 ? std::array{0U, 1U, 2U, 0U, 2U, 3U} : std::array{0U, 2U, 1U, 0U, 3U, 2U}) {
+                indices += littleEndian(first + k, 2);
+            }
+        }
+    }
+    draft.addFloats(positions, "VEC3");
+    draft.addFloats(uvs, "VEC2");
+    draft.add(indices, 5123, "SCALAR", 36);
+    const TexturedMesh mesh = read(draft.file(scene(R"("attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2)")));
+    for (std::size_t v = 0; v < 24; ++v) {
+        EXPECT_LT(length(mesh.normals[v] - (1.0 / std::numbers::sqrt3) * mesh.positions[v]), 1e-12);
+    }
+}
+
+TEST_F(Object, RefusesWhatCannotCarryDroplets)
+{
+    expectRefused(indexedSquare().file(scene(R"("attributes":{"POSITION":0,"NORMAL":1})" + kIndices)),
+                  "mesh \"lid\" has no texture coordinates");
+    expectRefused(
+        indexedSquare().file(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}])"),
+        "mesh 0 has no texture coordinates");
+    expectRefused(indexedSquare().file(R"("scenes":[{"nodes":[]}])"), "no triangles");
+    expectRefused(indexedSquare().file(R"("nodes":[])"), "no triangles");
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Draft draft;
+        draft.addFloats({0, 0, 0, 1, 0, bad, 1, 0, 2}, "VEC3");
+        draft.addFloats({0, 0, 1, 0, 1, 1}, "VEC2");
+        expectRefused(draft.file(scene(R"("attributes":{"POSITION":0,"TEXCOORD_0":1})")), "not finite");
+        Draft uv;
+        uv.addFloats({0, 0, 0, 1, 0, 0, 1, 0, 2}, "VEC3");
+        uv.addFloats({0, 0, 1, 0, bad, 1}, "VEC2");
+        expectRefused(uv.file(scene(R"("attributes":{"POSITION":0,"TEXCOORD_0":1})")), "not finite");
+    }
+}
+
+TEST_F(Object, RefusesWhatItDoesNotRead)
+{
+    Draft sparse = indexedSquare();
+    sparse.add(floats({0, 0, 0, 0, 0, 0, 0, 0}), 5126, "VEC2", 4, R"(,"sparse":{"count":1})");
+    expectRefused(sparse.file(scene(R"("attributes":{"POSITION":0,"TEXCOORD_0":4})")), "sparse");
+    expectRefused(
+        indexedSquare().file(scene(kSquare + kIndices) + R"(,"extensionsRequired":["KHR_draco_mesh_compression"])"),
+        "compressed");
+    const std::string one =
+        R"({"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":0}}]}],)";
+    expectRefused(glb(one + R"("accessors":[{"componentType":5126,"type":"VEC3","count":3}]})", ""), "no data");
+}
+
+TEST_F(Object, RefusesDamagedFiles)
+{
+    expectFileRefused(path("missing.glb"), "No such file");
+    expectFileRefused(path(""), "directory");
+    expectFileRefused(std::filesystem::path("/dev/zero"), "no glTF");
+    expectRefused("", "no glTF");
+    expectRefused("solid teapot\n", "no glTF");
+    expectRefused("{\"nodes\":", "no glTF");
+    expectRefused("[]", "no glTF");
+    expectRefused("glTF", "cut short");
+    const std::string whole = indexedSquare().file(scene(kSquare + kIndices));
+    expectRefused(whole.substr(0, whole.size() - 4), "cut short");
+    std::string chunk = whole;  // the last chunk claims four bytes more than there are
+    const std::size_t at = chunk.find(std::string("BIN\0", 4)) - 4;
+    chunk[at] = static_cast<char>(chunk[at] + 4);
+    expectRefused(chunk, "cut short");
+    Draft far = square();
+    far.add(littleEndian(0x040100, 3), 5121, "SCALAR", 3);
+    expectRefused(far.file(scene(kSquare + kIndices)), "names vertex 4 of 4");
+    Draft beyond = square();
+    beyond.add(littleEndian(0x020100, 3), 5121, "SCALAR", 4);
+    expectRefused(beyond.file(scene(kSquare + kIndices)), "accessors[3] reaches beyond its buffer");
+    Draft endless = square();
+    endless.add(littleEndian(0x020100, 3), 5121, "SCALAR", std::size_t{1} << 52);
+    expectRefused(endless.file(scene(kSquare + kIndices)), "accessors[3] reaches beyond its buffer");
+    expectRefused(square().file(scene(R"("attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":9})")), "accessors[9]");
+    expectRefused(square().file(scene(R"("attributes":{"POSITION":0,"NORMAL":-1,"TEXCOORD_0":2})")), "NORMAL");
+    expectRefused(square().file(scene(R"("attributes":{"POSITION":2,"TEXCOORD_0":2})")), "VEC3");
+    expectRefused(square().file(scene(kSquare, R"(,"children":[0])")), "two parents");
+    expectRefused(square().file(scene(kSquare, R"(,"rotation":[0,0,0,0])")), "quaternion");
+    expectRefused(square().file(scene(kSquare, R"(,"scale":[1,"a",1])")), "scale");
+    expectRefused(square().file(scene(kSquare, R"(,"scale":[1e999,1,1])")), "");
+}
+
+// Cut anywhere and with any byte changed, it is read as valid or refused.
+TEST_F(Object, DamageNeverDoesHarm)
+{
+    const std::string whole = indexedSquare().file(scene(kSquare + kIndices, R"(,"translation":[1,2,3])"));
+    std::size_t refused = 0;
+    const auto survive = [&](const std::string& bytes) {
+        std::filesystem::remove(path());  // file systems flush what is written over
+        writeFile(path(), bytes);
+        try {
+            const TexturedMesh mesh = readObject(path());
+            EXPECT_NO_THROW(mesh.validate());
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+            ++refused;
+        }
+    };
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        survive(whole.substr(0, size));
+    }
+    EXPECT_EQ(refused, whole.size());
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        for (const int change : {0x01, 0x02, 0x10, 0x80, 0xff}) {
+            std::string bytes = whole;
+            bytes[at] = static_cast<char>(bytes[at] ^ change);
+            survive(bytes);
+        }
+        std::string text = whole;  // another digit, where there is one, is another index, count or offset
+        text[at] = '9';
+        survive(text);
+    }
+}
+
+}  // namespace
+}  // namespace droplet
