@@ -113,28 +113,45 @@ bool isStandardInput(const std::string& path)
 /// What is known to fail must fail before any work is done.
 void checkPaths(const ShapeOptions& options)
 {
-    struct Output {
+    struct File {
         const char* name;
         const std::string& path;
     };
-    std::vector<Output> outputs{{"OUTPUT", options.output}};
+    std::vector<File> outputs{{"OUTPUT", options.output}};
     if (options.json) {
-        if (sameFile(options.output, *options.json)) {
-            refuseClash("--json", "OUTPUT", options.output);
-        }
         outputs.push_back({"--json", *options.json});
     }
-    for (const Output& output : outputs) {
-        if (isStream(output.path)) {
+    if (options.evolver) {
+        outputs.push_back({"--export-evolver", *options.evolver});
+    }
+    std::vector<File> inputs;
+    if (options.config) {
+        inputs.push_back({"--config", *options.config});
+    }
+    if (options.ground.path) {
+        inputs.push_back({"--surface", *options.ground.path});
+    }
+    if (options.onto) {
+        inputs.push_back({"--onto", *options.onto});
+    }
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        for (auto other = outputs.begin(); other != output; ++other) {
+            if (sameFile(other->path, output->path)) {
+                refuseClash(output->name, other->name, other->path);
+            }
+        }
+        if (isStream(output->path)) {
             continue;
         }
-        if (isStream(options.input) ? isStandardInput(output.path) : sameFile(options.input, output.path)) {
-            refuseClash(output.name, "INPUT", output.path);
+        if (isStream(options.input) ? isStandardInput(output->path) : sameFile(options.input, output->path)) {
+            refuseClash(output->name, "INPUT", output->path);
         }
-        if (options.config && sameFile(*options.config, output.path)) {
-            refuseClash(output.name, "--config", output.path);
+        for (const File& input : inputs) {
+            if (sameFile(input.path, output->path)) {
+                refuseClash(output->name, input.name, output->path);
+            }
         }
-        droplet::checkWritable(output.path, options.files);
+        droplet::checkWritable(output->path, options.files);
     }
 }
 
@@ -254,6 +271,14 @@ droplet::MeshReport describeMeshes(const std::vector<droplet::PlanarMesh>& meshe
     return report;
 }
 
+std::optional<droplet::Retention> retentionOf(const droplet::ShapeFigures& figures, const ShapeOptions& options)
+{
+    if (!options.hysteresis) {
+        return std::nullopt;
+    }
+    return droplet::retention(figures, options.droplet.solve, *options.hysteresis);
+}
+
 /// Everything but bytes, times and memory, which are known when the file is written.
 droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, const ShapeOptions& options)
 {
@@ -261,13 +286,16 @@ droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, cons
     report.input = describeInput(mask, droplet.outline, options);
     report.output = describeOutput(droplet.surface, options);
     report.physics = options.droplet.solve;
+    report.hysteresis = options.hysteresis;
+    report.ground = options.ground;
     report.solve = droplet.solution.report;
     report.mesh = describeMeshes(droplet.meshes);
     report.total = droplet.total;
     for (std::size_t i = 0; i < droplet.meshes.size(); ++i) {
-        report.droplets.push_back(
-            {droplet.figures[i], droplet.meshes[i].loopCount() - 1, droplet.solution.droplets[i].pressure});
+        report.droplets.push_back({droplet.figures[i], droplet.meshes[i].loopCount() - 1,
+                                   droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], options)});
     }
+    report.retention = retentionOf(droplet.total, options);
     const bool one_pressure =
         report.droplets.size() == 1 || options.droplet.solve.fill.sharing == droplet::FillSharing::Total;
     if (one_pressure) {
