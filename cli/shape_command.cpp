@@ -25,7 +25,12 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/height_map.h"
+#include "droplet/io/evolver.h"
+#include "droplet/io/object.h"
 #include "droplet/io/report.h"
+#include "droplet/shape/base_surface.h"
+#include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "progress_display.h"
 #include "shape_options.h"
@@ -203,6 +208,61 @@ droplet::Mask readInput(const ShapeOptions& options)
     return forInput(options, [&] { return droplet::decodeMask(bytes, options.mask); });
 }
 
+/// What lies beside the picture, read before it: what is known to fail must fail before any work is done.
+struct Surroundings {
+    std::optional<droplet::HeightMap> map;
+    std::optional<droplet::TexturedMesh> object;
+};
+
+Surroundings readSurroundings(const ShapeOptions& options)
+{
+    Surroundings around;
+    if (options.ground.path) {
+        around.map = droplet::readHeightMap(*options.ground.path);
+        if (!around.map->in_floats && !options.ground.depth) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "--surface-depth is missing: how much higher white is than black in " + *options.ground.path +
+                            ", such as 2mm");
+        }
+    }
+    if (options.onto) {
+        around.object = droplet::readObject(*options.onto);
+    }
+    return around;
+}
+
+droplet::BaseSurface groundOf(const droplet::GroundReport& ground, const std::optional<droplet::HeightMap>& map,
+                              droplet::Vec2 extent)
+{
+    switch (ground.kind) {
+        case droplet::GroundKind::Sphere:
+            return droplet::BaseSurface::sphere(ground.radius.value());
+        case droplet::GroundKind::Cylinder:
+            return droplet::BaseSurface::cylinder(ground.radius.value(), ground.axis.value());
+        case droplet::GroundKind::HeightMap:
+            return droplet::BaseSurface::heightMap(map.value(), extent, ground.depth);
+        case droplet::GroundKind::Flat:
+            break;
+    }
+    return {};
+}
+
+/// What of the options depends on the picture and what lies beside it: the picture's size on an object, and the ground.
+void complete(droplet::DropletOptions& droplet, const droplet::Mask& mask, const Surroundings& around,
+              const ShapeOptions& options)
+{
+    if (around.object && !options.sized) {
+        droplet.trace.width =
+            droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
+    }
+    const double pixel = droplet.trace.pixel_size.value_or(droplet.trace.width / mask.width);
+    droplet.solve.ground = groundOf(options.ground, around.map, {pixel * mask.width, pixel * mask.height});
+    if (around.object) {
+        // Level, but not known to be: a flat base of few triangles could not follow the object.
+        droplet.solve.ground = droplet::BaseSurface([](droplet::Vec2) { return droplet::GroundPoint{}; });
+    }
+}
+
 /// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
 void refuseTooShortEdge(const droplet::Mask& mask, const ShapeOptions& options)
 {
@@ -306,6 +366,22 @@ droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, cons
     return report;
 }
 
+/// Puts the droplets where they are on the object.
+droplet::ObjectReport lay(Droplet& droplet, const droplet::TexturedMesh& object, const ShapeOptions& options)
+{
+    droplet::OntoResult result = droplet::layOnto(droplet.surface, object, {droplet.domain.extent});
+    droplet.surface = std::move(result.surface);
+    droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+    const droplet::OntoReport& onto = result.report;
+    return {options.onto.value(),
+            onto.laid,
+            onto.outside + onto.across + onto.folded,
+            onto.flipped_charts,
+            onto.overlapping_charts,
+            onto.least_scale,
+            onto.most_scale};
+}
+
 std::uint64_t peakMemory()
 {
     struct rusage usage = {};
@@ -319,24 +395,37 @@ void writeOutput(const std::string& path, const droplet::OutputOptions& files,
     droplet::writeWhole(isStream(path) ? "/dev/stdout" : path, write, files);
 }
 
-/// Writes the surface and, if asked for, the report.
+/// Writes the surface and, if asked for, the datafile for Surface Evolver and the report.
 ///
-/// Two files cannot appear at one instant. So the report is written inside the writing of the surface: after every
-/// byte of the surface has been taken by the file system, before its file is renamed into place. A full disk or an
-/// unwritable report thus leaves both older files as they stood; only a rename that fails could part them.
-void save(const droplet::Surface& surface, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+/// Several files cannot appear at one instant. So each is written inside the writing of the one before it: after every
+/// byte of that has been taken by the file system, before its file is renamed into place. A full disk or an unwritable
+/// report thus leaves all older files as they stood; only a rename that fails could part them.
+void save(const Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
 {
-    writeOutput(options.output, options.files, [&](std::ostream& out) {
-        report.output.bytes =
-            droplet::writeSurface(surface, out, options.format, {options.material, report.output.topology.closed});
-        if (!out) {
-            return;  // whoever opened it knows the cause
-        }
+    const auto write_report = [&] {
         report.time = clock.times();
         report.time_total = clock.total();
         report.peak_memory = peakMemory();
         if (options.json) {
-            writeOutput(*options.json, options.files, [&](std::ostream& json) { droplet::writeReport(json, report); });
+            writeOutput(*options.json, options.files, [&](std::ostream& out) { droplet::writeReport(out, report); });
+        }
+    };
+    const auto write_evolver = [&] {
+        if (!options.evolver) {
+            return write_report();
+        }
+        writeOutput(*options.evolver, options.files, [&](std::ostream& out) {
+            droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, options.droplet.solve);
+            if (out) {
+                write_report();
+            }
+        });
+    };
+    writeOutput(options.output, options.files, [&](std::ostream& out) {
+        report.output.bytes = droplet::writeSurface(droplet.surface, out, options.format,
+                                                    {options.material, report.output.topology.closed});
+        if (out) {  // else whoever opened it knows the cause
+            write_evolver();
         }
     });
 }
@@ -371,7 +460,7 @@ int runShape(int argc, const char* const* argv)
         print(*text);
         return 0;
     }
-    const auto& options = std::get<ShapeOptions>(parsed);
+    auto options = std::get<ShapeOptions>(parsed);
     checkPaths(options);
 
     std::optional<tbb::global_control> threads;
@@ -388,12 +477,19 @@ int runShape(int argc, const char* const* argv)
     };
 
     begin(Stage::Read);
+    const Surroundings around = readSurroundings(options);
     const droplet::Mask mask = readInput(options);
+    complete(options.droplet, mask, around, options);
     refuseTooShortEdge(mask, options);
-    const Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, options.droplet, begin); });
+    Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, options.droplet, begin); });
+    std::optional<droplet::ObjectReport> onto;
+    if (around.object) {
+        onto = lay(droplet, *around.object, options);
+    }
     begin(Stage::Write);
     droplet::Report report = describe(mask, droplet, options);
-    save(droplet.surface, options, clock, report);
+    report.onto = onto;
+    save(droplet, options, clock, report);
     progress.finish();
     tell(report, options);
     return 0;
