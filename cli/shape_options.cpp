@@ -310,8 +310,8 @@ private:
         add(kGroup, "--surface-tension", "S", "instead of the liquid's own");
         add(kGroup, "--density", "D", "instead of the liquid's own");
         add(kGroup, "--model", "NAME",
-            "area of the liquid's surface: linear, good to slopes of\n"
-            "some 50deg; exact [linear]");
+            "area of the liquid's surface: linear, good to slopes\n"
+            "of some 50deg; exact [linear]");
     }
 
     void declareGround()
@@ -320,11 +320,11 @@ private:
         add(kGroup, "--gravity", "G", "into the ground; negative under a ceiling [9.81m/s2]");
         add(kGroup, "--tilt", "ANGLE", "of the ground: 90deg a wall, 180deg a ceiling [0deg]");
         add(kGroup, "--tilt-direction", "ANGLE",
-            "of downhill, counter-clockwise from the picture's right;\n"
-            "-90deg is toward its lower edge [-90deg]");
+            "of downhill, counter-clockwise from the picture's\n"
+            "right: -90deg is toward its lower edge [-90deg]");
         add(kGroup, "--surface", "GROUND",
             "a height map's file, white is high; sphere:R=40mm; or\n"
-            "cylinder:R=33mm,axis=y, where axis is x, y or an angle;\n"
+            "cylinder:R=33mm,axis=y, its axis x, y or an angle;\n"
             "R < 0 is a bowl or a gutter [flat]");
         add(kGroup, "--surface-depth", "LENGTH", "height of white over black in the height map");
         addFlag(kGroup, "--no-penetration", "keep the liquid above the ground, or leave it dry");

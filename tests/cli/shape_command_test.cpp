@@ -274,7 +274,7 @@ TEST_F(ShapeCommandTest, TiltMakesTheRimSteepestDownhill)
         return report(options)["shape"]["contact_angle_deg"];
     };
     const double rim = 7.5e-3;
-    for (const std::string& model : {"linear", "exact"}) {
+    for (const char* model : {"linear", "exact"}) {
         const json down = angles({"--model", model});
         EXPECT_NEAR(down["max_at_m"][0], 0.0, 0.2 * rim) << model;
         EXPECT_NEAR(down["max_at_m"][1], -rim, 0.1 * rim) << model;
@@ -432,11 +432,12 @@ TEST_F(ShapeCommandTest, WritesForSurfaceEvolver)
     make({"two.pgm", "a.glb"});
     make({"two.pgm", "b.glb", "--export-evolver", "b.fe"});
     EXPECT_EQ(bytesOf("a.glb"), bytesOf("b.glb"));
-    EXPECT_THAT(bytesOf("b.fe"), AllOf(HasSubstr("\nvertices"), HasSubstr("\nfacets"), HasSubstr("\nbodies")));
+    EXPECT_THAT(bytesOf("b.fe").substr(0, 100), HasSubstr("for Surface Evolver"));
+    EXPECT_NE(bytesOf("b.fe").find("\nvertices\n"), std::string::npos);
     make({"two.pgm", "c.glb", "--export-evolver", "c.fe", "-j", "1", "--json", "c.json"});
-    EXPECT_EQ(bytesOf("b.fe"), bytesOf("c.fe"));
+    EXPECT_TRUE(bytesOf("b.fe") == bytesOf("c.fe"));
     const auto piped = run({"two.pgm", "d.glb", "--export-evolver", "-", "-q", "--triangles", "2k"});
-    EXPECT_EQ(piped.output, bytesOf("b.fe"));
+    EXPECT_TRUE(piped.output == bytesOf("b.fe"));
     EXPECT_THAT(scratch().names(),
                 ElementsAre("a.glb", "b.fe", "b.glb", "c.fe", "c.glb", "c.json", "d.glb", "disc.pgm", "two.pgm"));
 }
