@@ -15,6 +15,7 @@ _droplet_shape()
     case $previous in
         --channel) choices='auto alpha luma' ;;
         --fill) choices='each total' ;;
+        --model) choices='linear exact' ;;
         --liquid) choices='water ethanol glycerol mercury honey' ;;
         --material) choices='water ink mercury honey plain' ;;
         --format) choices='glb gltf obj ply stl' ;;
@@ -22,18 +23,21 @@ _droplet_shape()
         --solver) choices='auto llt cholmod multigrid' ;;
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
-            --surface-tension | --density | --gravity | --triangles | --edge | --threads | -j)
+            --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
+            --advancing | --receding | --triangles | --edge | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --json | --config) ;;
+        --surface | --onto | --json | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 choices='--width --pixel-size --channel --threshold --invert --speck-size
                     --contact-angle --volume --height --fill
-                    --liquid --surface-tension --density --gravity
+                    --liquid --surface-tension --density --model
+                    --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
+                    --advancing --receding
                     --triangles --edge --grading --open --material --format
-                    --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
+                    --json --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
             fi
             ;;
     esac

@@ -25,7 +25,12 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/height_map.h"
+#include "droplet/io/evolver.h"
+#include "droplet/io/object.h"
 #include "droplet/io/report.h"
+#include "droplet/shape/base_surface.h"
+#include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "progress_display.h"
 #include "shape_options.h"
@@ -113,28 +118,45 @@ bool isStandardInput(const std::string& path)
 /// What is known to fail must fail before any work is done.
 void checkPaths(const ShapeOptions& options)
 {
-    struct Output {
+    struct File {
         const char* name;
         const std::string& path;
     };
-    std::vector<Output> outputs{{"OUTPUT", options.output}};
+    std::vector<File> outputs{{"OUTPUT", options.output}};
     if (options.json) {
-        if (sameFile(options.output, *options.json)) {
-            refuseClash("--json", "OUTPUT", options.output);
-        }
         outputs.push_back({"--json", *options.json});
     }
-    for (const Output& output : outputs) {
-        if (isStream(output.path)) {
+    if (options.evolver) {
+        outputs.push_back({"--export-evolver", *options.evolver});
+    }
+    std::vector<File> inputs;
+    if (options.config) {
+        inputs.push_back({"--config", *options.config});
+    }
+    if (options.ground.path) {
+        inputs.push_back({"--surface", *options.ground.path});
+    }
+    if (options.onto) {
+        inputs.push_back({"--onto", *options.onto});
+    }
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        for (auto other = outputs.begin(); other != output; ++other) {
+            if (sameFile(other->path, output->path)) {
+                refuseClash(output->name, other->name, other->path);
+            }
+        }
+        if (isStream(output->path)) {
             continue;
         }
-        if (isStream(options.input) ? isStandardInput(output.path) : sameFile(options.input, output.path)) {
-            refuseClash(output.name, "INPUT", output.path);
+        if (isStream(options.input) ? isStandardInput(output->path) : sameFile(options.input, output->path)) {
+            refuseClash(output->name, "INPUT", output->path);
         }
-        if (options.config && sameFile(*options.config, output.path)) {
-            refuseClash(output.name, "--config", output.path);
+        for (const File& input : inputs) {
+            if (sameFile(input.path, output->path)) {
+                refuseClash(output->name, input.name, output->path);
+            }
         }
-        droplet::checkWritable(output.path, options.files);
+        droplet::checkWritable(output->path, options.files);
     }
 }
 
@@ -184,6 +206,61 @@ droplet::Mask readInput(const ShapeOptions& options)
     }
     const auto bytes = readStandardInput(options.mask.max_pixels);
     return forInput(options, [&] { return droplet::decodeMask(bytes, options.mask); });
+}
+
+/// What lies beside the picture, read before it: what is known to fail must fail before any work is done.
+struct Surroundings {
+    std::optional<droplet::HeightMap> map;
+    std::optional<droplet::TexturedMesh> object;
+};
+
+Surroundings readSurroundings(const ShapeOptions& options)
+{
+    Surroundings around;
+    if (options.ground.path) {
+        around.map = droplet::readHeightMap(*options.ground.path);
+        if (!around.map->in_floats && !options.ground.depth) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "--surface-depth is missing: how much higher white is than black in " + *options.ground.path +
+                            ", such as 2mm");
+        }
+    }
+    if (options.onto) {
+        around.object = droplet::readObject(*options.onto);
+    }
+    return around;
+}
+
+droplet::BaseSurface groundOf(const droplet::GroundReport& ground, const std::optional<droplet::HeightMap>& map,
+                              droplet::Vec2 extent)
+{
+    switch (ground.kind) {
+        case droplet::GroundKind::Sphere:
+            return droplet::BaseSurface::sphere(ground.radius.value());
+        case droplet::GroundKind::Cylinder:
+            return droplet::BaseSurface::cylinder(ground.radius.value(), ground.axis.value());
+        case droplet::GroundKind::HeightMap:
+            return droplet::BaseSurface::heightMap(map.value(), extent, ground.depth);
+        case droplet::GroundKind::Flat:
+            break;
+    }
+    return {};
+}
+
+/// What of the options depends on the picture and what lies beside it: the picture's size on an object, and the ground.
+void complete(droplet::DropletOptions& droplet, const droplet::Mask& mask, const Surroundings& around,
+              const ShapeOptions& options)
+{
+    if (around.object && !options.sized) {
+        droplet.trace.width =
+            droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
+    }
+    const double pixel = droplet.trace.pixel_size.value_or(droplet.trace.width / mask.width);
+    droplet.solve.ground = groundOf(options.ground, around.map, {pixel * mask.width, pixel * mask.height});
+    if (around.object) {
+        // Level, but not known to be: a flat base of few triangles could not follow the object.
+        droplet.solve.ground = droplet::BaseSurface([](droplet::Vec2) { return droplet::GroundPoint{}; });
+    }
 }
 
 /// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
@@ -254,6 +331,14 @@ droplet::MeshReport describeMeshes(const std::vector<droplet::PlanarMesh>& meshe
     return report;
 }
 
+std::optional<droplet::Retention> retentionOf(const droplet::ShapeFigures& figures, const ShapeOptions& options)
+{
+    if (!options.hysteresis) {
+        return std::nullopt;
+    }
+    return droplet::retention(figures, options.droplet.solve, *options.hysteresis);
+}
+
 /// Everything but bytes, times and memory, which are known when the file is written.
 droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, const ShapeOptions& options)
 {
@@ -261,13 +346,16 @@ droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, cons
     report.input = describeInput(mask, droplet.outline, options);
     report.output = describeOutput(droplet.surface, options);
     report.physics = options.droplet.solve;
+    report.hysteresis = options.hysteresis;
+    report.ground = options.ground;
     report.solve = droplet.solution.report;
     report.mesh = describeMeshes(droplet.meshes);
     report.total = droplet.total;
     for (std::size_t i = 0; i < droplet.meshes.size(); ++i) {
-        report.droplets.push_back(
-            {droplet.figures[i], droplet.meshes[i].loopCount() - 1, droplet.solution.droplets[i].pressure});
+        report.droplets.push_back({droplet.figures[i], droplet.meshes[i].loopCount() - 1,
+                                   droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], options)});
     }
+    report.retention = retentionOf(droplet.total, options);
     const bool one_pressure =
         report.droplets.size() == 1 || options.droplet.solve.fill.sharing == droplet::FillSharing::Total;
     if (one_pressure) {
@@ -276,6 +364,22 @@ droplet::Report describe(const droplet::Mask& mask, const Droplet& droplet, cons
     report.warnings = options.warnings;
     report.warnings.insert(report.warnings.end(), droplet.warnings.begin(), droplet.warnings.end());
     return report;
+}
+
+/// Puts the droplets where they are on the object.
+droplet::ObjectReport lay(Droplet& droplet, const droplet::TexturedMesh& object, const ShapeOptions& options)
+{
+    droplet::OntoResult result = droplet::layOnto(droplet.surface, object, {droplet.domain.extent});
+    droplet.surface = std::move(result.surface);
+    droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+    const droplet::OntoReport& onto = result.report;
+    return {options.onto.value(),
+            onto.laid,
+            onto.outside + onto.across + onto.folded,
+            onto.flipped_charts,
+            onto.overlapping_charts,
+            onto.least_scale,
+            onto.most_scale};
 }
 
 std::uint64_t peakMemory()
@@ -291,24 +395,37 @@ void writeOutput(const std::string& path, const droplet::OutputOptions& files,
     droplet::writeWhole(isStream(path) ? "/dev/stdout" : path, write, files);
 }
 
-/// Writes the surface and, if asked for, the report.
+/// Writes the surface and, if asked for, the datafile for Surface Evolver and the report.
 ///
-/// Two files cannot appear at one instant. So the report is written inside the writing of the surface: after every
-/// byte of the surface has been taken by the file system, before its file is renamed into place. A full disk or an
-/// unwritable report thus leaves both older files as they stood; only a rename that fails could part them.
-void save(const droplet::Surface& surface, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+/// Several files cannot appear at one instant. So each is written inside the writing of the one before it: after every
+/// byte of that has been taken by the file system, before its file is renamed into place. A full disk or an unwritable
+/// report thus leaves all older files as they stood; only a rename that fails could part them.
+void save(const Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
 {
-    writeOutput(options.output, options.files, [&](std::ostream& out) {
-        report.output.bytes =
-            droplet::writeSurface(surface, out, options.format, {options.material, report.output.topology.closed});
-        if (!out) {
-            return;  // whoever opened it knows the cause
-        }
+    const auto write_report = [&] {
         report.time = clock.times();
         report.time_total = clock.total();
         report.peak_memory = peakMemory();
         if (options.json) {
-            writeOutput(*options.json, options.files, [&](std::ostream& json) { droplet::writeReport(json, report); });
+            writeOutput(*options.json, options.files, [&](std::ostream& out) { droplet::writeReport(out, report); });
+        }
+    };
+    const auto write_evolver = [&] {
+        if (!options.evolver) {
+            return write_report();
+        }
+        writeOutput(*options.evolver, options.files, [&](std::ostream& out) {
+            droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, options.droplet.solve);
+            if (out) {
+                write_report();
+            }
+        });
+    };
+    writeOutput(options.output, options.files, [&](std::ostream& out) {
+        report.output.bytes = droplet::writeSurface(droplet.surface, out, options.format,
+                                                    {options.material, report.output.topology.closed});
+        if (out) {  // else whoever opened it knows the cause
+            write_evolver();
         }
     });
 }
@@ -343,7 +460,7 @@ int runShape(int argc, const char* const* argv)
         print(*text);
         return 0;
     }
-    const auto& options = std::get<ShapeOptions>(parsed);
+    auto options = std::get<ShapeOptions>(parsed);
     checkPaths(options);
 
     std::optional<tbb::global_control> threads;
@@ -360,12 +477,19 @@ int runShape(int argc, const char* const* argv)
     };
 
     begin(Stage::Read);
+    const Surroundings around = readSurroundings(options);
     const droplet::Mask mask = readInput(options);
+    complete(options.droplet, mask, around, options);
     refuseTooShortEdge(mask, options);
-    const Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, options.droplet, begin); });
+    Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, options.droplet, begin); });
+    std::optional<droplet::ObjectReport> onto;
+    if (around.object) {
+        onto = lay(droplet, *around.object, options);
+    }
     begin(Stage::Write);
     droplet::Report report = describe(mask, droplet, options);
-    save(droplet.surface, options, clock, report);
+    report.onto = onto;
+    save(droplet, options, clock, report);
     progress.finish();
     tell(report, options);
     return 0;

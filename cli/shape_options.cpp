@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <string_view>
 #include <system_error>
@@ -70,17 +71,19 @@ constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 89.999 * dropl
                        "from 0.001deg to 89.999deg"};
 constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
-constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e6, "from 0m/s2 to 1e6m/s2"};
+constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
+constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
+constexpr Range kDirection{Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi, "from -360deg to 360deg"};
 
 double quantity(const Given& given, const Range& range)
 {
     const double value = forOption(given.subject, [&] { return droplet::parseQuantity(given.text, range.dimension); });
     // Units round: 89.999deg itself must pass.
     const double slack = 4 * std::numeric_limits<double>::epsilon();
-    if (value < range.min * (1 - slack) || value > range.max * (1 + slack)) {
+    if (value < range.min - slack * std::abs(range.min) || value > range.max + slack * std::abs(range.max)) {
         refuse(given, range.words);
     }
-    return value;
+    return std::clamp(value, range.min, range.max);
 }
 
 std::optional<double> finiteNumber(std::string_view text)
@@ -146,6 +149,7 @@ const std::vector<std::vector<std::string>>& exclusiveGroups()
     static const std::vector<std::vector<std::string>> groups{{"--width", "--pixel-size"},
                                                               {"--contact-angle", "--volume", "--height"},
                                                               {"--triangles", "--edge"},
+                                                              {"--surface", "--onto"},
                                                               {"--quiet", "--verbose"}};
     return groups;
 }
@@ -195,6 +199,7 @@ public:
         declareArguments();
         declareFootprint();
         declareLiquid();
+        declareGround();
         declareSurface();
         declareRun();
         app_.footer(kFooter);
@@ -249,6 +254,8 @@ private:
         "Examples:\n"
         "  droplet-shape logo.png logo.glb\n"
         "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
+        "  droplet-shape logo.png wall.glb --model exact --tilt 90deg\n"
+        "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
         "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
         "  droplet-shape - - --format stl < logo.png > logo.stl\n"
         "\n"
@@ -302,7 +309,30 @@ private:
         add(kGroup, "--liquid", "NAME", "water, ethanol, glycerol, mercury, honey, all at 20 C\n[water]");
         add(kGroup, "--surface-tension", "S", "instead of the liquid's own");
         add(kGroup, "--density", "D", "instead of the liquid's own");
-        add(kGroup, "--gravity", "G", "into the ground, at least 0m/s2 [9.81m/s2]");
+        add(kGroup, "--model", "NAME",
+            "area of the liquid's surface: linear, good to slopes\n"
+            "of some 50deg; exact [linear]");
+    }
+
+    void declareGround()
+    {
+        constexpr const char* kGroup = "Gravity and ground";
+        add(kGroup, "--gravity", "G", "into the ground; negative under a ceiling [9.81m/s2]");
+        add(kGroup, "--tilt", "ANGLE", "of the ground: 90deg a wall, 180deg a ceiling [0deg]");
+        add(kGroup, "--tilt-direction", "ANGLE",
+            "of downhill, counter-clockwise from the picture's\n"
+            "right: -90deg is toward its lower edge [-90deg]");
+        add(kGroup, "--surface", "GROUND",
+            "a height map's file, white is high; sphere:R=40mm; or\n"
+            "cylinder:R=33mm,axis=y, its axis x, y or an angle;\n"
+            "R < 0 is a bowl or a gutter [flat]");
+        add(kGroup, "--surface-depth", "LENGTH", "height of white over black in the height map");
+        addFlag(kGroup, "--no-penetration", "keep the liquid above the ground, or leave it dry");
+        add(kGroup, "--onto", "OBJECT", "lay the droplets on a .glb or .gltf by its uv");
+        add(kGroup, "--advancing", "ANGLE",
+            "contact angle beyond which the rim moves out; with\n"
+            "--receding the report says if droplets would slide");
+        add(kGroup, "--receding", "ANGLE", "contact angle below which the rim moves in");
     }
 
     void declareSurface()
@@ -313,7 +343,7 @@ private:
         add(kGroup, "--grading", "N",
             "edges far from the rim up to N times as long as there:\n"
             "1, 2, 4, 8, 16, 32, 64 [1]");
-        addFlag(kGroup, "--open", "leave out the flat base");
+        addFlag(kGroup, "--open", "leave out the base");
         add(kGroup, "--material", "NAME", "look in glTF: water, ink, mercury, honey, plain\n[water]");
         add(kGroup, "--format", "NAME",
             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
@@ -324,6 +354,7 @@ private:
     {
         constexpr const char* kGroup = "Run";
         add(kGroup, "--json", "FILE", "write a report; - is standard output");
+        add(kGroup, "--export-evolver", "FILE", "write the droplets for Surface Evolver");
         addFlag(kGroup, "--no-clobber", "do not replace existing files");
         add(kGroup, "--solver", "NAME",
             "of the linear system: auto, whichever is fastest; llt,\n"
@@ -475,6 +506,7 @@ void readFootprint(const CommandLine& line, ShapeOptions& options)
     if (const auto pixel = line.value("--pixel-size")) {
         trace.pixel_size = quantity(*pixel, kLength);
     }
+    options.sized = line.value("--width") || line.value("--pixel-size");
     if (const auto channel = line.value("--channel")) {
         options.mask.channel = choice<droplet::Channel>(
             *channel,
@@ -529,8 +561,157 @@ void readLiquid(const CommandLine& line, ShapeOptions& options)
     if (!liquid && (tension || density)) {
         solve.liquid.name = "custom";
     }
+    if (const auto model = line.value("--model")) {
+        solve.model =
+            choice<droplet::Model>(*model, {{"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
+    }
+}
+
+void readGravity(const CommandLine& line, ShapeOptions& options)
+{
+    auto& solve = options.droplet.solve;
     if (const auto gravity = line.value("--gravity")) {
         solve.gravity = quantity(*gravity, kGravity);
+    }
+    if (const auto tilt = line.value("--tilt")) {
+        solve.tilt = quantity(*tilt, kHalfTurn);
+        if (solve.tilt > 0.0 && solve.gravity == 0.0) {
+            options.warnings.push_back("--tilt has no effect: there is no gravity");
+        }
+    }
+    if (const auto direction = line.value("--tilt-direction")) {
+        solve.tilt_direction = quantity(*direction, kDirection);
+        if (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max) {
+            options.warnings.push_back("--tilt-direction has no effect: without --tilt no side is downhill");
+        }
+    }
+}
+
+void readHysteresis(const CommandLine& line, ShapeOptions& options)
+{
+    const auto advancing = line.value("--advancing");
+    const auto receding = line.value("--receding");
+    if (!advancing && !receding) {
+        return;
+    }
+    if (!advancing || !receding) {
+        refuse(std::string("--advancing and --receding belong together, ") +
+               (advancing ? "--receding" : "--advancing") + " is missing");
+    }
+    droplet::Hysteresis hysteresis;
+    hysteresis.advancing = quantity(*advancing, kHalfTurn);
+    hysteresis.receding = quantity(*receding, kHalfTurn);
+    if (hysteresis.receding > hysteresis.advancing) {
+        refuse(*receding, "at most --advancing, '" + advancing->text + "'");
+    }
+    options.hysteresis = hysteresis;
+}
+
+constexpr const char* kGroundWords =
+    "a height map's file, sphere:R=LENGTH or cylinder:R=LENGTH,axis=ANGLE, where axis may also be x or y";
+
+/// The values in a list such as `R=33mm,axis=y`, in the order of `keys`, each of which it must have once.
+std::vector<Given> partsOf(const Given& given, std::string_view list, const std::vector<std::string>& keys)
+{
+    std::vector<std::optional<std::string>> values(keys.size());
+    for (bool last = false; !last;) {
+        const std::string_view part = list.substr(0, list.find(','));
+        last = part.size() == list.size();
+        list.remove_prefix(last ? list.size() : part.size() + 1);
+        const auto equals = part.find('=');
+        const auto key =
+            static_cast<std::size_t>(std::find(keys.begin(), keys.end(), part.substr(0, equals)) - keys.begin());
+        if (equals == std::string_view::npos || key == keys.size() || values[key]) {
+            refuse(given, kGroundWords);
+        }
+        values[key] = part.substr(equals + 1);
+    }
+    std::vector<Given> parts;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!values[i]) {
+            refuse(given, kGroundWords);
+        }
+        parts.push_back({*values[i], given.subject + ": " + keys[i]});
+    }
+    return parts;
+}
+
+/// A radius, of a bowl or gutter if negative.
+double radius(const Given& given)
+{
+    constexpr Range kRadius{Dimension::Length, -kLength.max, kLength.max, "from 1nm to 1000m, or from -1000m to -1nm"};
+    const double value = quantity(given, kRadius);
+    if (std::abs(value) < kLength.min) {
+        refuse(given, kRadius.words);
+    }
+    return value;
+}
+
+double axis(const Given& given)
+{
+    if (given.text == "x" || given.text == "y") {
+        return given.text == "x" ? 0.0 : 0.5 * std::numbers::pi;
+    }
+    return quantity(given, kDirection);
+}
+
+/// Whether a text is of the form `word:…=…`: a ground described, or misspelt, rather than the name of a file.
+bool describesGround(std::string_view text)
+{
+    const auto colon = text.find(':');
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const std::string_view word = text.substr(0, colon);
+    return word == "sphere" || word == "cylinder" ||
+           (colon != std::string_view::npos && text.find('=', colon) != std::string_view::npos &&
+            std::all_of(word.begin(), word.end(), is_letter));
+}
+
+droplet::GroundReport groundOf(const Given& given)
+{
+    const std::string_view text = given.text;
+    const std::string_view kind = text.substr(0, text.find(':'));
+    const std::string_view list = text.substr(std::min(text.size(), kind.size() + 1));
+    droplet::GroundReport ground;
+    if (text.empty()) {
+        refuse(given, kGroundWords);
+    }
+    if (!describesGround(text)) {
+        ground.kind = droplet::GroundKind::HeightMap;
+        ground.path = given.text;
+    } else if (kind == "sphere") {
+        ground.kind = droplet::GroundKind::Sphere;
+        ground.radius = radius(partsOf(given, list, {"R"})[0]);
+    } else if (kind == "cylinder") {
+        const auto parts = partsOf(given, list, {"R", "axis"});
+        ground.kind = droplet::GroundKind::Cylinder;
+        ground.radius = radius(parts[0]);
+        ground.axis = axis(parts[1]);
+    } else {
+        refuse(given, kGroundWords);
+    }
+    return ground;
+}
+
+void readGround(const CommandLine& line, ShapeOptions& options)
+{
+    auto& solve = options.droplet.solve;
+    if (const auto surface = line.value("--surface")) {
+        options.ground = groundOf(*surface);
+    }
+    if (const auto depth = line.value("--surface-depth")) {
+        options.ground.depth = quantity(*depth, kLength);
+        if (options.ground.kind != droplet::GroundKind::HeightMap) {
+            options.ground.depth.reset();
+            options.warnings.push_back("--surface-depth has no effect: the ground is no height map");
+        }
+    }
+    if (const auto onto = line.value("--onto")) {
+        options.onto = onto->text;
+    }
+    solve.no_penetration = line.flag("--no-penetration");
+    const bool pulled_down = solve.gravity >= 0.0 && solve.tilt == 0.0;
+    if (solve.no_penetration && pulled_down && options.ground.kind == droplet::GroundKind::Flat) {
+        options.warnings.push_back("--no-penetration has no effect: on level flat ground the liquid stays above it");
     }
 }
 
@@ -583,6 +764,9 @@ void readRun(const CommandLine& line, ShapeOptions& options)
     if (const auto json = line.value("--json")) {
         options.json = json->text;
     }
+    if (const auto evolver = line.value("--export-evolver")) {
+        options.evolver = evolver->text;
+    }
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }
@@ -633,6 +817,9 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     ShapeOptions options;
     readFootprint(line, options);
     readLiquid(line, options);
+    readGravity(line, options);
+    readHysteresis(line, options);
+    readGround(line, options);
     readSurface(line, options);
     readRun(line, options);
     readArguments(line, options);

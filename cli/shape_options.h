@@ -11,6 +11,8 @@
 #include "droplet/footprint/mask.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
+#include "droplet/io/report.h"
+#include "droplet/shape/figures.h"
 
 namespace cli {
 
@@ -30,14 +32,19 @@ enum class ProgressMode {
 
 /// The main job as asked for: everything in range, nothing looked up on disk yet but the configuration file.
 struct ShapeOptions {
-    std::string input;                  ///< path or kStandardStream
-    std::string output;                 ///< path or kStandardStream
-    std::optional<std::string> json;    ///< path or kStandardStream
-    std::optional<std::string> config;  ///< the file options were taken from
+    std::string input;                   ///< path or kStandardStream
+    std::string output;                  ///< path or kStandardStream
+    std::optional<std::string> json;     ///< path or kStandardStream
+    std::optional<std::string> evolver;  ///< path or kStandardStream
+    std::optional<std::string> onto;     ///< path of the object that is wetted
+    std::optional<std::string> config;   ///< the file options were taken from
     droplet::Format format = droplet::Format::Glb;
     droplet::Material material = droplet::Material::Water;
     droplet::MaskOptions mask;
-    droplet::DropletOptions droplet;
+    bool sized = false;               ///< whether the picture's size is given
+    droplet::DropletOptions droplet;  ///< but for solve.ground
+    droplet::GroundReport ground;
+    std::optional<droplet::Hysteresis> hysteresis;
     droplet::OutputOptions files;
     std::optional<std::size_t> threads;
     Verbosity verbosity = Verbosity::Normal;

@@ -110,14 +110,62 @@ std::string table(const Report& report)
     return text;
 }
 
+std::string retention(const Report& report)
+{
+    const auto sliding = std::count_if(report.droplets.begin(), report.droplets.end(), [](const auto& droplet) {
+        return droplet.retention && droplet.retention->wouldSlide();
+    });
+    return counted(static_cast<std::size_t>(sliding), "droplet") + " would slide; pulled by " +
+           digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
+           digits(report.retention->retention_force * 1e6) + " µN";
+}
+
+std::string gravity(const Report& report)
+{
+    const auto& physics = report.physics;
+    std::string text = digits(physics.gravity) + " m/s², tilt " + degrees(physics.tilt);
+    if (physics.tilt > 0.0) {
+        text += " downhill to " + degrees(physics.tilt_direction);
+    }
+    if (const auto length = droplet::capillaryLength(physics.liquid, physics.gravity)) {
+        text += ", capillary length " + millimetres(*length);
+    }
+    return text + ", Bond number " + digits(report.total.bond_number);
+}
+
+std::string ground(const Report& report)
+{
+    const droplet::GroundReport& ground = report.ground;
+    const std::string radius = ground.radius ? " of radius " + millimetres(*ground.radius) : "";
+    switch (ground.kind) {
+        case droplet::GroundKind::Flat:
+            return "flat";
+        case droplet::GroundKind::Sphere:
+            return "sphere" + radius;
+        case droplet::GroundKind::Cylinder:
+            return "cylinder" + radius + ", axis at " + degrees(ground.axis.value_or(0.0));
+        case droplet::GroundKind::HeightMap:
+            return oneLine(ground.path.value_or("")) +
+                   (ground.depth ? ", " + millimetres(*ground.depth) + " deep" : "");
+    }
+    return "";
+}
+
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
-    std::string text =
-        line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " + digits(liquid.density) +
-                           " kg/m³, gravity " + digits(report.physics.gravity) + " m/s²");
-    text += line("solve", report.solve.method + ", " + counted(report.solve.unknowns, "unknown") + ", residual " +
-                              digits(report.solve.residual, 2) +
+    std::string text = line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
+                                          digits(liquid.density) + " kg/m³");
+    text += line("gravity", gravity(report));
+    text += line("ground", ground(report) + (report.physics.no_penetration ? ", no penetration" : "") + ", " +
+                               squareMillimetres(report.total.dry_area) + " left dry");
+    text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +
+                               digits(report.total.gravity_energy * 1e6) + " µJ of gravity");
+    const std::string model = report.physics.model == droplet::Model::Exact
+                                  ? "exact model, " + counted(report.solve.newton_steps, "Newton step")
+                                  : "linear model";
+    text += line("solve", model + ", " + report.solve.method + ", " + counted(report.solve.unknowns, "unknown") +
+                              ", residual " + digits(report.solve.residual, 2) +
                               (report.pressure ? ", pressure " + digits(*report.pressure) + " Pa" : ""));
     text += table(report);
     std::string times;
@@ -138,6 +186,9 @@ std::string summary(const Report& report, bool with_details)
                                   ", " + squareMillimetres(report.total.footprint_area) + ", rim " +
                                   millimetres(report.total.rim_length));
     text += line("shape", shape(report));
+    if (report.retention) {
+        text += line("retention", retention(report));
+    }
     text += line("mesh", counted(report.mesh.triangles, "triangle") + " on the footprint, smallest angle " +
                              degrees(report.mesh.min_angle));
     if (with_details) {

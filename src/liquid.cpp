@@ -60,4 +60,10 @@ const Liquid& liquidNamed(std::string_view name)
     throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is no liquid known by name; known: " + names);
 }
 
+std::optional<double> capillaryLength(const Liquid& liquid, double gravity)
+{
+    const double length = std::sqrt(liquid.surface_tension / (liquid.density * std::abs(gravity)));
+    return std::isfinite(length) ? std::optional(length) : std::nullopt;
+}
+
 }  // namespace droplet

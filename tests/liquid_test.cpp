@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -29,14 +29,20 @@ TEST(Liquids, HaveCapillaryLengthsOfRealLiquids)
 {
     // √(σ/ρg): water 2.73 mm, ethanol 1.70 mm, mercury 1.91 mm in any textbook; a slip in a unit shows here.
     const auto capillary_length = [](const char* name) {
-        const Liquid& liquid = liquidNamed(name);
-        return std::sqrt(liquid.surface_tension / (liquid.density * kStandardGravity));
+        return capillaryLength(liquidNamed(name), kStandardGravity).value_or(0.0);
     };
     EXPECT_NEAR(capillary_length("water"), 2.73e-3, 0.01e-3);
     EXPECT_NEAR(capillary_length("ethanol"), 1.70e-3, 0.01e-3);
     EXPECT_NEAR(capillary_length("mercury"), 1.91e-3, 0.01e-3);
     EXPECT_NEAR(capillary_length("glycerol"), 2.26e-3, 0.01e-3);
     EXPECT_NEAR(capillary_length("honey"), 1.99e-3, 0.01e-3);
+}
+
+TEST(Liquids, HaveNoCapillaryLengthWithoutWeight)
+{
+    EXPECT_EQ(capillaryLength({}, -kStandardGravity), capillaryLength({}, kStandardGravity));
+    EXPECT_EQ(capillaryLength({}, 0.0), std::nullopt);
+    EXPECT_EQ(capillaryLength({"light", 0.07, 0.0}, kStandardGravity), std::nullopt);
 }
 
 TEST(Liquids, AreValidAndFoundByTheirOwnNames)

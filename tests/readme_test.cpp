@@ -168,7 +168,7 @@ TEST(Readme, ShowsHowItIsBuiltOutside)
 TEST(Readme, OptionsAndDefaultsAreTheCommands)
 {
     const Options known = optionsInHelp();
-    EXPECT_EQ(known.size(), 30U);
+    EXPECT_EQ(known.size(), 40U);
     EXPECT_EQ(optionsInReadme(), known);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,5 +28,9 @@ const std::vector<Liquid>& liquids();
 /// @param name    lower case, as in liquids()
 /// @throws Error  InvalidArgument, listing the names known
 const Liquid& liquidNamed(std::string_view name);
+
+/// √(σ/(ρ|g|)), the length beyond which gravity tells [m]; empty where the liquid weighs nothing.
+/// @param gravity  of either sign [m/s²]
+std::optional<double> capillaryLength(const Liquid& liquid, double gravity);
 
 }  // namespace droplet

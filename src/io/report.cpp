@@ -3,6 +3,7 @@
 // The names are the contract of the schema droplet-shape.report/1: keys may be added, none renamed or left out.
 #include "droplet/io/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -42,14 +43,60 @@ const char* nameOf(FillBy by)
     throw Error(ErrorCode::InvalidArgument, "report: fill.by is no way to fill");
 }
 
+const char* nameOf(Model model)
+{
+    switch (model) {
+        case Model::Linear:
+            return "linear";
+        case Model::Exact:
+            return "exact";
+    }
+    throw Error(ErrorCode::InvalidArgument, "report: model is none");
+}
+
+const char* nameOf(GroundKind kind)
+{
+    switch (kind) {
+        case GroundKind::Flat:
+            return "flat";
+        case GroundKind::Sphere:
+            return "sphere";
+        case GroundKind::Cylinder:
+            return "cylinder";
+        case GroundKind::HeightMap:
+            return "height map";
+    }
+    throw Error(ErrorCode::InvalidArgument, "report: ground.kind is no kind of ground");
+}
+
 double degrees(double radians)
 {
     return radians / kDegree;
 }
 
+template <typename Value>
+Json orNull(const std::optional<Value>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
+std::optional<double> degrees(const std::optional<double>& radians)
+{
+    return radians ? std::optional(degrees(*radians)) : std::nullopt;
+}
+
+Json place(Vec2 at)
+{
+    return Json::array({at.x, at.y});
+}
+
 Json angles(const ContactAngle& angle)
 {
-    return {{"min", degrees(angle.min)}, {"mean", degrees(angle.mean)}, {"max", degrees(angle.max)}};
+    return {{"min", degrees(angle.min)},
+            {"mean", degrees(angle.mean)},
+            {"max", degrees(angle.max)},
+            {"min_at_m", place(angle.min_at)},
+            {"max_at_m", place(angle.max_at)}};
 }
 
 Json inputSection(const InputReport& input)
@@ -89,20 +136,76 @@ Json fillSection(const Fill& fill)
             {"sharing", fill.sharing == FillSharing::Each ? "each" : "total"}};
 }
 
-Json dropletRow(const DropletReport& droplet)
+Json liquidSection(const SolveOptions& physics, const std::optional<Hysteresis>& hysteresis)
 {
-    const ShapeFigures& figures = droplet.figures;
-    return {{"footprint_area_m2", figures.footprint_area},
-            {"rim_length_m", figures.rim_length},
-            {"holes", droplet.holes},
-            {"volume_m3", figures.volume},
-            {"pressure_pa", droplet.pressure},
+    std::optional<double> advancing;
+    std::optional<double> receding;
+    if (hysteresis) {
+        advancing = degrees(hysteresis->advancing);
+        receding = degrees(hysteresis->receding);
+    }
+    return {{"name", physics.liquid.name},
+            {"surface_tension_n_per_m", physics.liquid.surface_tension},
+            {"density_kg_per_m3", physics.liquid.density},
+            {"gravity_m_per_s2", physics.gravity},
+            {"tilt_deg", degrees(physics.tilt)},
+            {"tilt_direction_deg", degrees(physics.tilt_direction)},
+            {"capillary_length_m", orNull(capillaryLength(physics.liquid, physics.gravity))},
+            {"advancing_deg", orNull(advancing)},
+            {"receding_deg", orNull(receding)}};
+}
+
+Json groundSection(const GroundReport& ground)
+{
+    return {{"kind", nameOf(ground.kind)},
+            {"path", orNull(ground.path)},
+            {"depth_m", orNull(ground.depth)},
+            {"radius_m", orNull(ground.radius)},
+            {"axis_deg", orNull(degrees(ground.axis))}};
+}
+
+Json ontoSection(const ObjectReport& onto)
+{
+    return {{"path", onto.path},
+            {"droplets_laid", onto.droplets_laid},
+            {"droplets_left_out", onto.droplets_left_out},
+            {"flipped_charts", onto.flipped_charts},
+            {"overlapping_charts", onto.overlapping_charts},
+            {"least_scale", onto.least_scale},
+            {"most_scale", onto.most_scale}};
+}
+
+/// What all droplets together and every one of them have in common.
+Json shapeSection(const ShapeFigures& figures, const Json& pressure, const std::optional<Retention>& retention,
+                  bool would_slide)
+{
+    return {{"volume_m3", figures.volume},
+            {"volume_ul", figures.volume / kMicrolitre},
+            {"pressure_pa", pressure},
             {"height_max_m", figures.height_max},
+            {"depth_max_m", figures.depth_max},
+            {"dry_area_m2", figures.dry_area},
             {"liquid_area_m2", figures.liquid_area},
             {"surface_energy_j", figures.surface_energy},
             {"gravity_energy_j", figures.gravity_energy},
+            {"energy_j", figures.surface_energy + figures.gravity_energy},
+            {"bond_number", figures.bond_number},
             {"contact_angle_deg", angles(figures.contact_angle)},
-            {"slope_max_deg", degrees(figures.slope_max)}};
+            {"slope_max_deg", degrees(figures.slope_max)},
+            {"projected_width_m", figures.projected_width},
+            {"would_slide", retention ? Json(would_slide) : Json()},
+            {"driving_force_n", retention ? Json(retention->driving_force) : Json()},
+            {"retention_force_n", retention ? Json(retention->retention_force) : Json()}};
+}
+
+Json dropletRow(const DropletReport& droplet)
+{
+    Json row{{"footprint_area_m2", droplet.figures.footprint_area},
+             {"rim_length_m", droplet.figures.rim_length},
+             {"holes", droplet.holes}};
+    row.update(shapeSection(droplet.figures, droplet.pressure, droplet.retention,
+                            droplet.retention && droplet.retention->wouldSlide()));
+    return row;
 }
 
 Json sections(const Report& report)
@@ -111,14 +214,13 @@ Json sections(const Report& report)
     Json json;
     json["schema"] = "droplet-shape.report/1";
     json["version"] = kVersion;
-    json["model"] = "linear";
+    json["model"] = nameOf(report.physics.model);
     json["input"] = inputSection(report.input);
     json["output"] = outputSection(report.output);
-    json["liquid"] = {{"name", report.physics.liquid.name},
-                      {"surface_tension_n_per_m", report.physics.liquid.surface_tension},
-                      {"density_kg_per_m3", report.physics.liquid.density},
-                      {"gravity_m_per_s2", report.physics.gravity},
-                      {"tilt_deg", 0.0}};
+    json["liquid"] = liquidSection(report.physics, report.hysteresis);
+    json["ground"] = groundSection(report.ground);
+    json["no_penetration"] = report.physics.no_penetration;
+    json["onto"] = report.onto ? ontoSection(*report.onto) : Json();
     json["fill"] = fillSection(report.physics.fill);
     json["mesh"] = {{"vertices", report.mesh.vertices},
                     {"triangles", report.mesh.triangles},
@@ -127,19 +229,13 @@ Json sections(const Report& report)
                     {"rim_length_m", total.rim_length},
                     {"droplets", report.droplets.size()},
                     {"holes", report.mesh.holes}};
-    json["solve"] = {{"method", report.solve.method},
-                     {"unknowns", report.solve.unknowns},
-                     {"iterations", report.solve.iterations},
-                     {"residual", report.solve.residual},
-                     {"converged", report.solve.usable()}};
-    json["shape"] = {{"volume_m3", total.volume},
-                     {"pressure_pa", report.pressure ? Json(*report.pressure) : Json()},
-                     {"height_max_m", total.height_max},
-                     {"liquid_area_m2", total.liquid_area},
-                     {"surface_energy_j", total.surface_energy},
-                     {"gravity_energy_j", total.gravity_energy},
-                     {"contact_angle_deg", angles(total.contact_angle)},
-                     {"slope_max_deg", degrees(total.slope_max)}};
+    json["solve"] = {{"method", report.solve.method},         {"unknowns", report.solve.unknowns},
+                     {"iterations", report.solve.iterations}, {"newton_steps", report.solve.newton_steps},
+                     {"residual", report.solve.residual},     {"converged", report.solve.usable()}};
+    const bool would_slide = std::any_of(report.droplets.begin(), report.droplets.end(), [](const DropletReport& d) {
+        return d.retention && d.retention->wouldSlide();
+    });
+    json["shape"] = shapeSection(total, orNull(report.pressure), report.retention, would_slide);
     json["droplets"] = Json::array();
     for (const DropletReport& droplet : report.droplets) {
         json["droplets"].push_back(dropletRow(droplet));

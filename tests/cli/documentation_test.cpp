@@ -83,7 +83,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
     const auto known = longOptions(help());
-    EXPECT_THAT(known, SizeIs(30));
+    EXPECT_THAT(known, SizeIs(40));
     EXPECT_EQ(longOptions(manual()), known);
     EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), [&] {
         auto with_syntax = known;
@@ -105,7 +105,7 @@ TEST(Documentation, DefaultsInTheHelpAreTheLibrarys)
 {
     const std::string text = help();
     const auto default_of = [&](const std::string& option) {
-        const auto begin = text.find('[', text.find("\n  " + option)) + 1;
+        const auto begin = text.find('[', text.find("\n  " + option + " ")) + 1;
         return text.substr(begin, text.find(']', begin) - begin);
     };
     const DropletOptions options;
@@ -117,6 +117,11 @@ TEST(Documentation, DefaultsInTheHelpAreTheLibrarys)
     EXPECT_EQ(default_of("--fill"), options.solve.fill.sharing == FillSharing::Each ? "each" : "total");
     EXPECT_EQ(default_of("--liquid"), options.solve.liquid.name);
     EXPECT_DOUBLE_EQ(parseQuantity(default_of("--gravity"), Dimension::Acceleration), options.solve.gravity);
+    EXPECT_EQ(default_of("--model"), options.solve.model == Model::Linear ? "linear" : "exact");
+    EXPECT_DOUBLE_EQ(parseQuantity(default_of("--tilt"), Dimension::Angle), options.solve.tilt);
+    EXPECT_DOUBLE_EQ(parseQuantity(default_of("--tilt-direction"), Dimension::Angle), options.solve.tilt_direction);
+    EXPECT_EQ(default_of("--surface"), options.solve.ground.flat() ? "flat" : "curved");
+    EXPECT_FALSE(options.solve.no_penetration);
     EXPECT_EQ(default_of("--triangles"), std::to_string(options.mesh.triangles / 1000) + "k");
     EXPECT_EQ(default_of("--channel"), "auto");
     EXPECT_EQ(default_of("--grading"), std::to_string(options.mesh.grading));
@@ -151,8 +156,8 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
         names.push_back(liquid.name);
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
-    for (const char* option :
-         {"--channel", "--fill", "--liquid", "--material", "--format", "--progress", "--grading", "--solver"}) {
+    for (const char* option : {"--channel", "--fill", "--liquid", "--model", "--material", "--format", "--progress",
+                               "--grading", "--solver"}) {
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
         for (const std::string& name : offered) {
@@ -168,7 +173,9 @@ TEST(Documentation, CompletionOffersFiles)
     const std::string beginning = (scratch.path() / "my").string();
     testing::writeFile(beginning + " logo.png", "");
     EXPECT_THAT(completions({beginning}), ElementsAre(beginning + " logo.png"));
-    EXPECT_THAT(completions({"--json", beginning}), ElementsAre(beginning + " logo.png"));
+    for (const char* option : {"--json", "--surface", "--onto", "--export-evolver", "--config"}) {
+        EXPECT_THAT(completions({option, beginning}), ElementsAre(beginning + " logo.png")) << option;
+    }
 }
 
 TEST(Documentation, ManualIsCleanRoff)

@@ -106,6 +106,67 @@ TEST_F(FailureTest, BombOfATinyFile)
     expectBadPicture(std::string(kPng.begin(), kPng.end()), {"100000"});
 }
 
+TEST_F(FailureTest, GroundThatCannotBeRead)
+{
+    const std::vector<std::string> run{"disc.pgm", "old.glb", "--json", "old.json", "--surface-depth", "1mm"};
+    const auto expect_bad = [&](const std::string& path, const std::vector<std::string>& words) {
+        auto arguments = run;
+        arguments.insert(arguments.end(), {"--surface", path});
+        auto named = words;
+        named.push_back(path);
+        expectRefusal(arguments, 3, named);
+    };
+    expect_bad("missing.png", {"No such file"});
+    expect_bad("sphere.R=40mm", {"No such file"});
+    fs::create_directory(directory() / "folder.png");
+    expect_bad("folder.png", {"irectory"});
+    const std::string whole = discPicture(64, 24.0);
+    writeFile(directory() / "cut.pgm", whole.substr(0, whole.size() / 2));
+    expect_bad("cut.pgm", {});
+    writeFile(directory() / "empty.png", "");
+    expect_bad("empty.png", {"empty"});
+    writeFile(directory() / "words.png", "This is no picture, but a sentence of some length.\n");
+    expect_bad("words.png", {});
+}
+
+TEST_F(FailureTest, GroundOfWholeNumbersWithoutItsDepth)
+{
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "disc.pgm"}, 2, {"--surface-depth is missing", "disc.pgm"});
+}
+
+TEST_F(FailureTest, FootprintBeyondTheGround)
+{
+    // The disc is 7.5 mm in radius.
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "sphere:R=7mm"}, 2, {"radius 7", "sphere", "must exceed 7.5"});
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "cylinder:R=-7mm,axis=20deg"}, 2,
+                  {"radius 7", "cylinder", "must exceed 7."});
+}
+
+TEST_F(FailureTest, ObjectThatCannotBeRead)
+{
+    writeFile(directory() / "words.glb", "This is no object, but a sentence of some length.\n");
+    fs::create_directory(directory() / "folder.glb");
+    for (const char* object : {"missing.glb", "words.glb", "folder.glb"}) {
+        expectRefusal({"disc.pgm", "old.glb", "--json", "old.json", "--onto", object}, 3, {object});
+    }
+}
+
+TEST_F(FailureTest, DropletsThatDoNotExist)
+{
+    // A cap on a disc of 7.5 mm ends at the half ball: 2/3 π R³ = 884 µL.
+    expectRefusal(
+        {"disc.pgm", "old.glb", "--json", "old.json", "--model", "exact", "--gravity", "0m/s2", "--volume", "1000uL"},
+        5, {"volume"});
+    // Of a linear droplet that hangs from a disc the Bond number is below 3.8317² (J₁'s first zero): here it is 17.
+    for (const std::vector<std::string>& upside_down :
+         {std::vector<std::string>{"--gravity", "-9.81m/s2"}, std::vector<std::string>{"--tilt", "180deg"}}) {
+        std::vector<std::string> arguments{"disc.pgm", "old.glb",  "--json", "old.json", "--export-evolver",
+                                           "old.fe",   "--volume", "100uL",  "--width",  "30mm"};
+        arguments.insert(arguments.end(), upside_down.begin(), upside_down.end());
+        expectRefusal(arguments, 5, {"Bond number"});
+    }
+}
+
 TEST_F(FailureTest, PictureWithoutLiquid)
 {
     expectBadPicture(greymap(32, 32, [](int, int) { return 0; }), {"liquid"});
@@ -121,6 +182,8 @@ TEST_F(FailureTest, MissingFolder)
 {
     expectBadOutput({"nowhere/new.glb", "--json", "old.json"}, {"nowhere/new.glb", "No such file or directory"});
     expectBadOutput({"old.glb", "--json", "nowhere/new.json"}, {"nowhere/new.json", "No such file or directory"});
+    expectBadOutput({"old.glb", "--json", "old.json", "--export-evolver", "nowhere/new.fe"},
+                    {"nowhere/new.fe", "No such file or directory"});
 }
 
 TEST_F(FailureTest, FileForAFolder)
@@ -160,6 +223,8 @@ TEST_F(FailureTest, FullDevice)
     }
     // The droplet itself could be written: that it is not there without its report is the promise.
     expectBadOutput({"old.glb", "--json", "/dev/full"}, {"/dev/full", "No space left"});
+    expectBadOutput({"old.glb", "--json", "old.json", "--export-evolver", "/dev/full"}, {"/dev/full", "No space left"});
+    expectBadOutput({"old.glb", "--json", "/dev/full", "--export-evolver", "new.fe"}, {"/dev/full", "No space left"});
 }
 
 TEST_F(FailureTest, FullStandardOutput)
@@ -182,6 +247,7 @@ TEST_F(FailureTest, ExistingFilesThatMustStay)
 {
     expectBadOutput({"old.glb", "--no-clobber"}, {"old.glb", "exists"});
     expectBadOutput({"new.glb", "--json", "old.json", "--no-clobber"}, {"old.json", "exists"});
+    expectBadOutput({"new.glb", "--export-evolver", "old.json", "--no-clobber"}, {"old.json", "exists"});
 }
 
 TEST_F(FailureTest, StandardInputThatIsTheOutput)

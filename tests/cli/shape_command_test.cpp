@@ -229,6 +229,248 @@ TEST_F(ShapeCommandTest, PhysicsIsAsAskedFor)
     EXPECT_EQ(weightless["shape"]["gravity_energy_j"], 0.0);
 }
 
+TEST_F(ShapeCommandTest, LinearModelIsTheDefault)
+{
+    const json report = this->report({"disc.pgm", "a.glb"});
+    EXPECT_EQ(report["model"], "linear");
+    EXPECT_EQ(report["solve"]["newton_steps"], 1);
+    make({"disc.pgm", "b.glb", "--model", "linear", "--tilt", "0deg", "--gravity", "9.81m/s2"});
+    EXPECT_EQ(bytesOf("a.glb"), bytesOf("b.glb"));
+}
+
+TEST_F(ShapeCommandTest, ExactModelMakesACap)
+{
+    const json report =
+        this->report({"disc.pgm", "a.glb", "--model", "exact", "--gravity", "0m/s2", "--contact-angle", "60deg"});
+    EXPECT_EQ(report["model"], "exact");
+    EXPECT_GT(report["solve"]["newton_steps"], 1);
+    // A cap's height is R tan(θ/2), its pressure 2σ sin θ / R; the disc of pixels is round to 1 %.
+    const double radius = std::sqrt(report["mesh"]["footprint_area_m2"].get<double>() / std::numbers::pi);
+    EXPECT_NEAR(report["shape"]["height_max_m"], radius / std::sqrt(3.0), 0.01 * radius);
+    EXPECT_NEAR(report["shape"]["pressure_pa"], std::sqrt(3.0) * 0.0728 / radius, 0.02 * 0.0728 / radius);
+    EXPECT_TRUE(report["liquid"]["capillary_length_m"].is_null());
+    EXPECT_EQ(report["shape"]["bond_number"], 0.0);
+}
+
+TEST_F(ShapeCommandTest, FiguresOfPhysicistsAgreeWithOneAnother)
+{
+    const json report = this->report({"disc.pgm", "a.glb"});
+    const json& shape = report["shape"];
+    const double area = report["mesh"]["footprint_area_m2"];
+    EXPECT_NEAR(shape["volume_ul"], shape["volume_m3"].get<double>() * 1e9, 1e-12 * shape["volume_ul"].get<double>());
+    EXPECT_EQ(shape["energy_j"], shape["surface_energy_j"].get<double>() + shape["gravity_energy_j"].get<double>());
+    EXPECT_NEAR(report["liquid"]["capillary_length_m"], 2.727e-3, 1e-6);
+    const double bond = 998.2 * 9.81 * area / (std::numbers::pi * 0.0728);
+    EXPECT_NEAR(shape["bond_number"], bond, 1e-9 * bond);
+    EXPECT_EQ(shape["dry_area_m2"], 0.0);
+    EXPECT_EQ(shape["depth_max_m"], 0.0);
+    EXPECT_TRUE(shape["would_slide"].is_null());
+}
+
+TEST_F(ShapeCommandTest, TiltMakesTheRimSteepestDownhill)
+{
+    const auto angles = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"disc.pgm", "a.glb", "--volume", "100uL", "--tilt", "30deg"});
+        return report(options)["shape"]["contact_angle_deg"];
+    };
+    const double rim = 7.5e-3;
+    for (const char* model : {"linear", "exact"}) {
+        const json down = angles({"--model", model});
+        EXPECT_NEAR(down["max_at_m"][0], 0.0, 0.2 * rim) << model;
+        EXPECT_NEAR(down["max_at_m"][1], -rim, 0.1 * rim) << model;
+        EXPECT_NEAR(down["min_at_m"][1], rim, 0.1 * rim) << model;
+        EXPECT_GT(down["max"], down["min"].get<double>() + 10.0) << model;
+        const json right = angles({"--model", model, "--tilt-direction", "0deg"});
+        EXPECT_NEAR(right["max_at_m"][0], rim, 0.1 * rim) << model;
+        EXPECT_NEAR(right["min_at_m"][0], -rim, 0.1 * rim) << model;
+        const json up = angles({"--model", model, "--tilt-direction", "-270deg"});
+        EXPECT_NEAR(up["max_at_m"][1], rim, 0.1 * rim) << model;
+    }
+    const json liquid = report({"disc.pgm", "a.glb", "--tilt", "0.5rad", "--tilt-direction", "-30deg"})["liquid"];
+    EXPECT_NEAR(liquid["tilt_deg"], 0.5 * 180 / std::numbers::pi, 1e-9);
+    EXPECT_NEAR(liquid["tilt_direction_deg"], -30.0, 1e-9);
+}
+
+TEST_F(ShapeCommandTest, GravityAwayFromTheGroundMakesDropletsHang)
+{
+    const auto height = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"disc.pgm", "a.glb", "--volume", "20uL", "--width", "1cm"});
+        return report(options)["shape"]["height_max_m"].get<double>();
+    };
+    const double standing = height({});
+    const double weightless = height({"--gravity", "0m/s2"});
+    const double hanging = height({"--gravity", "-9.81m/s2"});
+    EXPECT_LT(standing, 0.98 * weightless);
+    EXPECT_GT(hanging, 1.02 * weightless);
+    EXPECT_NEAR(height({"--tilt", "180deg"}), hanging, 1e-6 * hanging);
+    EXPECT_NEAR(height({"--tilt", "180deg", "--gravity", "-1g"}), standing, 1e-6 * standing);
+}
+
+TEST_F(ShapeCommandTest, SaysWhetherDropletsWouldSlide)
+{
+    const auto retained = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"disc.pgm", "a.glb", "--volume", "50uL"});
+        return report(options);
+    };
+    const json steep = retained({"--tilt", "90deg", "--advancing", "60deg", "--receding", "50deg"});
+    EXPECT_NEAR(steep["liquid"]["advancing_deg"], 60.0, 1e-9);
+    EXPECT_NEAR(steep["liquid"]["receding_deg"], 50.0, 1e-9);
+    EXPECT_NEAR(steep["shape"]["driving_force_n"], 998.2 * 50e-9 * 9.81, 1e-9);
+    const double width = steep["shape"]["projected_width_m"];
+    EXPECT_NEAR(width, 15e-3, 0.02 * 15e-3);
+    const double cosines = std::cos(50 * std::numbers::pi / 180) - std::cos(60 * std::numbers::pi / 180);
+    EXPECT_NEAR(steep["shape"]["retention_force_n"], 0.0728 * width * cosines, 1e-9);
+    EXPECT_EQ(steep["shape"]["would_slide"], true);
+    EXPECT_EQ(steep["droplets"][0]["would_slide"], true);
+    EXPECT_EQ(retained({"--tilt", "90deg", "--advancing", "100deg", "--receding", "10deg"})["shape"]["would_slide"],
+              false);
+    const json level = retained({"--advancing", "50deg", "--receding", "50deg"});
+    EXPECT_EQ(level["shape"]["would_slide"], false);
+    EXPECT_EQ(level["shape"]["driving_force_n"], 0.0);
+
+    const auto words = run({"disc.pgm", "a.glb", "--triangles", "2k", "--volume", "50uL", "--tilt", "90deg",
+                            "--advancing", "60deg", "--receding", "50deg"});
+    EXPECT_THAT(words.error, AllOf(HasSubstr("1 droplet would slide"), HasSubstr("µN")));
+}
+
+TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
+{
+    const auto warnings = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"disc.pgm", "a.glb", "--contact-angle", "20deg"});
+        return report(options)["warnings"].dump();
+    };
+    EXPECT_EQ(warnings({"--tilt", "10deg", "--tilt-direction", "0deg", "--no-penetration"}), "[]");
+    EXPECT_THAT(warnings({"--tilt-direction", "0deg"}), HasSubstr("--tilt-direction has no effect"));
+    EXPECT_THAT(warnings({"--tilt-direction", "0deg", "--tilt", "0deg"}), HasSubstr("--tilt-direction has no effect"));
+    EXPECT_THAT(warnings({"--tilt", "10deg", "--gravity", "0m/s2"}), HasSubstr("--tilt has no effect"));
+    EXPECT_THAT(warnings({"--surface-depth", "1mm"}), HasSubstr("--surface-depth has no effect"));
+    EXPECT_THAT(warnings({"--surface-depth", "1mm", "--surface", "sphere:R=1m"}),
+                HasSubstr("--surface-depth has no effect"));
+    EXPECT_THAT(warnings({"--no-penetration"}), HasSubstr("--no-penetration has no effect"));
+    EXPECT_EQ(warnings({"--no-penetration", "--surface", "sphere:R=1m"}), "[]");
+}
+
+TEST_F(ShapeCommandTest, GroundIsAsAskedFor)
+{
+    const auto ground = [&](const std::string& surface) {
+        return report({"disc.pgm", "a.glb", "--surface", surface})["ground"];
+    };
+    EXPECT_EQ(report({"disc.pgm", "a.glb"})["ground"]["kind"], "flat");
+    EXPECT_EQ(ground("sphere:R=40mm")["kind"], "sphere");
+    EXPECT_NEAR(ground("sphere:R=-4cm")["radius_m"], -0.04, 1e-15);
+    EXPECT_TRUE(ground("sphere:R=40mm")["axis_deg"].is_null());
+    EXPECT_EQ(ground("cylinder:R=33mm,axis=x")["kind"], "cylinder");
+    EXPECT_EQ(ground("cylinder:R=33mm,axis=x")["axis_deg"], 0.0);
+    EXPECT_NEAR(ground("cylinder:axis=y,R=33mm")["axis_deg"], 90.0, 1e-12);
+    EXPECT_NEAR(ground("cylinder:R=33mm,axis=-30deg")["axis_deg"], -30.0, 1e-12);
+    EXPECT_NEAR(ground("cylinder:R=33mm,axis=-30deg")["radius_m"], 0.033, 1e-15);
+    const json map = report({"disc.pgm", "a.glb", "--surface", "two.pgm", "--surface-depth", "1um"})["ground"];
+    EXPECT_EQ(map["kind"], "height map");
+    EXPECT_EQ(map["path"], "two.pgm");
+    EXPECT_NEAR(map["depth_m"], 1e-6, 1e-18);
+}
+
+/// Lowest and highest z of the binary STL's vertices [mm].
+std::pair<double, double> rangeOfZ(const std::string& stl)
+{
+    std::pair<double, double> range{1e9, -1e9};
+    for (std::size_t triangle = 84; triangle + 50 <= stl.size(); triangle += 50) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            float z = 0.0F;
+            std::memcpy(&z, stl.data() + triangle + 12 * (corner + 1) + 8, sizeof z);
+            range.first = std::min(range.first, static_cast<double>(z));
+            range.second = std::max(range.second, static_cast<double>(z));
+        }
+    }
+    return range;
+}
+
+TEST_F(ShapeCommandTest, BaseFollowsTheGround)
+{
+    // The disc is 7.5 mm in radius: there a ball of 20 mm has fallen by R − √(R² − r²) = 1.46 mm, a bowl has risen.
+    make({"disc.pgm", "ball.stl", "--surface", "sphere:R=20mm", "--contact-angle", "5deg"});
+    EXPECT_NEAR(rangeOfZ(bytesOf("ball.stl")).first, -1.46, 0.03);
+    make({"disc.pgm", "bowl.stl", "--surface", "sphere:R=-20mm", "--contact-angle", "5deg"});
+    EXPECT_NEAR(rangeOfZ(bytesOf("bowl.stl")).first, 0.0, 0.01);
+    EXPECT_NEAR(rangeOfZ(bytesOf("bowl.stl")).second, 1.46, 0.2);
+}
+
+TEST_F(ShapeCommandTest, LevelHeightMapLiftsTheDroplet)
+{
+    writeFile(directory() / "white.pgm", greymap(8, 8, [](int, int) { return 255; }));
+    const json flat = report({"disc.pgm", "flat.stl"});
+    const json lifted = report({"disc.pgm", "lifted.stl", "--surface", "white.pgm", "--surface-depth", "3mm"});
+    const auto [flat_low, flat_high] = rangeOfZ(bytesOf("flat.stl"));
+    const auto [low, high] = rangeOfZ(bytesOf("lifted.stl"));
+    EXPECT_NEAR(low, 3.0 + flat_low, 1e-5);
+    EXPECT_NEAR(high, 3.0 + flat_high, 1e-5);
+    for (const char* key : {"volume_m3", "height_max_m", "liquid_area_m2"}) {
+        EXPECT_NEAR(lifted["shape"][key], flat["shape"][key].get<double>(), 1e-8 * flat["shape"][key].get<double>());
+    }
+}
+
+TEST_F(ShapeCommandTest, NoPenetrationLeavesGroundDry)
+{
+    // Thesis, figure 4.14: a puddle far wider than the capillary length, tilted, sinks into the ground uphill.
+    const std::vector<std::string> puddle{"disc.pgm", "a.glb", "--width", "8cm", "--volume", "3mL", "--tilt", "30deg"};
+    const json before = report(puddle);
+    EXPECT_EQ(before["no_penetration"], false);
+    EXPECT_GT(before["shape"]["depth_max_m"], 1e-4);
+    EXPECT_EQ(before["shape"]["dry_area_m2"], 0.0);
+    auto kept = puddle;
+    kept.emplace_back("--no-penetration");
+    const json after = report(kept);
+    EXPECT_EQ(after["no_penetration"], true);
+    EXPECT_LT(after["shape"]["depth_max_m"], 1e-9);
+    EXPECT_GT(after["shape"]["dry_area_m2"], 0.05 * after["mesh"]["footprint_area_m2"].get<double>());
+    EXPECT_NEAR(after["shape"]["volume_m3"], 3e-6, 1e-15);
+    EXPECT_EQ(after["output"]["closed"], true);
+}
+
+TEST_F(ShapeCommandTest, WritesForSurfaceEvolver)
+{
+    make({"two.pgm", "a.glb"});
+    make({"two.pgm", "b.glb", "--export-evolver", "b.fe"});
+    EXPECT_EQ(bytesOf("a.glb"), bytesOf("b.glb"));
+    EXPECT_THAT(bytesOf("b.fe").substr(0, 100), HasSubstr("for Surface Evolver"));
+    EXPECT_NE(bytesOf("b.fe").find("\nvertices\n"), std::string::npos);
+    make({"two.pgm", "c.glb", "--export-evolver", "c.fe", "-j", "1", "--json", "c.json"});
+    EXPECT_TRUE(bytesOf("b.fe") == bytesOf("c.fe"));
+    const auto piped = run({"two.pgm", "d.glb", "--export-evolver", "-", "-q", "--triangles", "2k"});
+    EXPECT_TRUE(piped.output == bytesOf("b.fe"));
+    EXPECT_THAT(scratch().names(),
+                ElementsAre("a.glb", "b.fe", "b.glb", "c.fe", "c.glb", "c.json", "d.glb", "disc.pgm", "two.pgm"));
+}
+
+TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
+{
+    // The object is a droplet itself: an open cap whose uv is that of its picture.
+    make({"disc.pgm", "cap.glb", "--open", "--width", "6cm"});
+    writeFile(directory() / "spot.pgm", discPicture(64, 8.0));
+    const json own_size = report({"spot.pgm", "laid.stl", "--onto", "cap.glb"});
+    EXPECT_EQ(own_size["onto"]["path"], "cap.glb");
+    EXPECT_EQ(own_size["onto"]["droplets_laid"], 1);
+    EXPECT_EQ(own_size["onto"]["droplets_left_out"], 0);
+    EXPECT_EQ(own_size["output"]["closed"], true);
+    // Drawn at the object's own size: the picture is as wide as the cap's, but for what the cap's slope adds.
+    EXPECT_NEAR(own_size["input"]["pixel_size_m"].get<double>() * 64, 6e-2, 6e-3);
+    EXPECT_NEAR(report({"spot.pgm", "a.glb", "--onto", "cap.glb", "--width", "1cm"})["onto"]["most_scale"], 6.0, 1.0);
+
+    const auto range = rangeOfZ(bytesOf("laid.stl"));
+    make({"disc.pgm", "cap.stl", "--open", "--width", "6cm"});
+    EXPECT_GT(range.second, rangeOfZ(bytesOf("cap.stl")).second);
+
+    make({"spot.pgm", "one.glb", "--onto", "cap.glb", "-j", "1"});
+    make({"spot.pgm", "other.glb", "--onto", "cap.glb", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.glb"), bytesOf("other.glb"));
+
+    // Beside the cap there is no object.
+    const auto beside = run({"disc.pgm", "b.glb", "--onto", "cap.glb", "--invert"});
+    EXPECT_EQ(beside.exit_code, 5);
+    EXPECT_THAT(beside.errorLines(), SizeIs(1));
+    EXPECT_FALSE(fs::exists(directory() / "b.glb"));
+}
+
 TEST_F(ShapeCommandTest, FootprintOptionsReachTheOutline)
 {
     const double area = report({"disc.pgm", "a.glb"})["mesh"]["footprint_area_m2"];
@@ -322,6 +564,26 @@ json comparable(json report)
     return report;
 }
 
+TEST_F(ShapeCommandTest, GivesTheSameBytesOnEveryGroundAtAnyNumberOfThreads)
+{
+    const std::vector<std::vector<std::string>> physics{
+        {"--model", "exact"},
+        {"--model", "exact", "--tilt", "20deg", "--surface", "sphere:R=40mm"},
+        {"--surface", "cylinder:R=-40mm,axis=30deg", "--no-penetration", "--tilt", "20deg"},
+        {"--surface", "two.pgm", "--surface-depth", "0.1mm", "--model", "exact", "--no-penetration"}};
+    for (const auto& options : physics) {
+        SCOPED_TRACE(::testing::PrintToString(options));
+        const auto make_at = [&](const char* name, const char* threads) {
+            std::vector<std::string> arguments{"two.pgm", name, "-j", threads, "--contact-angle", "20deg"};
+            arguments.insert(arguments.end(), options.begin(), options.end());
+            make(arguments);
+        };
+        make_at("one.glb", "1");
+        make_at("other.glb", "2");
+        EXPECT_EQ(bytesOf("one.glb"), bytesOf("other.glb"));
+    }
+}
+
 TEST_F(ShapeCommandTest, ReportsAreTheSameButForTimeAndMemory)
 {
     const json first = report({"two.pgm", "a.glb"});
@@ -399,10 +661,17 @@ TEST_F(ShapeCommandTest, SummaryTellsWhatMatters)
 TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
 {
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "-v"});
-    for (const char* words : {"72.8 mN/m", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
+    for (const char* words :
+         {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "flat", "left dry", "µJ",
+          "linear model", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
         EXPECT_THAT(result.error, HasSubstr(words));
     }
     EXPECT_THAT(result.error, Not(HasSubstr("more, all in")));
+    EXPECT_THAT(run({"disc.pgm", "a.glb", "--triangles", "2k", "-v", "--model", "exact", "--tilt", "20deg", "--surface",
+                     "cylinder:R=33mm,axis=y", "--no-penetration"})
+                    .error,
+                AllOf(HasSubstr("exact model"), HasSubstr("Newton step"), HasSubstr("tilt 20.0° downhill to -90.0°"),
+                      HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration")));
 
     writeFile(directory() / "many.pgm",
               greymap(120, 120, [](int x, int y) { return x % 12 > 2 && y % 12 > 2 ? 255 : 0; }));

@@ -80,7 +80,7 @@ TEST_F(UsageTest, UnknownOptions)
     expectRefused({"--trianglse", "5k"}, {"unknown option --trianglse", "--triangles"});
     expectRefused({"--zzz=3"}, {"unknown option --zzz", "--help"});
     expectRefused({"-x"}, {"unknown option -x"});
-    expectRefused({"--tilt", "5deg"}, {"unknown option --tilt"});
+    expectRefused({"--wind", "5m/s"}, {"unknown option --wind"});
     expectRefused({"--wid", "5mm"}, {"unknown option --wid"});
 }
 
@@ -104,6 +104,13 @@ TEST_F(UsageTest, BareNumbersNameTheUnitsAllowed)
     expectRefused({"--density", "1000"}, {"--density", "no unit", "kg/m3"});
     expectRefused({"--gravity", "9.81"}, {"--gravity", "no unit", "m/s2"});
     expectRefused({"--edge", "1"}, {"--edge", "no unit", "mm"});
+    expectRefused({"--tilt", "45"}, {"--tilt", "no unit", "deg or rad"});
+    expectRefused({"--tilt-direction", "45"}, {"--tilt-direction", "no unit", "deg or rad"});
+    expectRefused({"--advancing", "45", "--receding", "9deg"}, {"--advancing", "no unit", "deg or rad"});
+    expectRefused({"--advancing", "45deg", "--receding", "9"}, {"--receding", "no unit", "deg or rad"});
+    expectRefused({"--surface-depth", "2"}, {"--surface-depth", "no unit", "mm"});
+    expectRefused({"--surface", "sphere:R=40"}, {"--surface", "R", "'40' has no unit", "mm"});
+    expectRefused({"--surface", "cylinder:R=33mm,axis=45"}, {"--surface", "axis", "'45' has no unit", "deg"});
 }
 
 TEST_F(UsageTest, AbsurdQuantities)
@@ -125,7 +132,23 @@ TEST_F(UsageTest, AbsurdQuantities)
         expectRefused({"--surface-tension", tension}, {"--surface-tension", tension});
     }
     expectRefused({"--density", "-1kg/m3"}, {"--density", "from 0kg/m3"});
-    expectRefused({"--gravity", "-1m/s2"}, {"--gravity", "'-1m/s2'", "from 0m/s2"});
+    for (const char* gravity : {"-1.1e6m/s2", "1.1e6m/s2", "-1e300m/s2", "nan", "-infm/s2", "9.81m"}) {
+        expectRefused({"--gravity", gravity}, {"--gravity", gravity});
+    }
+    expectRefused({"--gravity", "-2e6m/s2"}, {"'-2e6m/s2'", "from -1e6m/s2 to 1e6m/s2"});
+    for (const char* tilt : {"-1deg", "180.001deg", "4rad", "1e300deg", "nan", "infdeg", "4mm"}) {
+        expectRefused({"--tilt", tilt}, {"--tilt", tilt});
+        expectRefused({"--advancing", tilt, "--receding", "0deg"}, {"--advancing", tilt});
+        expectRefused({"--advancing", "180deg", "--receding", tilt}, {"--receding", tilt});
+    }
+    expectRefused({"--tilt", "181deg"}, {"'181deg'", "from 0deg to 180deg"});
+    for (const char* direction : {"-361deg", "361deg", "7rad", "nan", "down"}) {
+        expectRefused({"--tilt-direction", direction}, {"--tilt-direction", direction});
+    }
+    expectRefused({"--tilt-direction", "361deg"}, {"from -360deg to 360deg"});
+    for (const char* depth : {"0mm", "-1mm", "1e300m", "nan", "4uL"}) {
+        expectRefused({"--surface-depth", depth}, {"--surface-depth", depth});
+    }
     expectRefused({"--contact-angle", "91deg"}, {"to 89.999deg"});
     expectRefused({"--width", "0mm"}, {"from 1nm to 1000m"});
 }
@@ -146,8 +169,36 @@ TEST_F(UsageTest, NumbersOutOfRange)
     }
 }
 
+TEST_F(UsageTest, GroundsThatAreNone)
+{
+    for (const char* ground : {"", "sphere", "sphere:", "sphere:R", "sphere:=40mm", "sphere:r=40mm", "sphere:R=4mm,",
+                               "sphere:R=4mm,R=5mm", "sphere:R=4mm,axis=y", "sphere:R=4mm axis=y,R=3mm", "cylinder",
+                               "cylinder:", "cylinder:R=3mm", "cylinder:axis=y", "cylinder:R=3mm,axis",
+                               "cylinder:R=3mm,axis=x,axis=y", "cone:R=4mm", "Sphere:R=40mm", ":R=4mm"}) {
+        expectRefused({"--surface", ground}, {"--surface", std::string("'") + ground + "'", "a height map's file",
+                                              "sphere:R=LENGTH", "cylinder:R=LENGTH,axis=ANGLE"});
+    }
+    for (const char* radius : {"0mm", "-0mm", "1e-300m", "0.5nm", "1001m", "-1001m", "nan", "infm", "4uL", "--4mm"}) {
+        expectRefused({"--surface", std::string("sphere:R=") + radius}, {"--surface: R", radius});
+        expectRefused({"--surface", std::string("cylinder:axis=x,R=") + radius}, {"--surface: R", radius});
+    }
+    expectRefused({"--surface", "sphere:R=0mm"}, {"from 1nm to 1000m, or from -1000m to -1nm"});
+    for (const char* axis : {"", "z", "X", "361deg", "nan", "1mm"}) {
+        expectRefused({"--surface", std::string("cylinder:R=33mm,axis=") + axis}, {"--surface: axis", axis});
+    }
+}
+
+TEST_F(UsageTest, AnglesOfARimThatMovesBelongTogether)
+{
+    expectRefused({"--advancing", "90deg"}, {"--advancing and --receding", "--receding is missing"});
+    expectRefused({"--receding", "30deg"}, {"--advancing and --receding", "--advancing is missing"});
+    expectRefused({"--advancing", "30deg", "--receding", "31deg"}, {"--receding", "'31deg'", "at most", "'30deg'"});
+}
+
 TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
 {
+    expectRefused({"--model", "quadratic"}, {"--model", "'quadratic'", "linear, exact"});
+    expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, cholmod, multigrid"});
     expectRefused({"--channel", "red"}, {"--channel", "'red'", "auto, alpha, luma"});
     expectRefused({"--fill", "some"}, {"--fill", "'some'", "each, total"});
     expectRefused({"--liquid", "milk"}, {"--liquid", "'milk'", "water", "mercury"});
@@ -163,6 +214,7 @@ TEST_F(UsageTest, OptionsThatExcludeEachOther)
     expectRefused({"--volume", "1uL", "--contact-angle", "1deg"}, {"--contact-angle and --volume exclude each other"});
     expectRefused({"--height", "1mm", "--contact-angle", "1deg"}, {"--contact-angle and --height exclude each other"});
     expectRefused({"--triangles", "5k", "--edge", "1mm"}, {"--triangles and --edge exclude each other"});
+    expectRefused({"--surface", "sphere:R=4cm", "--onto", "can.glb"}, {"--surface and --onto exclude each other"});
     expectRefused({"-q", "-v"}, {"--quiet and --verbose exclude each other"});
 }
 
@@ -186,6 +238,18 @@ TEST_F(UsageTest, FilesThatWouldMeet)
     expectRefusal({"disc.pgm", "old.glb", "--json", "old.glb"}, 2, {"--json and OUTPUT are the same"});
     expectRefusal({"disc.pgm", "new.glb", "--json", "./new.glb"}, 2, {"--json and OUTPUT are the same"});
     expectRefusal({"disc.pgm", "-", "--format", "glb", "--json", "-"}, 2, {"--json and OUTPUT are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--export-evolver", "disc.pgm"}, 2,
+                  {"--export-evolver and INPUT are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--export-evolver", "./old.glb"}, 2,
+                  {"--export-evolver and OUTPUT are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--json", "old.json", "--export-evolver", "old.json"}, 2,
+                  {"--export-evolver and --json are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--json", "-", "--export-evolver", "-"}, 2,
+                  {"--export-evolver and --json are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "old.glb"}, 2, {"OUTPUT and --surface are the same"});
+    expectRefusal({"disc.pgm", "old.glb", "--onto", "old.glb"}, 2, {"OUTPUT and --onto are the same"});
+    expectRefusal({"disc.pgm", "new.glb", "--surface", "old.json", "--json", "old.json"}, 2,
+                  {"--json and --surface are the same"});
     writeFile(directory() / "settings.toml", "open = true\n");
     expectRefusal({"disc.pgm", "old.glb", "--json", "settings.toml", "--config", "settings.toml"}, 2,
                   {"--json and --config are the same"});

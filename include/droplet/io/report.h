@@ -47,6 +47,29 @@ struct OutputReport {
     Topology topology;
 };
 
+/// What the liquid stands on.
+enum class GroundKind { Flat, Sphere, Cylinder, HeightMap };
+
+/// The ground; what a kind does not have is empty.
+struct GroundReport {
+    GroundKind kind = GroundKind::Flat;
+    std::optional<std::string> path;  ///< of a height map, as given
+    std::optional<double> depth;      ///< of a height map: white over black [m]
+    std::optional<double> radius;     ///< negative of a bowl or gutter [m]
+    std::optional<double> axis;       ///< of a cylinder, counter-clockwise from the picture's right [rad]
+};
+
+/// The object the droplets were laid on, and how.
+struct ObjectReport {
+    std::string path;  ///< as given
+    std::size_t droplets_laid = 0;
+    std::size_t droplets_left_out = 0;
+    std::size_t flipped_charts = 0;
+    std::size_t overlapping_charts = 0;
+    double least_scale = 0.0;  ///< of object to picture, in length
+    double most_scale = 0.0;
+};
+
 /// The footprint's triangulation, all droplets together.
 struct MeshReport {
     std::size_t vertices = 0;
@@ -59,7 +82,8 @@ struct MeshReport {
 struct DropletReport {
     ShapeFigures figures;
     std::size_t holes = 0;
-    double pressure = 0.0;  ///< [Pa]
+    double pressure = 0.0;               ///< [Pa]
+    std::optional<Retention> retention;  ///< where Report::hysteresis is known
 };
 
 /// What a run did and what came of it, in SI units and radians.
@@ -67,10 +91,14 @@ struct Report {
     InputReport input;
     OutputReport output;
     SolveOptions physics;
+    std::optional<Hysteresis> hysteresis;
+    GroundReport ground;
+    std::optional<ObjectReport> onto;  ///< empty where there is no object
     SolveReport solve;
     MeshReport mesh;
     ShapeFigures total;
     std::optional<double> pressure;       ///< [Pa]; empty when droplets have pressures of their own
+    std::optional<Retention> retention;   ///< forces of all droplets together
     std::vector<DropletReport> droplets;  ///< in the order of the meshes
     std::vector<std::string> warnings;
     std::array<double, kStageCount> time{};  ///< indexed by Stage [s]
