@@ -1,0 +1,673 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The exact model against spherical caps, the Young–Laplace equation of droplets of revolution
+// (support/young_laplace.h), minimal surfaces, and the limits beyond which there is no height field: R. Finn,
+// "Equilibrium capillary surfaces" (1986); B. Kawohl and T. Lachand-Robert, "Characterization of Cheeger sets for
+// convex subsets of the plane" (2006).
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "droplet/mesh/triangulate.h"
+#include "droplet/shape/figures.h"
+#include "droplet/shape/solve.h"
+#include "droplet/units.h"
+#include "support/domains.h"
+#include "support/equilibrium.h"
+#include "support/young_laplace.h"
+
+namespace droplet {
+namespace {
+
+using testing::Cap;
+using testing::capOfAngle;
+using testing::capOfVolume;
+using testing::discMeshes;
+using testing::domainOf;
+using testing::dropletOfAngle;
+using testing::dropletOfVolume;
+using testing::ellipseLoop;
+using testing::Equilibrium;
+using testing::equilibrium;
+using testing::integrateRim;
+using testing::l2Error;
+using testing::meanOrder;
+using testing::polygonLoop;
+using testing::reversed;
+using testing::Revolution;
+using testing::RingSurface;
+using testing::unitOptions;
+
+constexpr double kPi = std::numbers::pi;
+
+Domain unitSquare()
+{
+    return domainOf(polygonLoop({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+}
+
+Domain twoDiscs(double first, double second)
+{
+    Domain domain = domainOf(ellipseLoop(first, first));
+    Loop loop = ellipseLoop(second, second);
+    for (Vec2& p : loop.points) {
+        p.x += 1.5 * (first + second);
+    }
+    domain.droplets.push_back({loop, {}});
+    return domain;
+}
+
+// Published values: PHYSICS C by Bashforth and Adams' equation.
+TEST(YoungLaplace, MeetsPublishedValues)
+{
+    const Revolution droplet = dropletOfVolume(1.0, 1.0);
+    EXPECT_NEAR(droplet.height, 0.5557523, 5e-8);
+    EXPECT_NEAR(droplet.rim_angle / kDegree, 63.2148, 5e-5);
+    EXPECT_NEAR(droplet.pressure, 2.103714, 5e-7);
+}
+
+TEST(YoungLaplace, IsASphericalCapWithoutGravity)
+{
+    struct Row {
+        double volume;
+        double height;
+    };
+    for (const Row row : {Row{0.25, .157844}, Row{0.5, .308521}, Row{1, .573684}, Row{2, .969492}}) {
+        const Revolution droplet = dropletOfVolume(0.0, row.volume);
+        const Cap cap = capOfVolume(row.volume);
+        EXPECT_NEAR(cap.height, row.height, 5e-7);
+        EXPECT_NEAR(droplet.height, cap.height, 1e-10);
+        EXPECT_NEAR(droplet.pressure, cap.pressure(), 1e-10);
+        EXPECT_NEAR(droplet.rim_angle, cap.rimAngle(), 1e-10);
+        EXPECT_NEAR(droplet.area, cap.area(), 1e-10);
+        EXPECT_NEAR(droplet.at(0.5), cap.at(0.5), 1e-10);
+        EXPECT_NEAR(droplet.squares,
+                    2.0 * kPi * testing::simpson(0.0, 1.0, [&](double r) { return r * cap.at(r) * cap.at(r); }), 1e-9);
+    }
+}
+
+TEST(YoungLaplace, BalancesForcesAndDoesNotDependOnItsSteps)
+{
+    for (const double weight : {-2.0, 1.0, 5.0, 20.0}) {
+        const Revolution droplet = dropletOfVolume(weight, 0.6);
+        EXPECT_NEAR(2.0 * kPi * std::sin(droplet.rim_angle) + weight * droplet.volume, kPi * droplet.pressure, 1e-9);
+        const Revolution finer = testing::meridian(weight, droplet.curvature, droplet.arc, 4000);
+        EXPECT_NEAR(finer.height, droplet.height, 1e-10);
+        EXPECT_NEAR(finer.squares, droplet.squares, 1e-10);
+    }
+}
+
+// Small droplets obey the linear equation, which Bessel functions solve.
+TEST(YoungLaplace, IsLinearForSmallVolumes)
+{
+    for (const double k : {1.0, 2.0, 5.0}) {
+        const Revolution sessile = dropletOfVolume(k * k, 1e-5);
+        const double scale = 1e-5 / (2 * kPi * (0.5 - std::cyl_bessel_i(1, k) / (k * std::cyl_bessel_i(0, k))));
+        EXPECT_NEAR(sessile.pressure / (k * k * scale), 1.0, 1e-6) << k;
+        EXPECT_NEAR(sessile.height / (scale * (1.0 - 1.0 / std::cyl_bessel_i(0, k))), 1.0, 1e-6) << k;
+    }
+    for (const double k : {1.0, 2.0, 2.6, 3.5}) {
+        const Revolution hanging = dropletOfVolume(-k * k, 1e-5);
+        const double scale = 1e-5 / (2 * kPi * (0.5 - std::cyl_bessel_j(1, k) / (k * std::cyl_bessel_j(0, k))));
+        EXPECT_NEAR(hanging.pressure / (-k * k * scale), 1.0, 1e-6) << k;
+        EXPECT_NEAR(hanging.height / (scale * (1.0 - 1.0 / std::cyl_bessel_j(0, k))), 1.0, 1e-6) << k;
+    }
+}
+
+struct Errors {
+    std::vector<double> l2;
+    std::vector<double> height;
+    std::vector<double> pressure;
+    std::vector<double> angle;
+    std::vector<double> energy;
+};
+
+/// What the model gives on discs of these meshes, against the droplet of revolution of the same volume.
+Errors discErrors(const Revolution& exact, const std::vector<std::vector<PlanarMesh>>& discs)
+{
+    Errors errors;
+    for (const std::vector<PlanarMesh>& meshes : discs) {
+        const SolveOptions options = unitOptions(Model::Exact, exact.weight, exact.volume);
+        const Solution solution = solve(meshes, options);
+        EXPECT_TRUE(solution.report.usable()) << exact.volume << " " << exact.weight;
+        if (!solution.report.usable()) {
+            continue;
+        }
+        const HeightField& field = solution.droplets[0];
+        const ShapeFigures figures = measure(meshes[0], field, options);
+        EXPECT_NEAR(figures.volume / exact.volume, 1.0, 1e-10);
+        errors.l2.push_back(l2Error(meshes[0], field, [&](Vec2 p) { return exact.at(length(p)); }));
+        errors.height.push_back(std::abs(figures.height_max - exact.height));
+        errors.pressure.push_back(std::abs(field.pressure - exact.pressure));
+        errors.angle.push_back(std::abs(figures.contact_angle.mean - exact.rim_angle));
+        errors.energy.push_back(std::abs(figures.surface_energy + figures.gravity_energy - exact.energy()));
+    }
+    return errors;
+}
+
+std::vector<std::vector<PlanarMesh>> refined(double coarsest, std::size_t halvings, int grading = 1)
+{
+    std::vector<std::vector<PlanarMesh>> discs;
+    for (std::size_t k = 0; k <= halvings; ++k) {
+        discs.push_back(triangulate(domainOf(ellipseLoop(1, 1)), {.edge = coarsest, .grading = grading}));
+        coarsest *= 0.5;
+    }
+    return discs;
+}
+
+void expectOrderTwo(const Errors& errors, std::size_t meshes)
+{
+    ASSERT_EQ(errors.l2.size(), meshes);
+    EXPECT_GE(meanOrder(errors.l2), 1.8);
+    EXPECT_GE(meanOrder(errors.height), 1.8);
+    EXPECT_GE(meanOrder(errors.pressure), 1.8);
+    EXPECT_GE(meanOrder(errors.angle), 1.8);
+    EXPECT_GE(meanOrder(errors.energy), 1.8);
+}
+
+TEST(Exact, CapsConvergeWithOrderTwo)
+{
+    const auto discs = refined(0.1, 3);
+    for (const double volume : {0.25, 0.5, 1.0, capOfAngle(70 * kDegree).volume()}) {
+        SCOPED_TRACE(volume);
+        const Errors errors = discErrors(dropletOfVolume(0.0, volume), discs);
+        expectOrderTwo(errors, discs.size());
+    }
+}
+
+// Near the rim a steep cap bends on a length of 1/sin θ − 1 radii, 0.0038 at 85°: edges must be shorter.
+TEST(Exact, SteepCapsConvergeWithOrderTwo)
+{
+    const auto discs = refined(0.008, 3, 32);
+    for (const double angle : {80.0, 85.0}) {
+        SCOPED_TRACE(angle);
+        const Errors errors = discErrors(dropletOfVolume(0.0, capOfAngle(angle * kDegree).volume()), discs);
+        expectOrderTwo(errors, discs.size());
+    }
+}
+
+// 88.2° at the rim, which no mesh here resolves.
+TEST(Exact, NearlyAHemisphereIsFoundAndConverges)
+{
+    const auto discs = refined(0.05, 2);
+    const Revolution exact = dropletOfVolume(0.0, 2.0);
+    const Errors errors = discErrors(exact, discs);
+    ASSERT_EQ(errors.l2.size(), discs.size());
+    EXPECT_GE(meanOrder(errors.l2), 1.0);
+    EXPECT_GE(meanOrder(errors.height), 1.0);
+    EXPECT_GE(meanOrder(errors.energy), 1.0);
+    EXPECT_LT(errors.height.back() / exact.height, 5e-3);
+}
+
+TEST(Exact, DropletsUnderGravityConvergeWithOrderTwo)
+{
+    const auto discs = refined(0.1, 3);
+    for (const double weight : {1.0, 5.0}) {
+        for (const double angle : {30.0, 63.2148}) {
+            SCOPED_TRACE(std::to_string(weight) + " " + std::to_string(angle));
+            const Errors errors = discErrors(dropletOfAngle(weight, angle * kDegree), discs);
+            expectOrderTwo(errors, discs.size());
+        }
+    }
+}
+
+// Two rims, one angle there by quadrature: a hole does not change the order.
+TEST(Exact, LiquidAroundAHoleConvergesWithOrderTwo)
+{
+    RingSurface ring{0.4, 2.5, 0.0};
+    double low = -0.6;
+    double high = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        ring.constant = 0.5 * (low + high);
+        (ring.drop(ring.inner, 1.0) > 0.0 ? high : low) = ring.constant;
+    }
+    const double volume = ring.volume();
+    const double outer_angle = std::asin(ring.sine(1.0));
+    const double inner_angle = -std::asin(ring.sine(ring.inner));
+    std::vector<double> l2;
+    std::vector<double> pressure;
+    std::vector<double> area_error;
+    std::vector<double> angle;
+    for (const double edge : {0.08, 0.04, 0.02, 0.01}) {
+        const std::vector<PlanarMesh> meshes =
+            triangulate(domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.4, 0.4))}), {.edge = edge});
+        const SolveOptions options = unitOptions(Model::Exact, 0.0, volume);
+        const Solution solution = solve(meshes, options);
+        ASSERT_TRUE(solution.report.usable());
+        const ShapeFigures figures = measure(meshes[0], solution.droplets[0], options);
+        l2.push_back(l2Error(meshes[0], solution.droplets[0],
+                             [&](Vec2 p) { return ring.drop(std::clamp(length(p), 0.4, 1.0), 1.0, 40); }));
+        pressure.push_back(std::abs(solution.droplets[0].pressure - ring.pressure));
+        area_error.push_back(std::abs(figures.liquid_area - ring.area()));
+        angle.push_back(std::abs(figures.contact_angle.mean - (outer_angle + 0.4 * inner_angle) / 1.4));
+    }
+    EXPECT_GE(meanOrder(l2), 1.8);
+    EXPECT_GE(meanOrder(pressure), 1.8);
+    EXPECT_GE(meanOrder(area_error), 1.8);
+    EXPECT_GE(meanOrder(angle), 1.8);
+}
+
+TEST(Exact, NewtonStepsDoNotDependOnTheMesh)
+{
+    for (const std::size_t triangles : {10'000U, 100'000U, 400'000U}) {
+        const std::vector<PlanarMesh> meshes =
+            triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = triangles, .edge = {}});
+        const SolveOptions options = unitOptions(Model::Exact, 0.0, capOfAngle(60 * kDegree).volume());
+        const Solution solution = solve(meshes, options);
+        EXPECT_TRUE(solution.report.usable());
+        EXPECT_GT(solution.report.newton_steps, 1U);
+        EXPECT_LE(solution.report.newton_steps, 12U) << triangles;
+    }
+}
+
+// √(1+t) = 1 + t/2 + O(t²): relative differences of the models are of the slope's second order.
+TEST(Exact, AgreesWithTheLinearModelToSecondOrder)
+{
+    const std::vector<PlanarMesh> meshes = discMeshes(0.05);
+    struct Difference {
+        double pressure;
+        double height;
+    };
+    for (const double weight : {0.0, 3.0}) {
+        const auto difference = [&](double volume) {
+            const Solution linear = solve(meshes, unitOptions(Model::Linear, weight, volume));
+            const Solution exact = solve(meshes, unitOptions(Model::Exact, weight, volume));
+            double worst = 0.0;
+            for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
+                worst = std::max(worst, std::abs(linear.droplets[0].height[v] - exact.droplets[0].height[v]));
+            }
+            return Difference{(linear.droplets[0].pressure - exact.droplets[0].pressure) / volume, worst / volume};
+        };
+        for (const double volume : {0.08, 0.04}) {
+            const Difference whole = difference(volume);
+            const Difference half = difference(0.5 * volume);
+            // At g = 0 the next order is relatively (2V/π)².
+            EXPECT_NEAR(whole.pressure / half.pressure, 4.0, 4.0 * volume * volume) << weight << " " << volume;
+            EXPECT_NEAR(whole.height / half.height, 4.0, 4.0 * volume * volume) << weight << " " << volume;
+        }
+    }
+}
+
+// What the rim pulls down with and what the liquid weighs is what the pressure pushes up.
+TEST(Exact, ForcesBalance)
+{
+    for (const double weight : {0.0, 4.0}) {
+        std::vector<double> errors;
+        for (const double edge : {0.08, 0.04, 0.02}) {
+            const std::vector<PlanarMesh> meshes =
+                triangulate(domainOf(ellipseLoop(1.2, 0.8), {reversed(ellipseLoop(0.3, 0.2))}), {.edge = edge});
+            const SolveOptions options = unitOptions(Model::Exact, weight, 0.4);
+            const Solution solution = solve(meshes, options);
+            ASSERT_TRUE(solution.report.usable());
+            const HeightField& field = solution.droplets[0];
+            const double pull =
+                integrateRim(meshes[0], [&](std::uint32_t v, Vec2) { return std::sin(field.contact_angle[v]); });
+            errors.push_back(std::abs((pull + weight * 0.4) / (field.pressure * area(meshes[0])) - 1.0));
+        }
+        EXPECT_GE(meanOrder(errors), 1.8) << weight;
+        EXPECT_LT(errors.back(), 1e-3) << weight;
+    }
+}
+
+TEST(Exact, IsInEquilibriumOnAnyFootprint)
+{
+    const Loop ell = polygonLoop({{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}});
+    for (const Domain& domain :
+         {unitSquare(), domainOf(ell), domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.3, 0.6))})}) {
+        const std::vector<PlanarMesh> meshes = triangulate(domain, {.triangles = 5000, .edge = {}});
+        for (const double weight : {0.0, 4.0}) {
+            const double liquid = 0.1 * std::pow(area(meshes[0]), 1.5);
+            const SolveOptions options = unitOptions(Model::Exact, weight, liquid);
+            const Solution solution = solve(meshes, options);
+            ASSERT_TRUE(solution.report.usable());
+            const Equilibrium found = equilibrium(meshes[0], solution.droplets[0], options);
+            EXPECT_LT(found.free_force, 1e-8);
+            EXPECT_NEAR(found.volume / liquid, 1.0, 1e-10);
+            EXPECT_EQ(found.rim_gap, 0.0);
+            EXPECT_GE(found.least_thickness, -1e-12);
+        }
+    }
+}
+
+TEST(Exact, SolversAgree)
+{
+    const std::vector<PlanarMesh> meshes =
+        triangulate(domainOf(ellipseLoop(1, 0.7), {reversed(ellipseLoop(0.2, 0.2))}), {.triangles = 8000, .edge = {}});
+    SolveOptions options = unitOptions(Model::Exact, 3.0, 0.3);
+    std::vector<Solution> solutions;
+    for (const Solver solver : {Solver::Llt, Solver::Auto, Solver::Cholmod, Solver::Multigrid}) {
+        options.solver = solver;
+        solutions.push_back(solve(meshes, options));
+        ASSERT_TRUE(solutions.back().report.usable());
+    }
+    const std::vector<double>& reference = solutions[0].droplets[0].height;
+    const double largest = *std::max_element(reference.begin(), reference.end());
+    for (const Solution& solution : solutions) {
+        double worst = 0.0;
+        for (std::size_t v = 0; v < reference.size(); ++v) {
+            worst = std::max(worst, std::abs(solution.droplets[0].height[v] - reference[v]));
+        }
+        EXPECT_LT(worst / largest, 1e-8) << solution.report.method;
+        EXPECT_NEAR(solution.droplets[0].pressure / solutions[0].droplets[0].pressure, 1.0, 1e-7);
+    }
+}
+
+TEST(Exact, SameBitsAtAnyNumberOfThreads)
+{
+    const std::vector<PlanarMesh> several = triangulate(twoDiscs(1.0, 0.6), {.triangles = 20'000, .edge = {}});
+    for (const Solver solver : {Solver::Auto, Solver::Llt, Solver::Multigrid}) {
+        SolveOptions options = unitOptions(Model::Exact, 2.0, 0.3);
+        options.fill.sharing = FillSharing::Total;
+        options.solver = solver;
+        std::vector<Solution> runs;
+        for (const int threads : {1, 2, 2}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+            tbb::task_arena arena(threads);
+            arena.execute([&] { runs.push_back(solve(several, options)); });
+        }
+        for (const Solution& run : runs) {
+            ASSERT_TRUE(run.report.usable());
+            EXPECT_EQ(run.report.newton_steps, runs[0].report.newton_steps);
+            for (std::size_t k = 0; k < several.size(); ++k) {
+                EXPECT_EQ(run.droplets[k].height, runs[0].droplets[k].height);
+                EXPECT_EQ(run.droplets[k].rim_slope, runs[0].droplets[k].rim_slope);
+                EXPECT_EQ(run.droplets[k].pressure, runs[0].droplets[k].pressure);
+            }
+        }
+    }
+}
+
+// The same droplet in other units: lengths by 1e-3, σ by 0.07.
+TEST(Exact, DoesNotDependOnUnits)
+{
+    const std::vector<PlanarMesh> meshes = discMeshes(0.05);
+    std::vector<PlanarMesh> small = meshes;
+    for (Vec2& p : small[0].vertices) {
+        p = 1e-3 * p;
+    }
+    small[0].lattice.edge *= 1e-3;
+    const SolveOptions options = unitOptions(Model::Exact, 2.0, 1.0);
+    SolveOptions scaled = options;
+    scaled.liquid = {"other", 0.07, 1000.0};
+    scaled.gravity = 2.0 * 0.07 / 1000.0 / 1e-6;
+    scaled.fill.amount = 1e-9;
+    const Solution one = solve(meshes, options);
+    const Solution other = solve(small, scaled);
+    ASSERT_TRUE(one.report.usable());
+    ASSERT_TRUE(other.report.usable());
+    EXPECT_EQ(one.report.newton_steps, other.report.newton_steps);
+    EXPECT_NEAR(other.droplets[0].pressure * 1e-3 / 0.07, one.droplets[0].pressure, 1e-8);
+    for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
+        EXPECT_NEAR(other.droplets[0].height[v] * 1e3, one.droplets[0].height[v], 1e-8);
+    }
+}
+
+TEST(Exact, HeightAndMeanAngleAreMet)
+{
+    for (const Domain& domain : {domainOf(ellipseLoop(1, 1)), unitSquare()}) {
+        const std::vector<PlanarMesh> meshes = triangulate(domain, {.triangles = 6000, .edge = {}});
+        for (const double weight : {0.0, 3.0}) {
+            SolveOptions options = unitOptions(Model::Exact, weight, 1.0);
+            options.fill = {FillBy::Height, 0.2, FillSharing::Each};
+            const Solution by_height = solve(meshes, options);
+            ASSERT_TRUE(by_height.report.usable());
+            EXPECT_NEAR(measure(meshes[0], by_height.droplets[0], options).height_max / 0.2, 1.0, 1e-8);
+            EXPECT_LT(equilibrium(meshes[0], by_height.droplets[0], options).free_force, 1e-8);
+            for (const double degrees : {10.0, 50.0}) {
+                options.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
+                const Solution by_angle = solve(meshes, options);
+                ASSERT_TRUE(by_angle.report.usable());
+                const ShapeFigures figures = measure(meshes[0], by_angle.droplets[0], options);
+                EXPECT_NEAR(figures.contact_angle.mean / (degrees * kDegree), 1.0, 1e-8);
+                EXPECT_LT(equilibrium(meshes[0], by_angle.droplets[0], options).free_force, 1e-8);
+            }
+        }
+    }
+}
+
+// One height or one angle is one cap.
+TEST(Exact, HeightAngleAndVolumeTellTheSameCap)
+{
+    const std::vector<PlanarMesh> meshes = discMeshes(0.025);
+    for (const double degrees : {20.0, 60.0}) {
+        const Cap cap = capOfAngle(degrees * kDegree);
+        for (const Fill fill : {Fill{FillBy::Volume, cap.volume(), FillSharing::Each},
+                                Fill{FillBy::Height, cap.height, FillSharing::Each},
+                                Fill{FillBy::ContactAngle, degrees * kDegree, FillSharing::Each}}) {
+            SolveOptions options = unitOptions(Model::Exact, 0.0, 1.0);
+            options.fill = fill;
+            const Solution solution = solve(meshes, options);
+            ASSERT_TRUE(solution.report.usable());
+            // Second order, 0.025² = 6e-4.
+            EXPECT_NEAR(solution.droplets[0].pressure / cap.pressure(), 1.0, 2e-3);
+            EXPECT_NEAR(measure(meshes[0], solution.droplets[0], options).volume / cap.volume(), 1.0, 3e-3);
+        }
+    }
+}
+
+// Spherical caps of one radius, 2/λ, on discs of radius 1 and 0.6.
+TEST(Exact, OneReservoirHasOnePressure)
+{
+    const double pressure = 1.5;
+    const Cap large = capOfAngle(std::asin(0.5 * pressure));
+    const double small_angle = std::asin(0.5 * pressure * 0.6);
+    const double small_volume = 0.216 * capOfAngle(small_angle).volume();
+    const double total = large.volume() + small_volume;
+    std::vector<double> pressure_errors;
+    std::vector<double> volume_errors;
+    for (const double edge : {0.08, 0.04, 0.02}) {
+        const std::vector<PlanarMesh> meshes = triangulate(twoDiscs(1.0, 0.6), {.edge = edge});
+        SolveOptions options = unitOptions(Model::Exact, 0.0, total);
+        options.fill.sharing = FillSharing::Total;
+        const Solution solution = solve(meshes, options);
+        ASSERT_TRUE(solution.report.usable());
+        EXPECT_EQ(solution.droplets[0].pressure, solution.droplets[1].pressure);
+        const double first = measure(meshes[0], solution.droplets[0], options).volume;
+        const double second = measure(meshes[1], solution.droplets[1], options).volume;
+        EXPECT_NEAR((first + second) / total, 1.0, 1e-8);
+        pressure_errors.push_back(std::abs(solution.droplets[0].pressure - pressure));
+        volume_errors.push_back(std::abs(second - small_volume));
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_LT(equilibrium(meshes[k], solution.droplets[k], options).free_force, 1e-8);
+        }
+
+        options.fill = {FillBy::ContactAngle, 40 * kDegree, FillSharing::Total};
+        const Solution by_angle = solve(meshes, options);
+        ASSERT_TRUE(by_angle.report.usable());
+        EXPECT_EQ(by_angle.droplets[0].pressure, by_angle.droplets[1].pressure);
+        const ShapeFigures both = combine(
+            {measure(meshes[0], by_angle.droplets[0], options), measure(meshes[1], by_angle.droplets[1], options)});
+        EXPECT_NEAR(both.contact_angle.mean / (40 * kDegree), 1.0, 1e-8);
+
+        options.fill = {FillBy::Height, 0.4, FillSharing::Total};
+        const Solution by_height = solve(meshes, options);
+        ASSERT_TRUE(by_height.report.usable());
+        EXPECT_EQ(by_height.droplets[0].pressure, by_height.droplets[1].pressure);
+        EXPECT_NEAR(measure(meshes[0], by_height.droplets[0], options).height_max / 0.4, 1.0, 1e-8);
+        EXPECT_LT(measure(meshes[1], by_height.droplets[1], options).height_max, 0.3);
+
+        options.fill = {FillBy::Volume, 0.2, FillSharing::Each};
+        const Solution each = solve(meshes, options);
+        ASSERT_TRUE(each.report.usable());
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_NEAR(measure(meshes[k], each.droplets[k], options).volume / 0.2, 1.0, 1e-10);
+        }
+        EXPECT_LT(each.droplets[0].pressure, each.droplets[1].pressure);
+    }
+    EXPECT_GE(meanOrder(pressure_errors), 1.8);
+    EXPECT_GE(meanOrder(volume_errors), 1.8);
+}
+
+/// A minimal surface over a footprint, and its area there.
+struct Minimal {
+    std::string name;
+    Domain domain;
+    BaseSurface::Sample surface;
+    BaseSurface::Sample bump;  ///< 0 along the rim
+    double area = 0.0;
+    double bump_volume = 0.0;
+};
+
+// The rim set by a minimal surface, and just so much liquid as lies below it: no pressure, and its area.
+TEST(Exact, FindsMinimalSurfaces)
+{
+    const Vec2 axis{-2.2, 0.0};
+    const Minimal catenoid{"catenoid",
+                           domainOf(ellipseLoop(1, 1)),
+                           [=](Vec2 p) {
+                               const double r = length(p - axis);
+                               return GroundPoint{std::acosh(r), (1.0 / (r * std::sqrt(r * r - 1.0))) * (p - axis)};
+                           },
+                           [](Vec2 p) {
+                               return GroundPoint{1.0 - dot(p, p), -2.0 * p};
+                           },
+                           2.0 * testing::simpson(
+                                     1.2, 3.2,
+                                     [](double r) {
+                                         // The disc's half arc at this distance from the axis.
+                                         const double cosine = (r * r + 2.2 * 2.2 - 1.0) / (4.4 * r);
+                                         return std::acos(std::clamp(cosine, -1.0, 1.0)) * r * r /
+                                                std::sqrt(r * r - 1.0);
+                                     },
+                                     400'000),
+                           kPi / 2.0};
+    const Minimal scherk{
+        "Scherk",
+        domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})),
+        [](Vec2 p) {
+            return GroundPoint{std::log(std::cos(p.y) / std::cos(p.x)), {std::tan(p.x), -std::tan(p.y)}};
+        },
+        [](Vec2 p) {
+            const double a = 1.0 - p.x * p.x;
+            const double b = 1.0 - p.y * p.y;
+            return GroundPoint{a * b, {-2.0 * p.x * b, -2.0 * p.y * a}};
+        },
+        4.0 * testing::simpson(
+                  0.0, 1.0,
+                  [](double x) {
+                      return testing::simpson(
+                          0.0, 1.0, [=](double y) { return std::hypot(1.0, std::tan(x), std::tan(y)); }, 200);
+                  },
+                  200),
+        16.0 / 9.0};
+    for (const Minimal& minimal : {catenoid, scherk}) {
+        for (const double depth : {0.3, 0.8}) {
+            SCOPED_TRACE(minimal.name + " " + std::to_string(depth));
+            std::vector<double> pressure;
+            std::vector<double> l2;
+            std::vector<double> area_error;
+            for (const double edge : {0.1, 0.05, 0.025, 0.0125}) {
+                const std::vector<PlanarMesh> meshes = triangulate(minimal.domain, {.edge = edge});
+                SolveOptions options = unitOptions(Model::Exact, 0.0, depth * minimal.bump_volume);
+                options.ground = BaseSurface([&](Vec2 p) {
+                    const GroundPoint a = minimal.surface(p);
+                    const GroundPoint b = minimal.bump(p);
+                    return GroundPoint{a.height - depth * b.height, a.gradient - depth * b.gradient};
+                });
+                const Solution solution = solve(meshes, options);
+                ASSERT_TRUE(solution.report.usable());
+                pressure.push_back(std::abs(solution.droplets[0].pressure));
+                l2.push_back(
+                    l2Error(meshes[0], solution.droplets[0], [&](Vec2 p) { return minimal.surface(p).height; }));
+                area_error.push_back(
+                    std::abs(measure(meshes[0], solution.droplets[0], options).liquid_area - minimal.area));
+            }
+            EXPECT_GE(meanOrder(pressure), 1.8);
+            EXPECT_GE(meanOrder(l2), 1.8);
+            EXPECT_GE(meanOrder(area_error), 1.8);
+        }
+    }
+}
+
+// A hemisphere is the most a disc holds; under gravity, what is upright at the rim.
+TEST(Exact, RefusesMoreThanTheDiscHolds)
+{
+    const std::vector<PlanarMesh> meshes = discMeshes(0.025);
+    struct Row {
+        double weight;
+        double published;
+    };
+    for (const Row row : {Row{0.0, 2 * kPi / 3}, Row{1.0, 1.75}, Row{5.0, 1.25}, Row{20.0, 0.79}}) {
+        const double most = dropletOfAngle(row.weight, kPi / 2).volume;
+        EXPECT_NEAR(most, row.published, 5e-3 * most) << row.weight;
+        const Solution below = solve(meshes, unitOptions(Model::Exact, row.weight, 0.9 * most));
+        EXPECT_TRUE(below.report.usable()) << row.weight;
+        for (const double factor : {1.05, 3.0}) {
+            const Solution above = solve(meshes, unitOptions(Model::Exact, row.weight, factor * most));
+            EXPECT_EQ(above.report.termination, Termination::NoHeightField) << row.weight << " " << factor;
+            EXPECT_FALSE(above.report.usable());
+            EXPECT_TRUE(above.droplets.empty());
+            EXPECT_NEAR(above.report.largest_volume / most, 1.0, 0.02) << row.weight << " " << factor;
+        }
+    }
+}
+
+TEST(Exact, RefusesMoreThanTheDiscHoldsByHeight)
+{
+    const std::vector<PlanarMesh> meshes = discMeshes(0.05);
+    SolveOptions options = unitOptions(Model::Exact, 0.0, 1.0);
+    options.fill = {FillBy::Height, 1.3, FillSharing::Each};
+    const Solution solution = solve(meshes, options);
+    EXPECT_EQ(solution.report.termination, Termination::NoHeightField);
+    EXPECT_NEAR(solution.report.largest_volume, 2 * kPi / 3, 0.04 * kPi / 3);
+}
+
+// A droplet above the limit it reports is refused, one below it is not, and no pressure passes Cheeger's constant.
+TEST(Exact, RefusesMoreThanSquareAndLShapeHold)
+{
+    struct Case {
+        Domain domain;
+        double small;
+        double large;
+        double cheeger;
+    };
+    // The L holds its unit square: no more pressure than that.
+    for (const Case& c : {Case{unitSquare(), 0.1, 2.0, 2.0 + std::sqrt(kPi)},
+                          Case{domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}})), 0.4, 8.0,
+                               2.0 + std::sqrt(kPi)}}) {
+        const std::vector<PlanarMesh> meshes = triangulate(c.domain, {.triangles = 6000, .edge = {}});
+        const Solution small = solve(meshes, unitOptions(Model::Exact, 0.0, c.small));
+        EXPECT_TRUE(small.report.usable());
+        const Solution large = solve(meshes, unitOptions(Model::Exact, 0.0, c.large));
+        ASSERT_EQ(large.report.termination, Termination::NoHeightField);
+        const double most = large.report.largest_volume;
+        EXPECT_GT(most, c.small);
+        EXPECT_LT(most, c.large);
+        const Solution below = solve(meshes, unitOptions(Model::Exact, 0.0, 0.9 * most));
+        ASSERT_TRUE(below.report.usable());
+        EXPECT_LE(below.droplets[0].pressure, c.cheeger);
+        const Solution above = solve(meshes, unitOptions(Model::Exact, 0.0, 1.1 * most));
+        ASSERT_EQ(above.report.termination, Termination::NoHeightField);
+        EXPECT_NEAR(above.report.largest_volume / most, 1.0, 0.02);
+    }
+}
+
+TEST(Exact, NamesTheDropletThatDoesNotExist)
+{
+    const std::vector<PlanarMesh> meshes = triangulate(twoDiscs(1.0, 0.5), {.triangles = 6000, .edge = {}});
+    const double most = 2.0 * kPi / 3.0 * 0.125;
+    const Solution each = solve(meshes, unitOptions(Model::Exact, 0.0, 2.0 * most));
+    EXPECT_EQ(each.report.termination, Termination::NoHeightField);
+    EXPECT_EQ(each.report.failed_droplet, 1U);
+    EXPECT_NEAR(each.report.largest_volume / most, 1.0, 0.03);
+
+    // One pressure: the larger disc is upright first, at λ = 2, where the smaller has 30°.
+    SolveOptions options = unitOptions(Model::Exact, 0.0, 4.0);
+    options.fill.sharing = FillSharing::Total;
+    const Solution total = solve(meshes, options);
+    EXPECT_EQ(total.report.termination, Termination::NoHeightField);
+    EXPECT_EQ(total.report.failed_droplet, 0U);
+    const double both = 2.0 * kPi / 3.0 + 0.125 * capOfAngle(30 * kDegree).volume();
+    EXPECT_NEAR(total.report.largest_volume / both, 1.0, 0.03);
+}
+
+}  // namespace
+}  // namespace droplet
