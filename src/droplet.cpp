@@ -4,30 +4,68 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <utility>
 
 #include "droplet/error.h"
+#include "droplet/shape/spread.h"
 #include "droplet/units.h"
+#include "shape/cap.h"
 
 namespace droplet {
 namespace {
 
-/// Slope up to which the linear model's area is within 10 % (thesis, section 4.1.2).
-constexpr double kLinearSlope = 50.0 * kDegree;
-
-std::string rounded(double value)
+std::string rounded(double value, int digits = 3)
 {
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
     return text.data();
+}
+
+std::string percent(double share)
+{
+    return rounded(100.0 * share) + " %";
+}
+
+/// What the linear model's steepness does to its figures: to the height, or to the volume if the height is prescribed,
+/// as it would on a disc without gravity.
+std::string estimatedError(const ShapeFigures& figures, FillBy by)
+{
+    const double linear = figures.contact_angle.mean;
+    switch (by) {
+        case FillBy::Volume: {
+            const double t = std::tan(0.5 * capAngleOfLinear(linear));
+            return "the height about " + percent(t * t / 3.0) + " too large";
+        }
+        case FillBy::Height: {
+            const double t = 0.5 * std::tan(linear);
+            return "the volume about " + percent(t * t / 3.0) + " too small";
+        }
+        case FillBy::ContactAngle:
+            return "the height about " + percent(0.5 * std::tan(linear) / std::tan(0.5 * linear) - 1.0) + " too large";
+    }
+    return {};
+}
+
+std::string steepness(const Droplet& droplet, FillBy by)
+{
+    const ShapeFigures& total = droplet.total;
+    return "slopes pass 50 degrees on " + percent(total.steep_area / total.footprint_area) +
+           " of the footprint and reach " + rounded(total.slope_max / kDegree) +
+           "; the linear model takes the area there for " + percent(total.linear_area / total.liquid_area - 1.0) +
+           " of the whole too large, and " + estimatedError(total, by) + " (model exact has no such error)";
 }
 
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
 {
+    constexpr double kVisible = 1e-6;  // of the height; less is round-off
     std::vector<std::string> warnings;
-    if (droplet.total.slope_max > kLinearSlope) {
-        warnings.push_back("slopes reach " + rounded(droplet.total.slope_max / kDegree) +
-                           " degrees; the linear model's area is within 10 % up to 50 degrees only");
+    const ShapeFigures& total = droplet.total;
+    if (options.solve.model == Model::Linear && total.steep_area > 0.0) {
+        warnings.push_back(steepness(droplet, options.solve.fill.by));
+    }
+    if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
+        warnings.push_back("the liquid's surface sinks into the ground, by up to " +
+                           rounded(total.depth_max / kMillimetre) + " mm; no-penetration keeps it above");
     }
     std::size_t triangles = 0;
     for (const PlanarMesh& mesh : droplet.meshes) {
@@ -39,6 +77,30 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
                            std::to_string(options.mesh.triangles) + " asked for");
     }
     return warnings;
+}
+
+/// Why there is no droplet, and what to change.
+std::string refusal(const SolveReport& report, const Droplet& droplet, const Fill& fill)
+{
+    const bool one_of_several = droplet.meshes.size() > 1 && fill.sharing == FillSharing::Each;
+    const std::string which = one_of_several ? "droplet " + std::to_string(report.failed_droplet + 1) + " of " +
+                                                   std::to_string(droplet.meshes.size()) + ": "
+                                             : "";
+    switch (report.termination) {
+        case Termination::NoHeightField:
+            return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
+                   rounded(report.largest_volume / kMicrolitre, 4) +
+                   " uL, beyond it the liquid hangs over its rim; ask for less";
+        case Termination::Unstable:
+            return which + "gravity pulls such a droplet off: its Bond number is " + rounded(report.bond_number, 4) +
+                   ", and at most " + rounded(report.critical_bond_number, 4) +
+                   " holds on this footprint; ask for less gravity or a smaller width";
+        case Termination::NotConverged:
+        case Termination::Converged:
+            break;
+    }
+    return which + "the equations could not be solved (residual " + rounded(report.residual) +
+           "); try another number of triangles";
 }
 
 }  // namespace
@@ -59,11 +121,12 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
     droplet.domain = split(droplet.outline);
     begin(Stage::Triangulate);
     droplet.meshes = triangulate(droplet.domain, options.mesh);
+    if (options.solve.model == Model::Exact) {
+        droplet.meshes = spread(std::move(droplet.meshes), options.solve);
+    }
     droplet.solution = solve(droplet.meshes, options.solve, progress);
     if (!droplet.solution.report.usable()) {
-        throw Error(ErrorCode::NoSuchDroplet, "the linear system could not be solved (residual " +
-                                                  rounded(droplet.solution.report.residual) +
-                                                  "); try another number of triangles");
+        throw Error(ErrorCode::NoSuchDroplet, refusal(droplet.solution.report, droplet, options.solve.fill));
     }
     begin(Stage::Loft);
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {

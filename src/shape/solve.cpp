@@ -238,9 +238,3 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
 }
 
 }  // namespace droplet
-namespace droplet {
-std::unique_ptr<ConstrainedSolver> multigridSolver(const PlanarMesh& m)
-{
-    return directSolver(m, Solver::Llt);
-}
-}  // namespace droplet
