@@ -26,6 +26,10 @@
 namespace droplet {
 namespace {
 
+/// Tolerances of linear systems: of a first Newton step, and where the solution counts.
+constexpr double kRoughly = 1e-2;
+constexpr double kExactly = 1e-10;
+
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Where a Newton step may lead one droplet: affine in the volume it gains.
@@ -239,8 +243,10 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
         ConstrainedProblem problem;
         problem.tolerance = tolerance;
         problem.right.resize(inner);
+        // For the change of the pressure: what is asked for is then as small as what is still wrong.
+        const double pressure = member.sheet->pressure;
         for (std::size_t i = 0; i < inner; ++i) {
-            problem.right[i] = -gradient[rim + i];
+            problem.right[i] = pressure * energy.load()[rim + i] - gradient[rim + i];
         }
         std::vector<double> down;  // of the held vertices, to the ground
         if (!op.held.empty()) {
@@ -258,7 +264,7 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
         }
         ConstrainedSolution solution = member.solver->solve(problem);
         take(solution);
-        step.pressure = solution.multiplier;
+        step.pressure = member.sheet->pressure + solution.multiplier;
         step.base = std::move(solution.values);
         for (std::size_t i = 0; i < inner && !down.empty(); ++i) {
             step.base[i] += down[rim + i];
@@ -287,11 +293,22 @@ std::vector<double> changeOf(const Member& member, const Step& step, double gain
 {
     std::vector<double> change(member.sheet->height.size(), 0.0);
     const std::uint32_t rim = rimOf(member);
-    for (std::size_t i = rim; i < change.size(); ++i) {
-        change[i] =
-            (step.base.empty() ? 0.0 : step.base[i - rim]) + (step.rise.empty() ? 0.0 : gain * step.rise[i - rim]);
-    }
+    forBlocks(change.size() - rim, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            change[rim + i] =
+                (step.base.empty() ? 0.0 : step.base[i]) + (step.rise.empty() ? 0.0 : gain * step.rise[i]);
+        }
+    });
     return change;
+}
+
+void addChange(std::vector<double>& height, const std::vector<double>& change)
+{
+    forBlocks(height.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            height[v] += change[v];
+        }
+    });
 }
 
 double pressureAfter(const Step& step, double gain)
@@ -458,52 +475,75 @@ double residualOf(const Member& member, const std::vector<double>& gradient)
     return std::sqrt(squares / loads) / pressure;
 }
 
-/// The slope of all energies less the pressures' work along a step, a part of it done.
-double slopeAlong(const std::vector<Member>& members, const Advance& advance, double part)
+/// The sheets some part of a step on.
+struct Trial {
+    std::vector<std::vector<double>> heights;
+    std::vector<std::vector<double>> gradients;  ///< ∂E/∂u there
+    double part = 1.0;
+};
+
+Trial trialAt(const std::vector<Member>& members, const Advance& advance, double part)
 {
-    std::vector<double> slopes(members.size());
+    Trial trial{std::vector<std::vector<double>>(members.size()), std::vector<std::vector<double>>(members.size()),
+                part};
     tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
-        std::vector<double> height = members[k].sheet->height;
-        const std::vector<double>& change = advance.changes[k];
+        std::vector<double>& height = trial.heights[k];
+        height = members[k].sheet->height;
         for (std::size_t v = 0; v < height.size(); ++v) {
-            height[v] += part * change[v];
+            height[v] += part * advance.changes[k][v];
         }
-        const std::vector<double> gradient = members[k].energy->gradient(height);
-        for (std::size_t v = 0; v < height.size(); ++v) {
-            slopes[k] += (gradient[v] - advance.pressures[k] * members[k].energy->load()[v]) * change[v];
-        }
+        trial.gradients[k] = members[k].energy->gradient(height);
     });
-    return std::accumulate(slopes.begin(), slopes.end(), 0.0);
+    return trial;
 }
 
-/// How much of a step to go. The energy is convex along it, so its slope there rises; enough is done where little of
-/// the first slope is left, and too much where the other side is as steep.
-double partOf(const std::vector<Member>& members, const Advance& advance)
+/// The slope of all energies, less the pressures' work, along a step.
+double slopeAlong(const std::vector<Member>& members, const Advance& advance,
+                  const std::vector<std::vector<double>>& gradients)
+{
+    double slope = 0.0;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const std::vector<double>& load = members[k].energy->load();
+        const std::vector<double>& change = advance.changes[k];
+        slope += sumOverBlocks(change.size(), [&](std::size_t begin, std::size_t end) {
+            double sum = 0.0;
+            for (std::size_t v = begin; v < end; ++v) {
+                sum += (gradients[k][v] - advance.pressures[k] * load[v]) * change[v];
+            }
+            return sum;
+        });
+    }
+    return slope;
+}
+
+/// As much of a step as is good. The energy is convex along it, so its slope there rises; enough is done where little
+/// of the first slope is left, and too much where the other side is as steep.
+Trial goodPart(const std::vector<Member>& members, const Advance& advance,
+               const std::vector<std::vector<double>>& gradients)
 {
     constexpr double kEnough = 0.5;
     constexpr int kMostCuts = 12;
-    const double first = slopeAlong(members, advance, 0.0);
-    double part = 1.0;
+    const double first = slopeAlong(members, advance, gradients);
+    Trial trial = trialAt(members, advance, 1.0);
     for (int k = 0; k < kMostCuts; ++k) {
-        const double slope = slopeAlong(members, advance, part);
+        const double slope = slopeAlong(members, advance, trial.gradients);
         if (slope <= kEnough * std::abs(first)) {
-            return part;
+            break;
         }
         // Where a line through both slopes meets 0, but no more than to a tenth.
-        part *= std::clamp(first / (first - slope), 0.1, 0.7);
+        trial = trialAt(members, advance, trial.part * std::clamp(first / (first - slope), 0.1, 0.7));
     }
-    return part;
+    return trial;
 }
 
-void advance(const Member& member, const Advance& by, std::size_t k, double part)
+/// Takes part of a step; the sheet's heights are those it leads to.
+void take(const Member& member, const Advance& by, std::size_t k, double part)
 {
     Sheet& sheet = *member.sheet;
-    for (std::size_t v = 0; v < sheet.height.size(); ++v) {
-        sheet.height[v] += part * by.changes[k][v];
-    }
     sheet.volume += part * by.gains[k];
     sheet.pressure = by.pressures[k];
     sheet.held = by.operators[k].held;
+    sheet.flux = by.fluxes[k];
     const std::vector<double>& ground = member.energy->ground();
     const std::uint32_t rim = rimOf(member);
     for (std::size_t i = 0; i < sheet.held.size(); ++i) {
@@ -528,7 +568,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     const bool exact = members.front().energy->physics().model == Model::Exact;
     Settled settled;
     std::vector<std::vector<double>> gradients = gradientsOf(members);
-    StepOptions step{options.fill, options.no_penetration, exact ? 1e-3 : 1e-10};
+    StepOptions step{options.fill, options.no_penetration, exact ? kRoughly : kExactly};
     while (settled.newton_steps < options.most_steps) {
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
@@ -538,25 +578,28 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             settled.residual = next.residual;
             return settled;
         }
-        const double part = exact ? partOf(members, next) : 1.0;
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            advance(members[k], next, k, part);
-            members[k].sheet->flux = next.fluxes[k];
-        }
         if (!exact) {
+            for (std::size_t k = 0; k < members.size(); ++k) {
+                addChange(members[k].sheet->height, next.changes[k]);
+                take(members[k], next, k, 1.0);
+            }
             settled.residual = next.residual;
             settled.converged = true;
             return settled;
         }
-        gradients = gradientsOf(members);
+        Trial trial = goodPart(members, next, gradients);
+        gradients = std::move(trial.gradients);
         settled.residual = 0.0;
         double missed = 0.0;
         for (std::size_t k = 0; k < members.size(); ++k) {
+            Sheet& sheet = *members[k].sheet;
+            sheet.height = std::move(trial.heights[k]);
+            take(members[k], next, k, trial.part);
             settled.residual = std::max(settled.residual, residualOf(members[k], gradients[k]));
-            missed = std::max(missed, std::abs(next.gains[k]) / std::max(std::abs(members[k].sheet->volume), 1e-300));
+            missed = std::max(missed, std::abs(next.gains[k]) / std::abs(sheet.volume));
         }
-        if (settled.residual <= options.tolerance && part == 1.0 &&
-            (isVolumeOfOne(members, options.fill) || missed < 1e-9)) {
+        const bool filled = isVolumeOfOne(members, options.fill) || missed < options.tolerance;
+        if (settled.residual <= options.tolerance && trial.part == 1.0 && filled) {
             settled.converged = true;
             for (std::size_t k = 0; k < members.size(); ++k) {
                 members[k].sheet->flux = fluxThroughRim(members[k], members[k].sheet->pressure, gradients[k]);
@@ -564,7 +607,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             return settled;
         }
         // As exact as this step's error is worth: the next is of the order of its square.
-        step.tolerance = std::clamp(0.1 * settled.residual, 1e-10, 1e-3);
+        step.tolerance = std::clamp(0.1 * settled.residual, kExactly, kRoughly);
     }
     return settled;
 }

@@ -832,7 +832,8 @@ public:
                 return solution;
             }
         }
-        solution.converged = solution.residual < kLargestResidual;
+        // The residual is computed anew, where the iteration only updates its own.
+        solution.converged = solution.residual < std::max(kLargestResidual, 2.0 * problem.tolerance);
         return solution;
     }
 
