@@ -482,6 +482,7 @@ Statement evolved(const Droplets& droplets, const std::string& commands)
     CommandOptions session;
     session.input = commands + "\nq\nq\n";
     session.directory = scratch.path();
+    session.environment = {{"HOME", scratch.path()}};  // it keeps a history of commands there
     const CommandResult result = runProgram({"evolver", "droplets.fe"}, session);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.error, "");
