@@ -19,6 +19,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/gltf.h"
+#include "droplet/surface/onto.h"
 #include "support/command.h"
 #include "support/surfaces.h"
 
@@ -335,6 +336,32 @@ TEST_F(Object, MissingNormalsAreThoseOfThePlacesAngles)
     for (std::size_t v = 0; v < 24; ++v) {
         EXPECT_LT(length(mesh.normals[v] - (1.0 / std::numbers::sqrt3) * mesh.positions[v]), 1e-12);
     }
+}
+
+// The can in data/: metres as its generator says, normals outward, and a texture as wide as it is around.
+TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
+{
+    const TexturedMesh mesh = readObject(DROPLET_SOURCE_DIR "/data/can.glb");
+    double radius = 0.0;
+    double top = 0.0;
+    double bottom = 1.0;
+    for (const Vec3 p : mesh.positions) {
+        radius = std::max(radius, std::hypot(p.x, p.y));
+        top = std::max(top, p.z);
+        bottom = std::min(bottom, p.z);
+    }
+    EXPECT_NEAR(radius, 33e-3, 1e-8);
+    EXPECT_EQ(bottom, 0.0);
+    const double lean = 50.0 * std::numbers::pi / 180.0;
+    EXPECT_NEAR(top, 98e-3 + 7e-3 * std::sin(lean) / (1.0 - std::cos(lean)), 1e-8);
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.positions[t[0]];
+        const Vec3 normal = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        for (const std::uint32_t v : t) {
+            EXPECT_GT(dot(normal, mesh.normals[v]), 0.9 * length(normal));
+        }
+    }
+    EXPECT_NEAR(metresPerUv(mesh) / (2.0 * std::numbers::pi * 33e-3), 1.0, 1e-3);  // of 64 chords
 }
 
 TEST_F(Object, RefusesWhatCannotCarryDroplets)
