@@ -21,8 +21,8 @@ namespace {
 constexpr double kSteepestFlux = 0.9999985;
 
 /// Single vertices' forces swing about the true ones with the lengths of edges beside them: by 1.7° of angle on a disc
-/// of 3000 triangles at 60°; evened out twice, by 0.14°.
-constexpr int kEvenings = 2;
+/// of 3000 triangles at 60°; evened out four times, by 0.1°.
+constexpr int kEvenings = 4;
 
 std::vector<double> rimWeightsOf(const PlanarMesh& mesh)
 {

@@ -40,7 +40,7 @@ struct Step {
     double pressure_rise = 0.0;     ///< [1/m⁴]
     std::vector<double> flux;       ///< through the rim then
     std::vector<double> flux_rise;  ///< [1/m³]
-    ConstrainedSolution base_solution;
+    std::optional<double> loss;     ///< where all vertices are held: the volume that is given up [m³]
     bool converged = true;
     std::size_t iterations = 0;
     double residual = 0.0;
@@ -133,23 +133,34 @@ Jet angleAt(const Member& member, const Step& step, double gain)
     return sum;
 }
 
-/// How much each member gains, and by which part of what all gain together.
-std::vector<Jet> sharesOf(const std::vector<Step>& steps, double gain)
+/// How members share what they gain together.
+struct Shares {
+    std::vector<Jet> gains;  ///< of each, and by which part of the whole
+    double pressure = 0.0;   ///< λ/σ of all [1/m]
+};
+
+Shares sharesOf(const std::vector<Step>& steps, double gain)
 {
     if (steps.size() == 1) {
-        return {{gain, 1.0}};
+        return {{{gain, 1.0}}, steps[0].pressure + gain * steps[0].pressure_rise};
     }
     // At one pressure p each gains (p − its pressure) / its rise.
     double compliance = 0.0;
     double offset = 0.0;
     for (const Step& step : steps) {
-        compliance += 1.0 / step.pressure_rise;
-        offset += step.pressure / step.pressure_rise;
+        if (step.loss) {
+            gain += *step.loss;
+        } else {
+            compliance += 1.0 / step.pressure_rise;
+            offset += step.pressure / step.pressure_rise;
+        }
     }
-    const double pressure = (gain + offset) / compliance;
-    std::vector<Jet> shares;
+    Shares shares;
+    shares.pressure = (gain + offset) / compliance;
     for (const Step& step : steps) {
-        shares.push_back({(pressure - step.pressure) / step.pressure_rise, 1.0 / (step.pressure_rise * compliance)});
+        shares.gains.push_back(step.loss ? Jet{-*step.loss, 0.0}
+                                         : Jet{(shares.pressure - step.pressure) / step.pressure_rise,
+                                               1.0 / (step.pressure_rise * compliance)});
     }
     return shares;
 }
@@ -157,7 +168,7 @@ std::vector<Jet> sharesOf(const std::vector<Step>& steps, double gain)
 /// The largest thickness of all members, or the mean angle along all rims.
 Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps, FillBy by, double gain)
 {
-    const std::vector<Jet> shares = sharesOf(steps, gain);
+    const std::vector<Jet> shares = sharesOf(steps, gain).gains;
     Jet total;
     double rim_length = 0.0;
     for (std::size_t k = 0; k < members.size(); ++k) {
@@ -226,6 +237,21 @@ std::vector<double> withRim(const std::vector<double>& inner, std::uint32_t rim)
     return all;
 }
 
+/// The step that leaves all of a member's ground dry.
+Step dryStep(const Member& member)
+{
+    const std::uint32_t rim = rimOf(member);
+    Step step;
+    for (std::size_t v = rim; v < member.sheet->height.size(); ++v) {
+        step.base.push_back(-thickness(member, v));
+    }
+    step.rise.assign(step.base.size(), 0.0);
+    step.flux.assign(rim, 0.0);
+    step.flux_rise.assign(rim, 0.0);
+    step.loss = member.sheet->volume;
+    return step;
+}
+
 /// One member's Newton step at its sheet, with the vertices held that are said to be; they go to the ground.
 Step stepOf(const Member& member, const Operator& op, const std::vector<double>& gradient, bool with_rise,
             double tolerance)
@@ -234,6 +260,9 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
     const std::uint32_t rim = rimOf(member);
     const std::size_t inner = energy.mesh().vertices.size() - rim;
     Step step;
+    if (!op.held.empty() && std::find(op.held.begin(), op.held.end(), std::uint8_t{0}) == op.held.end()) {
+        return dryStep(member);
+    }
     const auto take = [&](const ConstrainedSolution& solution) {
         step.converged = step.converged && solution.converged;
         step.iterations = std::max(step.iterations, solution.iterations);
@@ -311,11 +340,6 @@ void addChange(std::vector<double>& height, const std::vector<double>& change)
     });
 }
 
-double pressureAfter(const Step& step, double gain)
-{
-    return step.pressure + gain * step.pressure_rise;
-}
-
 /// Which inner vertices the ground should hold: those held that it pushes up, and those that sank in.
 std::vector<std::uint8_t> heldAfter(const Member& member, const Operator& op, const std::vector<double>& gradient,
                                     const std::vector<double>& change, double pressure)
@@ -359,8 +383,10 @@ bool isStable(const std::vector<Step>& steps)
     double compliance = 0.0;
     std::size_t falling = 0;
     for (const Step& step : steps) {
-        compliance += 1.0 / step.pressure_rise;
-        falling += step.pressure_rise < 0.0 ? 1 : 0;
+        if (!step.loss) {
+            compliance += 1.0 / step.pressure_rise;
+            falling += step.pressure_rise < 0.0 ? 1 : 0;
+        }
     }
     return falling == 0 || (falling == 1 && compliance < 0.0);
 }
@@ -400,18 +426,21 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
             advance.iterations = std::max(advance.iterations, step.iterations);
             advance.residual = std::max(advance.residual, step.residual);
         }
+        // Somewhere the liquid has to be.
+        advance.converged =
+            advance.converged && std::any_of(steps.begin(), steps.end(), [](const Step& step) { return !step.loss; });
         advance.stable = count == 1 || isStable(steps);
         if (!advance.converged || !advance.stable) {
             return advance;
         }
-        const std::vector<Jet> shares = sharesOf(steps, with_rise ? gainFor(members, steps, options.fill) : 0.0);
+        const Shares shares = sharesOf(steps, with_rise ? gainFor(members, steps, options.fill) : 0.0);
         advance.changes.resize(count);
         advance.pressures.resize(count);
         advance.gains.resize(count);
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-            advance.gains[k] = shares[k].value;
-            advance.pressures[k] = pressureAfter(steps[k], shares[k].value);
-            advance.changes[k] = changeOf(members[k], steps[k], shares[k].value);
+            advance.gains[k] = shares.gains[k].value;
+            advance.pressures[k] = shares.pressure;
+            advance.changes[k] = changeOf(members[k], steps[k], shares.gains[k].value);
             changed[k] = 0;
         });
         if (options.no_penetration) {
@@ -434,7 +463,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<double>& flux = advance.fluxes.emplace_back(std::move(steps[k].flux));
             for (std::size_t v = 0; v < flux.size() && !steps[k].flux_rise.empty(); ++v) {
-                flux[v] += shares[k].value * steps[k].flux_rise[v];
+                flux[v] += shares.gains[k].value * steps[k].flux_rise[v];
             }
         }
         return advance;

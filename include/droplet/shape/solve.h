@@ -64,7 +64,7 @@ struct SolveReport {
     Termination termination = Termination::NotConverged;
     std::size_t failed_droplet = 0;     ///< of several the first, if termination is not Converged
     double largest_volume = 0.0;        ///< with NoHeightField: that one's, or of all with FillSharing::Total [m³]
-    double bond_number = 0.0;           ///< with Unstable: ρ|g|A/(πσ) of that one's footprint
+    double bond_number = 0.0;           ///< with Unstable: ρ|g⊥|A/(πσ) of that one's footprint
     double critical_bond_number = 0.0;  ///< with Unstable: beyond which it cannot hang
 
     [[nodiscard]] bool usable() const { return termination == Termination::Converged; }
