@@ -123,11 +123,22 @@ std::vector<double> Energy::evenedOut(std::vector<double> forces, int times) con
     return forces;
 }
 
-std::vector<double> Energy::fluxOf(std::vector<double> forces) const
+std::vector<double> Energy::fluxOf(const std::vector<double>& forces) const
 {
-    std::vector<double> flux = evenedOut(std::move(forces), kEvenings);
-    for (std::size_t v = 0; v < flux.size(); ++v) {
-        flux[v] /= evened_weights_[v];
+    const PlanarMesh& mesh = *mesh_;
+    std::vector<double> flux = evenedOut(forces, kEvenings);
+    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+        double missing = 0.0;
+        double rim_length = 0.0;
+        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+            flux[v] /= evened_weights_[v];
+            missing += forces[v] - flux[v] * rim_weights_[v];
+            rim_length += rim_weights_[v];
+        }
+        // The whole loop's force is what counts in balances.
+        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+            flux[v] += missing / rim_length;
+        }
     }
     return flux;
 }
@@ -164,23 +175,63 @@ double Energy::slopeOf(std::uint32_t rim_vertex, double flux) const
     return stretch * std::tan(std::asin(std::clamp(flux, -kSteepestFlux, kSteepestFlux)));
 }
 
-double Energy::groundSlope(std::uint32_t rim_vertex) const
+double Energy::groundFlux(std::uint32_t rim_vertex) const
 {
-    return ground_angle_.empty() ? 0.0 : rim_stretch_[rim_vertex] * std::tan(ground_angle_[rim_vertex]);
+    if (ground_angle_.empty()) {
+        return 0.0;
+    }
+    const double angle = ground_angle_[rim_vertex];
+    return physics_.model == Model::Linear ? rim_stretch_[rim_vertex] * std::tan(angle) : std::sin(angle);
 }
 
 std::pair<double, double> Energy::contactAngle(std::uint32_t rim_vertex, double flux) const
 {
     const double ground = ground_angle_.empty() ? 0.0 : ground_angle_[rim_vertex];
+    double angle = 0.0;
+    double derivative = 0.0;
     // Seen along the rim, the liquid rises by (∂u/∂n) / √(1 + (∂u/∂t)²), and ∂u/∂t = ∂h/∂t there.
     if (physics_.model == Model::Linear) {
         const double stretch = rim_stretch_.empty() ? 1.0 : rim_stretch_[rim_vertex];
         const double rise = flux / stretch;
-        return {std::atan(rise) - ground, 1.0 / (stretch * (1.0 + rise * rise))};
+        angle = std::atan(rise) - ground;
+        derivative = 1.0 / (stretch * (1.0 + rise * rise));
+    } else {
+        // The flux is (∂u/∂n) / √(1 + (∂u/∂t)² + (∂u/∂n)²), the sine of that angle.
+        const double sine = std::clamp(flux, -kSteepestFlux, kSteepestFlux);
+        angle = std::asin(sine) - ground;
+        derivative = 1.0 / std::sqrt(1.0 - sine * sine);
     }
-    // The flux is (∂u/∂n) / √(1 + (∂u/∂t)² + (∂u/∂n)²), the sine of that angle.
-    const double sine = std::clamp(flux, -kSteepestFlux, kSteepestFlux);
-    return {std::asin(sine) - ground, 1.0 / std::sqrt(1.0 - sine * sine)};
+    if (physics_.no_penetration && angle < 0.0) {
+        return {0.0, 0.0};
+    }
+    return {angle, derivative};
+}
+
+std::vector<std::uint32_t> Energy::dryRim(const std::vector<std::uint8_t>& held) const
+{
+    const PlanarMesh& mesh = *mesh_;
+    const std::uint32_t rim = mesh.rimVertexCount();
+    std::vector<std::uint32_t> dry;
+    if (held.empty()) {
+        return dry;
+    }
+    std::vector<std::uint8_t> wet(rim, 0);
+    for (const std::uint32_t i : rim_triangles_) {
+        const Triangle& t = mesh.triangles[i];
+        const bool has_liquid =
+            std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return !mesh.onRim(v) && held[v - rim] == 0; });
+        for (const std::uint32_t v : t) {
+            if (has_liquid && mesh.onRim(v)) {
+                wet[v] = 1;
+            }
+        }
+    }
+    for (std::uint32_t v = 0; v < rim; ++v) {
+        if (wet[v] == 0) {
+            dry.push_back(v);
+        }
+    }
+    return dry;
 }
 
 bool Energy::restsOnGround() const

@@ -17,6 +17,7 @@ struct Physics {
     Model model = Model::Linear;
     double normal = 0.0;  ///< w = ρg⊥/σ [1/m²]
     Vec2 along;           ///< ρg∥/σ [1/m²]
+    bool no_penetration = false;
 };
 
 /// The energy of one droplet as a function of u, the height at every vertex of its mesh, divided by σ:
@@ -37,18 +38,22 @@ public:
     [[nodiscard]] const std::vector<double>& rimWeights() const { return rim_weights_; }
     /// Forces on the rim's vertices, evened out between neighbours, but not across corners, so often; their sum stays.
     [[nodiscard]] std::vector<double> evenedOut(std::vector<double> forces, int times) const;
-    /// The flux through the rim of forces on its vertices, evened out.
-    [[nodiscard]] std::vector<double> fluxOf(std::vector<double> forces) const;
+    /// The flux through the rim of forces on its vertices, evened out; over every loop it adds up to them.
+    [[nodiscard]] std::vector<double> fluxOf(const std::vector<double>& forces) const;
 
     /// The slope −∂u/∂n at a rim vertex, n pointing outward, of a flux −∂a/∂p·n through the rim there.
     [[nodiscard]] double slopeOf(std::uint32_t rim_vertex, double flux) const;
-    /// The ground's slope there, inward.
-    [[nodiscard]] double groundSlope(std::uint32_t rim_vertex) const;
-    /// The angle between liquid and ground at a rim vertex [rad], and its derivative by the flux.
+    /// The flux of a sheet that lies on the ground there.
+    [[nodiscard]] double groundFlux(std::uint32_t rim_vertex) const;
+    /// The angle between liquid and ground at a rim vertex [rad], and its derivative by the flux. Above the ground it is
+    /// not negative: beside dry ground recovered ones swing about 0.
     [[nodiscard]] std::pair<double, double> contactAngle(std::uint32_t rim_vertex, double flux) const;
 
     /// Whether the liquid's surface lies still on the ground without a pressure: level and flat.
     [[nodiscard]] bool restsOnGround() const;
+
+    /// Rim vertices all of whose triangles lie on the ground.
+    [[nodiscard]] std::vector<std::uint32_t> dryRim(const std::vector<std::uint8_t>& held) const;
 
     /// ∂E/∂u at every vertex [m].
     [[nodiscard]] std::vector<double> gradient(const std::vector<double>& u) const;

@@ -226,7 +226,7 @@ std::vector<double> fluxThroughRim(const Member& member, double pressure, const 
     for (std::size_t v = 0; v < forces.size(); ++v) {
         forces[v] = pressure * member.energy->load()[v] - gradient[v];
     }
-    return member.energy->fluxOf(std::move(forces));
+    return member.energy->fluxOf(forces);
 }
 
 /// A function of the inner vertices, at all of them.
@@ -313,6 +313,12 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
             after[v] += gradient[v];
         }
         step.flux = fluxThroughRim(member, step.pressure, after);
+    }
+    for (const std::uint32_t v : energy.dryRim(op.held)) {
+        step.flux[v] = energy.groundFlux(v);
+        if (with_rise) {
+            step.flux_rise[v] = 0.0;
+        }
     }
     return step;
 }
@@ -631,7 +637,11 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
         if (settled.residual <= options.tolerance && trial.part == 1.0 && filled) {
             settled.converged = true;
             for (std::size_t k = 0; k < members.size(); ++k) {
-                members[k].sheet->flux = fluxThroughRim(members[k], members[k].sheet->pressure, gradients[k]);
+                Sheet& sheet = *members[k].sheet;
+                sheet.flux = fluxThroughRim(members[k], sheet.pressure, gradients[k]);
+                for (const std::uint32_t v : members[k].energy->dryRim(sheet.held)) {
+                    sheet.flux[v] = members[k].energy->groundFlux(v);
+                }
             }
             return settled;
         }

@@ -92,7 +92,7 @@ Physics physicsOf(const SolveOptions& options)
 {
     const double scale = options.liquid.density / options.liquid.surface_tension;
     const PlaneGravity gravity = planeGravity(options);
-    return {Model::Linear, scale * gravity.normal, scale * gravity.along};
+    return {Model::Linear, scale * gravity.normal, scale * gravity.along, options.no_penetration};
 }
 
 /// Everything needed to solve droplets at one pressure, and what came of it.
@@ -102,43 +102,21 @@ struct Group {
     Outcome outcome;
 };
 
-/// Whether all triangles at a rim vertex lie on the ground.
-std::vector<std::uint8_t> dryRim(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
-{
-    const std::uint32_t rim = mesh.rimVertexCount();
-    std::vector<std::uint8_t> dry(rim, held.empty() ? 0 : 1);
-    const std::size_t count = held.empty() ? 0 : irregularTriangleCount(mesh);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Triangle& t = mesh.triangles[i];
-        const bool wet =
-            std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return !mesh.onRim(v) && held[v - rim] == 0; });
-        for (const std::uint32_t v : t) {
-            if (wet && mesh.onRim(v)) {
-                dry[v] = 0;
-            }
-        }
-    }
-    return dry;
-}
-
-HeightField fieldOf(const Energy& energy, Sheet&& sheet, const SolveOptions& options)
+HeightField fieldOf(const Energy& energy, Sheet&& sheet, double surface_tension)
 {
     const PlanarMesh& mesh = energy.mesh();
     const std::uint32_t rim = mesh.rimVertexCount();
     HeightField field;
     field.height = std::move(sheet.height);
     field.ground = energy.ground();
-    field.pressure = options.liquid.surface_tension * sheet.pressure;
+    field.pressure = surface_tension * sheet.pressure;
     if (!sheet.held.empty()) {
         field.dry.assign(rim, 0);
         field.dry.insert(field.dry.end(), sheet.held.begin(), sheet.held.end());
     }
-    const std::vector<std::uint8_t> dry = dryRim(mesh, sheet.held);
     for (std::uint32_t v = 0; v < rim; ++v) {
-        field.rim_slope.push_back(dry[v] != 0 ? energy.groundSlope(v) : energy.slopeOf(v, sheet.flux[v]));
-        const double angle = dry[v] != 0 ? 0.0 : energy.contactAngle(v, sheet.flux[v]).first;
-        // Above the ground no angle is negative; beside dry ground recovered ones swing about 0.
-        field.contact_angle.push_back(options.no_penetration ? std::max(angle, 0.0) : angle);
+        field.rim_slope.push_back(energy.slopeOf(v, sheet.flux[v]));
+        field.contact_angle.push_back(energy.contactAngle(v, sheet.flux[v]).first);
     }
     return field;
 }
@@ -231,7 +209,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
     }
     if (report.usable()) {
         for (std::size_t k = 0; k < meshes.size(); ++k) {
-            solution.droplets.push_back(fieldOf(*energies[k], std::move(sheets[k]), options));
+            solution.droplets.push_back(fieldOf(*energies[k], std::move(sheets[k]), options.liquid.surface_tension));
         }
     }
     return solution;

@@ -453,7 +453,7 @@ TEST(Solve, RefusesOptionsOutOfRange)
         }
         return false;
     };
-    EXPECT_TRUE(refuses(unitOptions(-1.0, volume(1.0))));
+    EXPECT_TRUE(refuses(unitOptions(std::nan(""), volume(1.0))));
     EXPECT_TRUE(refuses(unitOptions(1.0, volume(0.0))));
     EXPECT_TRUE(refuses(unitOptions(1.0, volume(-1.0))));
     EXPECT_TRUE(refuses(unitOptions(1.0, volume(std::nan("")))));
