@@ -453,6 +453,14 @@ Number numberAt(const std::uint8_t* row, std::size_t index)
     return number;
 }
 
+/// The nearest float; infinity beyond its range.
+float narrowed(double number)
+{
+    constexpr auto kMost = static_cast<double>(std::numeric_limits<float>::max());
+    return std::abs(number) > kMost ? static_cast<float>(std::copysign(std::numeric_limits<double>::infinity(), number))
+                                    : static_cast<float>(number);
+}
+
 class FloatReader {
 public:
     FloatReader(Layout layout, FloatImage& image) : layout_(std::move(layout)), image_(image) {}
@@ -466,7 +474,7 @@ public:
         for (std::size_t i = 0; i < row.count; ++i) {
             to[i] = layout_.bits == 16   ? halfToFloat(numberAt<std::uint16_t>(from, i))
                     : layout_.bits == 32 ? numberAt<float>(from, i)
-                                         : static_cast<float>(numberAt<double>(from, i));
+                                         : narrowed(numberAt<double>(from, i));
         }
     }
 

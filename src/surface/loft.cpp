@@ -160,6 +160,10 @@ struct Extent {
 
 Extent extentOf(const PlanarMesh& mesh, const HeightField& field)
 {
+    const auto sum_over = [](const std::vector<double>& values, const Triangle& t) {
+        return values[t[0]] + values[t[1]] + values[t[2]];
+    };
+    const bool on_plane = field.ground.empty();
     Extent total;
     for (const Extent& block : mapBlocks<Extent>(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
              Extent sum;
@@ -167,8 +171,7 @@ Extent extentOf(const PlanarMesh& mesh, const HeightField& field)
                  const Triangle& t = mesh.triangles[i];
                  const double area = 0.5 * doubleArea(mesh, t);
                  sum.area += area;
-                 sum.volume +=
-                     area * (field.thicknessAt(t[0]) + field.thicknessAt(t[1]) + field.thicknessAt(t[2])) / 3.0;
+                 sum.volume += area * (sum_over(field.height, t) - (on_plane ? 0.0 : sum_over(field.ground, t))) / 3.0;
              }
              return sum;
          })) {

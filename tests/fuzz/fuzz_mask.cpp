@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/error.h"
+#include "droplet/footprint/height_map.h"
 #include "droplet/footprint/mask.h"
 #include "fuzz/targets.h"
 
@@ -16,6 +17,11 @@ void fuzzMask(std::span<const std::byte> bytes)
         } catch (const Error&) {
             // A clear refusal is what broken files are meant to get.
         }
+    }
+    try {
+        decodeHeightMap(bytes, options.max_pixels).validate();
+    } catch (const Error&) {
+        // As above.
     }
 }
 
