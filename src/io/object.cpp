@@ -227,6 +227,8 @@ const Json& entry(const Json& root, const char* list, std::size_t index)
 
 /// A file's description and its buffers.
 struct File {
+    explicit File(const std::filesystem::path& path);
+
     Json json;
     std::vector<Bytes> buffers;
 };
@@ -269,14 +271,14 @@ Bytes bufferBytes(const Json& buffer, std::size_t index, std::span<const std::by
     return bytes;
 }
 
-File readFile(const std::filesystem::path& path)
+File::File(const std::filesystem::path& path)
 {
     const Bytes bytes =
         readBytes(path, std::numeric_limits<std::uint32_t>::max(),  // as many as a GLB can say it has
                   [](std::byte first) {
                       return std::string_view("g{ \t\r\n\xef").find(static_cast<char>(first)) != std::string_view::npos;
                   });
-    std::span<const std::byte> json = bytes;
+    std::span<const std::byte> text = bytes;
     std::span<const std::byte> chunk;
     if (textOf(bytes).starts_with("glTF")) {
         constexpr std::uint32_t kJson = 0x4E4F534A;
@@ -296,34 +298,32 @@ File readFile(const std::filesystem::path& path)
             rest = rest.subspan(kChunkHeader + content.size());
             return content;
         };
-        json = next(kJson);
+        text = next(kJson);
         if (!rest.empty()) {
             chunk = next(kBin);
         }
     }
     constexpr bool kThrow = false;
-    File file;
-    file.json = Json::parse(textOf(json), nullptr, kThrow);
-    if (!file.json.is_object()) {
+    json = Json::parse(textOf(text), nullptr, kThrow);
+    if (!json.is_object()) {
         throw Damage("it is no glTF: its JSON is damaged or cut short");
     }
     for (const char* const required : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-        const Json* const list = find(file.json, "extensionsRequired");
+        const Json* const list = find(json, "extensionsRequired");
         if (list != nullptr && std::find(list->begin(), list->end(), required) != list->end()) {
             throw Damage(std::string("its meshes are compressed, which is not read: ") + required);
         }
     }
-    for (std::size_t i = 0; i < sizeOf(file.json, "buffers"); ++i) {
-        file.buffers.push_back(bufferBytes(entry(file.json, "buffers", i), i,
-                                           i == 0 ? chunk : std::span<const std::byte>(), path.parent_path()));
+    for (std::size_t i = 0; i < sizeOf(json, "buffers"); ++i) {
+        buffers.push_back(bufferBytes(entry(json, "buffers", i), i, i == 0 ? chunk : std::span<const std::byte>(),
+                                      path.parent_path()));
     }
-    return file;
 }
 
 // -------------------------------------------------------------------------------------------------- accessors
 
 /// Component types as glTF numbers them.
-enum Component : std::size_t { kI8 = 5120, kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kF32 = 5126 };
+enum Component : std::size_t { I8 = 5120, U8 = 5121, I16 = 5122, U16 = 5123, U32 = 5125, F32 = 5126 };
 
 /// Numbers in a buffer, bounds checked when made.
 class Column {
@@ -347,7 +347,7 @@ public:
         const Json* const normalised = find(accessor, "normalized");
         normalised_ = normalised != nullptr && *normalised == true;
         constexpr std::array<std::size_t, 7> kBytes = {1, 1, 2, 2, 0, 4, 4};
-        const std::size_t own = kind_ >= kI8 && kind_ <= kF32 ? kBytes[kind_ - kI8] : 0;
+        const std::size_t own = kind_ >= I8 && kind_ <= F32 ? kBytes[kind_ - I8] : 0;
         if (own == 0) {
             throw Damage(name + " has components of no known type");
         }
@@ -393,15 +393,15 @@ public:
             return normalised_ ? std::max(value / largest, -1.0) : value;
         };
         switch (kind_) {
-            case kF32:
+            case F32:
                 return static_cast<double>(std::bit_cast<float>(bits));
-            case kI8:
+            case I8:
                 return scaled(static_cast<std::int8_t>(bits), 127.0);
-            case kU8:
+            case U8:
                 return scaled(bits, 255.0);
-            case kI16:
+            case I16:
                 return scaled(static_cast<std::int16_t>(bits), 32767.0);
-            case kU16:
+            case U16:
                 return scaled(bits, 65535.0);
             default:
                 return bits;
@@ -522,13 +522,13 @@ public:
             Placement parent;
         };
         std::vector<Visit> open;
-        const auto visitLater = [&open](std::vector<std::size_t> nodes, const Placement& parent) {
+        const auto visit_later = [&open](std::vector<std::size_t> nodes, const Placement& parent) {
             std::reverse(nodes.begin(), nodes.end());  // a stack: the first comes first
             for (const std::size_t node : nodes) {
                 open.push_back({node, parent});
             }
         };
-        visitLater(rootsOf(root), {});
+        visit_later(rootsOf(root), {});
         std::vector<bool> seen(sizeOf(root, "nodes"), false);
         while (!open.empty()) {
             const Visit visit = open.back();
@@ -542,7 +542,7 @@ public:
             if (const std::optional<std::size_t> mesh = findWhole(node, "mesh")) {
                 addMesh(*mesh, placement);
             }
-            visitLater(findWholes(node, "children"), placement);
+            visit_later(findWholes(node, "children"), placement);
         }
         if (mesh_.triangles.empty()) {
             throw Damage("its scene has no triangles");
@@ -627,7 +627,7 @@ private:
             return all;
         }
         const Column column(file_, *accessor, "SCALAR");
-        if (column.kind() != kU8 && column.kind() != kU16 && column.kind() != kU32) {
+        if (column.kind() != U8 && column.kind() != U16 && column.kind() != U32) {
             throw Damage(name + " has indices that are no unsigned integers");
         }
         std::vector<std::uint32_t> indices(column.size());
@@ -692,7 +692,7 @@ TexturedMesh readObject(const std::filesystem::path& path)
     };
     TexturedMesh mesh;
     try {
-        const File file = readFile(path);
+        const File file(path);
         mesh = Scene(file).take();
     } catch (const Damage& damage) {
         refuse(damage.what());

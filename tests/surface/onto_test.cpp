@@ -205,24 +205,34 @@ TEST(Onto, ACansDropletHoldsItsVolume)
     EXPECT_LT(before, 1.5e-3);
 }
 
-// Between its vertices the base is chords of the can's facets: measured at the middles of its edges.
-TEST(Onto, ABaseLiesWithinTheSagOfItsEdges)
+// Between its vertices the base cuts corners: of two facets that meet at an angle θ an edge of length ℓ cuts ℓθ/4 at
+// most.
+TEST(Onto, ABaseLiesOnTheObjectButForCutCorners)
 {
+    constexpr std::uint32_t kColumns = 10;
+    constexpr double kTurn = kExtent / kColumns / kCan;  // from facet to facet
     const Surface droplet = roundDroplet({.outer = 7e-3, .rings = 16, .segments = 48});
-    const Surface surface = layOnto(droplet, meshOf(can(20)), kPicture).surface;
+    const Surface surface = layOnto(droplet, meshOf(can(kColumns)), kPicture).surface;
+    double worst = 0.0;
     for (const Triangle& t : surface.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k];
             const std::uint32_t b = t[(k + 1) % 3];
-            if (droplet.positions[a].z == 0.0 && droplet.positions[b].z == 0.0) {
-                const Vec3 middle = 0.5 * (surface.positions[a] + surface.positions[b]);
-                const double edge = length(surface.positions[b] - surface.positions[a]);
-                const double facet = kExtent / 20;
-                // The facets themselves are chords: from the can at most the sags of both.
-                EXPECT_GE(std::hypot(middle.x, middle.z), kCan - (edge * edge + facet * facet) / (8.0 * kCan) * 1.01);
+            if (droplet.positions[a].z != 0.0 || droplet.positions[b].z != 0.0) {
+                continue;
+            }
+            const double edge = length(surface.positions[b] - surface.positions[a]);
+            for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+                const Vec3 p = (1.0 - share) * surface.positions[a] + share * surface.positions[b];
+                const double facet = (std::floor(std::atan2(p.x, p.z) / kTurn) + 0.5) * kTurn;
+                const double below = kCan * std::cos(0.5 * kTurn) - (p.x * std::sin(facet) + p.z * std::cos(facet));
+                EXPECT_GT(below, -1e-15);
+                EXPECT_LT(below, share == 0.0 ? 1e-15 : 0.25 * edge * kTurn);
+                worst = std::max(worst, below);
             }
         }
     }
+    EXPECT_GT(worst, 0.1e-3 * kTurn);  // corners there are
 }
 
 TEST(Onto, TurnedTextureTurnsTheDroplet)

@@ -49,13 +49,14 @@ struct OntoResult {
 /// all its vertices, and otherwise is left out whole; it is not wrapped from u = 1 to u = 0, and no chart repeats
 /// beyond (0,0) to (1,1). On mirrored charts triangles are turned, so that they wind outward.
 ///
-/// Guarantees: topology as before; every vertex at z = 0 lies on a triangle of the object, up to round-off. Between
-/// vertices a base lies off the object by at most κℓ²/8 (ℓ its edges, κ the object's curvature, edges between facets
-/// included): give droplets a base with the liquid's own triangles, as loft makes on curved ground.
+/// Guarantees: topology as before; every vertex at z = 0 lies on a triangle of the object, or within 1e-7 of the
+/// picture's size. Between vertices a base cuts the object's corners, by at most ℓθ/4 where facets meet at an angle θ
+/// and its edges are ℓ long: give droplets a base with the liquid's own triangles, as loft makes on curved ground.
 /// @param droplets  valid; z = 0 the ground, uv those of the picture
 /// @param object    valid
 /// @param options   extent of the picture
-/// @throws Error    InvalidArgument; NoSuchDroplet if none can be laid
+/// @throws Error    InvalidArgument; InvalidInput if no triangle of the object has an area in uv; NoSuchDroplet if none
+///                  of the droplets can be laid
 OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options);
 
 /// Length on the object per unit of uv: √(area / area in uv), the median by area, so that a lid unwrapped small does
