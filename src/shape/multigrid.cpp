@@ -43,6 +43,11 @@ constexpr double kProbed = 1e-8;
 /// The smoother damps the upper part of the spectrum, down to this share of its end; the coarser level sees the rest.
 constexpr double kSmoothedShare = 0.25;
 
+/// The same where triangles have tensors. Where the liquid is steep, coupling along the rim is stronger than across,
+/// and what is rough across and smooth along is in no coarser level: less is left to it. A cap of 85° with a million
+/// triangles takes 48 iterations instead of 57, one of 60° as many as before.
+constexpr double kStretchedShare = 0.15;
+
 template <typename A>
 double dotOf(const std::vector<A>& a, const std::vector<double>& b)
 {
@@ -201,9 +206,10 @@ public:
                 }
             });
         }
-        // Chebyshev polynomial of degree 2 on [kSmoothedShare, 1]·largest.
-        const double centre = 0.5 * largest * (1.0 + kSmoothedShare);
-        const double half = 0.5 * largest * (1.0 - kSmoothedShare);
+        // Chebyshev polynomial of degree 2 on [share, 1]·largest.
+        const double share = level.varying.empty() ? kSmoothedShare : kStretchedShare;
+        const double centre = 0.5 * largest * (1.0 + share);
+        const double half = 0.5 * largest * (1.0 - share);
         const double rho = half / centre;
         const double next_rho = 1.0 / (2.0 * centre / half - rho);
         first_ = static_cast<float>(1.0 / centre);
