@@ -8,9 +8,7 @@
 //
 // With a right side, or where gravity pulls the liquid off, the iteration stays among functions without volume: N.
 // Gould, M. Hribar, J. Nocedal, "On the solution of equality constrained quadratic programming problems arising in
-// optimization" (2001), algorithm 6.1 (projected conjugate gradients with a constraint preconditioner).
-
-#include "shape/multigrid.h"
+// optimization" (2001): projected conjugate gradients with a constraint preconditioner and residual update.
 
 #include <tbb/parallel_for.h>
 
@@ -27,14 +25,14 @@
 
 #include "blocks.h"
 #include "shape/constrained.h"
+#include "shape/hierarchy.h"
 
 namespace droplet {
 namespace {
 
 using Index = std::uint32_t;
 
-/// Residual at which iteration ends, and the most iterations: lattices need 8 to 12, other meshes some dozens.
-constexpr double kTolerance = 1e-10;
+/// Lattices need 8 to 15 iterations, or where the liquid is steep up to 70; other meshes some dozens.
 constexpr std::size_t kMostIterations = 200;
 
 /// Residual down to which the probe for negative directions goes.
@@ -878,23 +876,6 @@ private:
 };
 
 }  // namespace
-
-LinearSolution solveByMultigrid(const Hierarchy& hierarchy)
-{
-    LinearSolution solution;
-    const Cycle cycle(hierarchy.levels);
-    if (!cycle.usable()) {
-        return solution;
-    }
-    const Unit unit = solveUnit(hierarchy, cycle, kTolerance);
-    const double scale = hierarchy.edge * hierarchy.edge;
-    solution.residual = unit.residual;
-    solution.iterations = unit.iterations;
-    solution.converged = solution.residual < kLargestResidual;
-    solution.integral = scale * scale * dotOf(hierarchy.load, unit.solution);
-    solution.values = gathered(hierarchy, unit.solution, scale);
-    return solution;
-}
 
 std::unique_ptr<ConstrainedSolver> multigridSolver(const PlanarMesh& mesh)
 {
