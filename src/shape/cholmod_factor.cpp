@@ -76,12 +76,6 @@ CholmodFactor::CholmodFactor() : state_(std::make_unique<State>())
     common.method[0].ordering = CHOLMOD_AMD;
 }
 
-CholmodFactor::CholmodFactor(const Eigen::SparseMatrix<double>& matrix) : CholmodFactor()
-{
-    analyzePattern(matrix);
-    factorize(matrix);
-}
-
 CholmodFactor::~CholmodFactor()
 {
     state_->library.free_factor(&state_->factor, &state_->common);

@@ -12,7 +12,6 @@ class CholmodFactor {
 public:
     /// @throws Error  InvalidArgument where the CHOLMOD library is not installed
     CholmodFactor();
-    explicit CholmodFactor(const Eigen::SparseMatrix<double>& matrix);
     ~CholmodFactor();
     CholmodFactor(const CholmodFactor&) = delete;
     CholmodFactor& operator=(const CholmodFactor&) = delete;

@@ -335,8 +335,8 @@ TEST(ConstrainedSolver, SameBitsAtAnyNumberOfThreads)
     }
 }
 
-// Measured at 2 k to 500 k triangles: cap of 60° 9 to 13; tensors at random and held vertices 10 to 12; under a ceiling
-// 15 to 16.
+// Measured at 2 k to 500 k triangles: a cap of 60° 9 to 11, tensors at random and held vertices 9 to 10, under a
+// ceiling near the critical weight 16.
 TEST(ConstrainedSolver, IterationsHardlyGrowWithTheMesh)
 {
     std::vector<std::size_t> sizes{2000, 8000, 32000, 128'000};
@@ -363,7 +363,7 @@ TEST(ConstrainedSolver, IterationsHardlyGrowWithTheMesh)
     }
     for (const std::vector<std::size_t>* counts : {&cap, &wild, &hanging}) {
         SCOPED_TRACE(::testing::PrintToString(*counts));
-        EXPECT_LE(counts->back(), counts->front() + 6);
+        EXPECT_LE(counts->back(), counts->front() + 4);
         EXPECT_LE(*std::max_element(counts->begin(), counts->end()), 20U);
     }
 }
