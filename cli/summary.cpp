@@ -151,14 +151,22 @@ std::string ground(const Report& report)
     return "";
 }
 
+std::string penetration(const Report& report)
+{
+    if (report.physics.no_penetration) {
+        return ", no penetration, " + squareMillimetres(report.total.dry_area) + " left dry";
+    }
+    const bool sinks = report.total.depth_max > 0.0;
+    return sinks ? ", the liquid sinks " + millimetres(report.total.depth_max) + " into it" : "";
+}
+
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
     std::string text = line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
                                           digits(liquid.density) + " kg/m³");
     text += line("gravity", gravity(report));
-    text += line("ground", ground(report) + (report.physics.no_penetration ? ", no penetration" : "") + ", " +
-                               squareMillimetres(report.total.dry_area) + " left dry");
+    text += line("ground", ground(report) + penetration(report));
     text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +
                                digits(report.total.gravity_energy * 1e6) + " µJ of gravity");
     const std::string model = report.physics.model == droplet::Model::Exact

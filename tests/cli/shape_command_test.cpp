@@ -662,7 +662,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
 {
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "-v"});
     for (const char* words :
-         {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "flat", "left dry", "µJ",
+         {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "ground     flat\n", "µJ",
           "linear model", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
         EXPECT_THAT(result.error, HasSubstr(words));
     }
@@ -671,7 +671,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
                      "cylinder:R=33mm,axis=y", "--no-penetration"})
                     .error,
                 AllOf(HasSubstr("exact model"), HasSubstr("Newton step"), HasSubstr("tilt 20.0° downhill to -90.0°"),
-                      HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration")));
+                      HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration, 0 mm² left dry")));
 
     writeFile(directory() / "many.pgm",
               greymap(120, 120, [](int x, int y) { return x % 12 > 2 && y % 12 > 2 ? 255 : 0; }));
