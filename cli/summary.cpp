@@ -115,8 +115,8 @@ std::string retention(const Report& report)
     const auto sliding = std::count_if(report.droplets.begin(), report.droplets.end(), [](const auto& droplet) {
         return droplet.retention && droplet.retention->wouldSlide();
     });
-    return counted(static_cast<std::size_t>(sliding), "droplet") + " would slide; pulled by " +
-           digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
+    const std::string count = sliding == 0 ? "no droplet" : counted(static_cast<std::size_t>(sliding), "droplet");
+    return count + " would slide; pulled by " + digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
            digits(report.retention->retention_force * 1e6) + " µN";
 }
 

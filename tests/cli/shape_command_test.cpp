@@ -330,7 +330,27 @@ TEST_F(ShapeCommandTest, SaysWhetherDropletsWouldSlide)
 
     const auto words = run({"disc.pgm", "a.glb", "--triangles", "2k", "--volume", "50uL", "--tilt", "90deg",
                             "--advancing", "60deg", "--receding", "50deg"});
-    EXPECT_THAT(words.error, AllOf(HasSubstr("1 droplet would slide"), HasSubstr("µN")));
+    EXPECT_THAT(words.error, AllOf(HasSubstr("retention  1 droplet would slide"), HasSubstr("µN")));
+    EXPECT_THAT(run({"two.pgm", "a.glb", "--triangles", "2k", "--advancing", "60deg", "--receding", "50deg"}).error,
+                HasSubstr("retention  no droplet would slide; pulled by 0 µN"));
+}
+
+TEST_F(ShapeCommandTest, OneOfTwoDropletsMaySlide)
+{
+    // Upright, both as high: the ring, wider but far heavier, comes off and the disc stays.
+    const json report = this->report(
+        {"two.pgm", "a.glb", "--tilt", "90deg", "--height", "1mm", "--advancing", "65deg", "--receding", "48deg"});
+    std::vector<bool> slides;
+    for (const json& droplet : report["droplets"]) {
+        slides.push_back(droplet["would_slide"]);
+        EXPECT_EQ(droplet["would_slide"], droplet["driving_force_n"].get<double>() > droplet["retention_force_n"]);
+    }
+    EXPECT_THAT(slides, ::testing::UnorderedElementsAre(true, false));
+    EXPECT_EQ(report["shape"]["would_slide"], true);
+    for (const char* force : {"driving_force_n", "retention_force_n"}) {
+        const double sum = report["droplets"][0][force].get<double>() + report["droplets"][1][force].get<double>();
+        EXPECT_NEAR(report["shape"][force], sum, 1e-12 * sum) << force;
+    }
 }
 
 TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
@@ -608,6 +628,23 @@ TEST_F(ShapeCommandTest, ConfigurationFileMeansTheSameAsOptions)
     EXPECT_EQ(bytesOf("file.glb"), bytesOf("options.glb"));
     EXPECT_EQ(by_file["liquid"], by_options["liquid"]);
     EXPECT_EQ(by_file["shape"], by_options["shape"]);
+}
+
+TEST_F(ShapeCommandTest, GroundAndGravityMayComeFromAConfigurationFile)
+{
+    writeFile(directory() / "settings.toml",
+              "gravity = \"-1.62m/s2\"\ntilt = \"170deg\"\ntilt-direction = \"-45deg\"\nmodel = \"exact\"\n"
+              "surface = \"cylinder:R=33mm,axis=-10deg\"\nno-penetration = true\n");
+    make({"disc.pgm", "file.glb", "--config", "settings.toml"});
+    make({"disc.pgm", "options.glb", "--gravity", "-1.62m/s2", "--tilt=170deg", "--tilt-direction", "-45deg", "--model",
+          "exact", "--surface", "cylinder:axis=-10deg,R=33mm", "--no-penetration"});
+    EXPECT_TRUE(bytesOf("file.glb") == bytesOf("options.glb"));
+    // An object on the command line settles what the file says of the ground.
+    make({"disc.pgm", "cap.glb", "--open", "--contact-angle", "10deg"});
+    const json report = this->report({"disc.pgm", "a.glb", "--config", "settings.toml", "--onto", "cap.glb", "--width",
+                                      "19mm", "--no-penetration=false"});
+    EXPECT_EQ(report["ground"]["kind"], "flat");
+    EXPECT_EQ(report["onto"]["path"], "cap.glb");
 }
 
 TEST_F(ShapeCommandTest, CommandLineGoesBeforeTheConfigurationFile)
