@@ -120,6 +120,13 @@ std::string retention(const Report& report)
            digits(report.retention->retention_force * 1e6) + " µN";
 }
 
+std::string object(const droplet::ObjectReport& onto)
+{
+    return oneLine(onto.path) + ": " + counted(onto.droplets_laid, "droplet") + " laid on it, " +
+           std::to_string(onto.droplets_left_out) + " left out, lengths " + digits(onto.least_scale, 3) + " to " +
+           digits(onto.most_scale, 3) + " times the picture's";
+}
+
 std::string gravity(const Report& report)
 {
     const auto& physics = report.physics;
@@ -196,6 +203,9 @@ std::string summary(const Report& report, bool with_details)
     text += line("shape", shape(report));
     if (report.retention) {
         text += line("retention", retention(report));
+    }
+    if (report.onto) {
+        text += line("object", object(*report.onto));
     }
     text += line("mesh", counted(report.mesh.triangles, "triangle") + " on the footprint, smallest angle " +
                              degrees(report.mesh.min_angle));
