@@ -115,9 +115,16 @@ std::string retention(const Report& report)
     const auto sliding = std::count_if(report.droplets.begin(), report.droplets.end(), [](const auto& droplet) {
         return droplet.retention && droplet.retention->wouldSlide();
     });
-    return counted(static_cast<std::size_t>(sliding), "droplet") + " would slide; pulled by " +
-           digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
+    const std::string count = sliding == 0 ? "no droplet" : counted(static_cast<std::size_t>(sliding), "droplet");
+    return count + " would slide; pulled by " + digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
            digits(report.retention->retention_force * 1e6) + " µN";
+}
+
+std::string object(const droplet::ObjectReport& onto)
+{
+    return oneLine(onto.path) + ": " + counted(onto.droplets_laid, "droplet") + " laid on it, " +
+           std::to_string(onto.droplets_left_out) + " left out, lengths " + digits(onto.least_scale, 3) + " to " +
+           digits(onto.most_scale, 3) + " times the picture's";
 }
 
 std::string gravity(const Report& report)
@@ -151,14 +158,22 @@ std::string ground(const Report& report)
     return "";
 }
 
+std::string penetration(const Report& report)
+{
+    if (report.physics.no_penetration) {
+        return ", no penetration, " + squareMillimetres(report.total.dry_area) + " left dry";
+    }
+    const bool sinks = report.total.depth_max > 0.0;
+    return sinks ? ", the liquid sinks " + millimetres(report.total.depth_max) + " into it" : "";
+}
+
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
     std::string text = line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
                                           digits(liquid.density) + " kg/m³");
     text += line("gravity", gravity(report));
-    text += line("ground", ground(report) + (report.physics.no_penetration ? ", no penetration" : "") + ", " +
-                               squareMillimetres(report.total.dry_area) + " left dry");
+    text += line("ground", ground(report) + penetration(report));
     text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +
                                digits(report.total.gravity_energy * 1e6) + " µJ of gravity");
     const std::string model = report.physics.model == droplet::Model::Exact
@@ -188,6 +203,9 @@ std::string summary(const Report& report, bool with_details)
     text += line("shape", shape(report));
     if (report.retention) {
         text += line("retention", retention(report));
+    }
+    if (report.onto) {
+        text += line("object", object(*report.onto));
     }
     text += line("mesh", counted(report.mesh.triangles, "triangle") + " on the footprint, smallest angle " +
                              degrees(report.mesh.min_angle));

@@ -330,7 +330,27 @@ TEST_F(ShapeCommandTest, SaysWhetherDropletsWouldSlide)
 
     const auto words = run({"disc.pgm", "a.glb", "--triangles", "2k", "--volume", "50uL", "--tilt", "90deg",
                             "--advancing", "60deg", "--receding", "50deg"});
-    EXPECT_THAT(words.error, AllOf(HasSubstr("1 droplet would slide"), HasSubstr("µN")));
+    EXPECT_THAT(words.error, AllOf(HasSubstr("retention  1 droplet would slide"), HasSubstr("µN")));
+    EXPECT_THAT(run({"two.pgm", "a.glb", "--triangles", "2k", "--advancing", "60deg", "--receding", "50deg"}).error,
+                HasSubstr("retention  no droplet would slide; pulled by 0 µN"));
+}
+
+TEST_F(ShapeCommandTest, OneOfTwoDropletsMaySlide)
+{
+    // On a wall, both as high: the disc comes off, the ring is held by two rims.
+    const json report = this->report(
+        {"two.pgm", "a.glb", "--tilt", "90deg", "--height", "1mm", "--advancing", "65deg", "--receding", "48deg"});
+    ASSERT_THAT(report["droplets"], SizeIs(2));
+    for (const json& droplet : report["droplets"]) {
+        EXPECT_EQ(droplet["would_slide"], droplet["holes"] == 0);
+        EXPECT_EQ(droplet["would_slide"], droplet["driving_force_n"] > droplet["retention_force_n"]);
+    }
+    EXPECT_EQ(report["shape"]["would_slide"], true);
+    for (const char* force : {"driving_force_n", "retention_force_n"}) {
+        const double sum = report["droplets"][0][force].get<double>() + report["droplets"][1][force].get<double>();
+        EXPECT_NEAR(report["shape"][force], sum, 1e-12 * sum) << force;
+    }
+    EXPECT_LT(report["shape"]["driving_force_n"], report["shape"]["retention_force_n"]) << "together they would stay";
 }
 
 TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
@@ -463,6 +483,9 @@ TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
     make({"spot.pgm", "one.glb", "--onto", "cap.glb", "-j", "1"});
     make({"spot.pgm", "other.glb", "--onto", "cap.glb", "-j", "2"});
     EXPECT_EQ(bytesOf("one.glb"), bytesOf("other.glb"));
+
+    EXPECT_THAT(run({"spot.pgm", "a.glb", "--onto", "cap.glb", "--triangles", "2k"}).error,
+                HasSubstr("object     cap.glb: 1 droplet laid on it, 0 left out, lengths "));
 
     // Beside the cap there is no object.
     const auto beside = run({"disc.pgm", "b.glb", "--onto", "cap.glb", "--invert"});
@@ -610,6 +633,23 @@ TEST_F(ShapeCommandTest, ConfigurationFileMeansTheSameAsOptions)
     EXPECT_EQ(by_file["shape"], by_options["shape"]);
 }
 
+TEST_F(ShapeCommandTest, GroundAndGravityMayComeFromAConfigurationFile)
+{
+    writeFile(directory() / "settings.toml",
+              "gravity = \"-1.62m/s2\"\ntilt = \"170deg\"\ntilt-direction = \"-45deg\"\nmodel = \"exact\"\n"
+              "surface = \"cylinder:R=33mm,axis=-10deg\"\nno-penetration = true\n");
+    make({"disc.pgm", "file.glb", "--config", "settings.toml"});
+    make({"disc.pgm", "options.glb", "--gravity", "-1.62m/s2", "--tilt=170deg", "--tilt-direction", "-45deg", "--model",
+          "exact", "--surface", "cylinder:axis=-10deg,R=33mm", "--no-penetration"});
+    EXPECT_TRUE(bytesOf("file.glb") == bytesOf("options.glb"));
+    // An object on the command line settles what the file says of the ground.
+    make({"disc.pgm", "cap.glb", "--open", "--contact-angle", "10deg"});
+    const json report = this->report({"disc.pgm", "a.glb", "--config", "settings.toml", "--onto", "cap.glb", "--width",
+                                      "19mm", "--no-penetration=false"});
+    EXPECT_EQ(report["ground"]["kind"], "flat");
+    EXPECT_EQ(report["onto"]["path"], "cap.glb");
+}
+
 TEST_F(ShapeCommandTest, CommandLineGoesBeforeTheConfigurationFile)
 {
     writeFile(directory() / "settings.toml", "width = \"9.6mm\"\nvolume = \"2uL\"\nopen = true\nverbose = true\n");
@@ -662,7 +702,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
 {
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "-v"});
     for (const char* words :
-         {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "flat", "left dry", "µJ",
+         {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "ground     flat\n", "µJ",
           "linear model", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
         EXPECT_THAT(result.error, HasSubstr(words));
     }
@@ -671,7 +711,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
                      "cylinder:R=33mm,axis=y", "--no-penetration"})
                     .error,
                 AllOf(HasSubstr("exact model"), HasSubstr("Newton step"), HasSubstr("tilt 20.0° downhill to -90.0°"),
-                      HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration")));
+                      HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration, 0 mm² left dry")));
 
     writeFile(directory() / "many.pgm",
               greymap(120, 120, [](int x, int y) { return x % 12 > 2 && y % 12 > 2 ? 255 : 0; }));
