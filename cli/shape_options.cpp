@@ -582,7 +582,7 @@ void readGravity(const CommandLine& line, ShapeOptions& options)
     if (const auto direction = line.value("--tilt-direction")) {
         solve.tilt_direction = quantity(*direction, kDirection);
         if (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max) {
-            options.warnings.push_back("--tilt-direction has no effect: without --tilt no side is downhill");
+            options.warnings.push_back("--tilt-direction has no effect: no side of level ground is downhill");
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -362,6 +363,8 @@ TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
     EXPECT_EQ(warnings({"--tilt", "10deg", "--tilt-direction", "0deg", "--no-penetration"}), "[]");
     EXPECT_THAT(warnings({"--tilt-direction", "0deg"}), HasSubstr("--tilt-direction has no effect"));
     EXPECT_THAT(warnings({"--tilt-direction", "0deg", "--tilt", "0deg"}), HasSubstr("--tilt-direction has no effect"));
+    EXPECT_THAT(warnings({"--tilt-direction", "0deg", "--tilt", "180deg"}),
+                HasSubstr("--tilt-direction has no effect"));
     EXPECT_THAT(warnings({"--tilt", "10deg", "--gravity", "0m/s2"}), HasSubstr("--tilt has no effect"));
     EXPECT_THAT(warnings({"--surface-depth", "1mm"}), HasSubstr("--surface-depth has no effect"));
     EXPECT_THAT(warnings({"--surface-depth", "1mm", "--surface", "sphere:R=1m"}),
@@ -427,6 +430,38 @@ TEST_F(ShapeCommandTest, LevelHeightMapLiftsTheDroplet)
     for (const char* key : {"volume_m3", "height_max_m", "liquid_area_m2"}) {
         EXPECT_NEAR(lifted["shape"][key], flat["shape"][key].get<double>(), 1e-8 * flat["shape"][key].get<double>());
     }
+}
+
+/// A TIFF of one pixel that holds a floating-point number.
+std::string floatTiff(float value)
+{
+    std::string bytes("II*\0\x08\0\0\0\x09\0", 10);
+    const auto put = [&](auto number) {
+        std::array<char, sizeof number> raw{};
+        std::memcpy(raw.data(), &number, sizeof number);
+        bytes.append(raw.data(), raw.size());
+    };
+    // Width, length, bits, compression, photometric, strip's place, rows, its bytes, sample format (TIFF 6.0).
+    constexpr std::uint32_t kData = 10 + 9 * 12 + 4;
+    for (const auto& [tag, entry] : std::vector<std::pair<std::uint16_t, std::uint32_t>>{
+             {256, 1}, {257, 1}, {258, 32}, {259, 1}, {262, 1}, {273, kData}, {278, 1}, {279, 4}, {339, 3}}) {
+        put(tag);
+        put(std::uint16_t{4});
+        put(std::uint32_t{1});
+        put(entry);
+    }
+    put(std::uint32_t{0});
+    put(value);
+    return bytes;
+}
+
+TEST_F(ShapeCommandTest, HeightMapOfFloatsIsInMetres)
+{
+    writeFile(directory() / "up.tif", floatTiff(2e-3F));
+    make({"disc.pgm", "up.stl", "--surface", "up.tif"});
+    EXPECT_NEAR(rangeOfZ(bytesOf("up.stl")).first, 2.0, 1e-5);
+    make({"disc.pgm", "higher.stl", "--surface", "up.tif", "--surface-depth", "3m"});
+    EXPECT_NEAR(rangeOfZ(bytesOf("higher.stl")).first, 6.0, 1e-5);
 }
 
 TEST_F(ShapeCommandTest, NoPenetrationLeavesGroundDry)
