@@ -212,7 +212,7 @@ TEST(Hanging, OverhangsFallByTheirNormalGravity)
             continue;
         }
         EXPECT_EQ(solution.report.termination, Termination::Unstable);
-        EXPECT_NEAR(solution.report.bond_number / gravity, 1.0, 2e-3);
+        EXPECT_NEAR(solution.report.bond_number / (factor * kCritical * kCritical), 1.0, 2e-3);
         EXPECT_NEAR(solution.report.bond_number / solution.report.critical_bond_number, factor, 0.01);
     }
 }

@@ -341,7 +341,7 @@ TEST(Penetration, SolversAgreeAndThreadsDoNotMatter)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.02);
     for (const Model model : {Model::Linear, Model::Exact}) {
-        SolveOptions options = unitOptions(model, 2.0, 0.25);
+        SolveOptions options = unitOptions(model, 2.0, 0.1);
         options.tilt = 0.6;
         options.ground = hill(0.4);
         options.no_penetration = true;
