@@ -43,6 +43,7 @@ struct Drop {
     const PlanarMesh* mesh = nullptr;
     std::vector<Vec3> vertices;
     std::vector<double> ground;  ///< at every vertex; empty where flat
+    const std::vector<std::uint8_t>* dry = nullptr;
     double pressure = 0.0;
     double area = 0.0;
     Column liquid;
@@ -69,10 +70,11 @@ void checkFits(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFi
         const HeightField& field = fields[k];
         const std::size_t count = meshes[k].vertices.size();
         const std::string name = "fields[" + std::to_string(k) + "]";
-        if (field.height.size() != count || !(field.ground.empty() || field.ground.size() == count)) {
-            refuse(name + " has " + std::to_string(field.height.size()) + " heights and " +
-                   std::to_string(field.ground.size()) + " of the ground, its mesh has " + std::to_string(count) +
-                   " vertices");
+        if (field.height.size() != count || !(field.ground.empty() || field.ground.size() == count) ||
+            !(field.dry.empty() || field.dry.size() == count)) {
+            refuse(name + " has " + std::to_string(field.height.size()) + " heights, " +
+                   std::to_string(field.ground.size()) + " of the ground and " + std::to_string(field.dry.size()) +
+                   " dry or not, its mesh has " + std::to_string(count) + " vertices");
         }
         if (!finite(field.height) || !finite(field.ground) || !std::isfinite(field.pressure)) {
             refuse(name + " must be finite");
@@ -124,6 +126,7 @@ Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& p
 {
     Drop drop;
     drop.mesh = &mesh;
+    drop.dry = &field.dry;
     drop.pressure = field.pressure / physics.tension * physics.unit;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         drop.vertices.push_back(
@@ -336,6 +339,8 @@ private:
             lines_.line("q1: 0\nq2: 0\nq3: -(pull_x*x + pull_y*y)*z");
         }
         if (options_.no_penetration) {
+            lines_.line(
+                "// What is dry below is fixed: Newton steps free no vertex that a one-sided constraint holds.");
             lines_.line("constraint 1 nonnegative");
             lines_.line("formula: z = ground");
         }
@@ -350,7 +355,7 @@ private:
             for (std::uint32_t v = 0; v < drop.vertices.size(); ++v) {
                 const Vec3& p = drop.vertices[v];
                 lines_.begin(++number, " ", p.x, " ", p.y, " ", p.z);
-                if (drop.mesh->onRim(v)) {
+                if (drop.mesh->onRim(v) || (!drop.dry->empty() && (*drop.dry)[v] != 0)) {
                     lines_.begin(" fixed");
                 } else if (options_.no_penetration) {
                     lines_.begin(" constraint 1");

@@ -612,5 +612,90 @@ TEST(Evolver, EvolverKeepsAboveTheGround)
     EXPECT_NEAR(evolved(droplets, commands).energy, 0.0, 1e-12);
 }
 
+/// What acts on a droplet of water.
+struct Situation {
+    const char* name;
+    double gravity = 0.0;
+    double tilt = 0.0;  ///< [deg]
+    BaseSurface ground;
+    double volume = 0.0;  ///< [m³]
+    FillSharing sharing = FillSharing::Each;
+
+    friend void PrintTo(const Situation& situation, std::ostream* out) { *out << situation.name; }
+};
+
+class EvolverAndUs : public ::testing::TestWithParam<Situation> {};
+
+const BaseSurface kWavyGround([](Vec2 p) {
+    const double k = 900.0;
+    return GroundPoint{
+        2e-4 * std::sin(k * p.x) * std::cos(k * p.y),
+        {2e-4 * k * std::cos(k * p.x) * std::cos(k * p.y), -2e-4 * k * std::sin(k * p.x) * std::sin(k * p.y)}};
+});
+
+INSTANTIATE_TEST_SUITE_P(Situations, EvolverAndUs,
+                         ::testing::Values(Situation{"Weightless", 0.0, 0.0, {}, 40e-9},
+                                           Situation{"Standing", 9.81, 0.0, {}, 40e-9},
+                                           Situation{"OnASlope", 9.81, 50.0, {}, 30e-9},
+                                           Situation{"Hanging", 9.81, 180.0, {}, 20e-9},
+                                           Situation{"OnWavesOnAWall", 9.81, 90.0, kWavyGround, 30e-9},
+                                           Situation{"Sharing", 9.81, 20.0, kWavyGround, 50e-9, FillSharing::Total}),
+                         [](const ::testing::TestParamInfo<Situation>& info) { return info.param.name; });
+
+// A square, 8 mm wide, and in the last situation a disc beside it. Evolver starts from the linear model's heights, and
+// meets the exact model's in whatever Newton's method leaves.
+TEST_P(EvolverAndUs, HaveTheSameEquilibrium)
+{
+    const Situation& situation = GetParam();
+    Domain domain = domainOf(polygonLoop({{-4e-3, -4e-3}, {4e-3, -4e-3}, {4e-3, 4e-3}, {-4e-3, 4e-3}}));
+    if (situation.sharing == FillSharing::Total) {
+        Loop disc = ellipseLoop(3e-3, 3e-3);
+        for (Vec2& p : disc.points) {
+            p.x += 9e-3;
+        }
+        domain.droplets.push_back({disc, {}});
+    }
+    Droplets droplets;
+    droplets.meshes = triangulate(domain, {.edge = 3e-4});
+    droplets.options.gravity = situation.gravity;
+    droplets.options.tilt = situation.tilt * kDegree;
+    droplets.options.ground = situation.ground;
+    droplets.options.fill = {FillBy::Volume, situation.volume, situation.sharing};
+    droplets.fields = solve(droplets.meshes, droplets.options).droplets;
+    ASSERT_EQ(droplets.fields.size(), droplets.meshes.size());
+    const Statement theirs = evolved(droplets, "equilibrate; report");
+    const Statement start = statementIn(parsed(droplets.written()).opening);
+
+    droplets.options.model = Model::Exact;
+    droplets.fields = solve(droplets.meshes, droplets.options).droplets;
+    ASSERT_EQ(droplets.fields.size(), droplets.meshes.size());
+    const Statement ours = statementIn(parsed(droplets.written()).opening);
+    EXPECT_NEAR(ours.energy, theirs.energy, 1e-12 * std::abs(theirs.energy));
+    EXPECT_NEAR(ours.height, theirs.height, 1e-8 * theirs.height);
+    EXPECT_NEAR(ours.volumes.at(0), theirs.volumes.at(0), 1e-10 * theirs.volumes.at(0));
+    EXPECT_NEAR(ours.pressures.at(0), theirs.pressures.at(0), 1e-8 * std::abs(theirs.pressures.at(0)));
+    // So that there was something to find.
+    EXPECT_GT(start.energy, theirs.energy + 1e-7 * std::abs(theirs.energy));
+}
+
+// A large disc on a steep slope, which runs dry at its upper end. What we left dry stays so; Evolver must find the same
+// between there and the rim, and nothing of it below the ground.
+TEST(Evolver, EvolverAgreesWhereTheGroundIsDry)
+{
+    Droplets droplets;
+    droplets.meshes = triangulate(domainOf(ellipseLoop(15e-3, 15e-3)), {.edge = 1e-3});
+    droplets.options.tilt = 60.0 * kDegree;
+    droplets.options.model = Model::Exact;
+    droplets.options.no_penetration = true;
+    droplets.options.fill = {FillBy::Volume, 50e-9, FillSharing::Each};
+    droplets.fields = solve(droplets.meshes, droplets.options).droplets;
+    ASSERT_EQ(droplets.fields.size(), 1U);
+    ASSERT_FALSE(droplets.fields[0].dry.empty());
+    const Statement ours = statementIn(parsed(droplets.written()).opening);
+    const Statement theirs = evolved(droplets, "equilibrate; report");
+    EXPECT_NEAR(ours.energy, theirs.energy, 1e-10 * std::abs(theirs.energy));
+    EXPECT_NEAR(ours.pressures.at(0), theirs.pressures.at(0), 1e-8 * std::abs(theirs.pressures.at(0)));
+}
+
 }  // namespace
 }  // namespace droplet
