@@ -46,13 +46,15 @@ std::string estimatedError(const ShapeFigures& figures, FillBy by)
     return {};
 }
 
-std::string steepness(const Droplet& droplet, FillBy by)
+std::string steepness(const Droplet& droplet, const SolveOptions& options)
 {
     const ShapeFigures& total = droplet.total;
+    const bool like_a_cap = options.ground.flat() && planeGravity(options).along == Vec2{};
     return "slopes pass 50 degrees on " + percent(total.steep_area / total.footprint_area) +
            " of the footprint and reach " + rounded(total.slope_max / kDegree) +
            "; the linear model takes the area there for " + percent(total.linear_area / total.liquid_area - 1.0) +
-           " of the whole too large, and " + estimatedError(total, by) + " (model exact has no such error)";
+           " of the whole too large" + (like_a_cap ? ", and " + estimatedError(total, options.fill.by) : "") +
+           " (model exact has no such error)";
 }
 
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
@@ -61,7 +63,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     std::vector<std::string> warnings;
     const ShapeFigures& total = droplet.total;
     if (options.solve.model == Model::Linear && total.steep_area > 0.0) {
-        warnings.push_back(steepness(droplet, options.solve.fill.by));
+        warnings.push_back(steepness(droplet, options.solve));
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +

@@ -606,7 +606,66 @@ TEST(Droplet, WarnsOfSlopesBeyondTheModel)
     }
     for (const double angle : {53.0, 80.0}) {
         options.solve.fill.amount = angle * kDegree;
-        EXPECT_THAT(makeDroplet(mask, options).warnings, ElementsAre(HasSubstr("slopes reach"))) << angle;
+        EXPECT_THAT(makeDroplet(mask, options).warnings, ElementsAre(HasSubstr("slopes pass 50 degrees"))) << angle;
+    }
+    options.solve.model = Model::Exact;
+    EXPECT_THAT(makeDroplet(mask, options).warnings, IsEmpty());
+}
+
+// On a disc the estimate is the error.
+TEST(Droplet, EstimatesTheErrorOfSlopesBeyondTheModel)
+{
+    const Mask mask = smoothMask(256, 256, disc({128.0, 128.0}, 100.0));
+    DropletOptions options = plain();
+    options.mesh.triangles = 10'000;
+    options.solve.gravity = 0.0;
+    for (const FillBy by : {FillBy::ContactAngle, FillBy::Volume}) {
+        options.solve.model = Model::Linear;
+        options.solve.fill = {FillBy::ContactAngle, 60.0 * kDegree, FillSharing::Each};
+        const double volume = makeDroplet(mask, options).total.volume;
+        if (by == FillBy::Volume) {
+            options.solve.fill = {by, volume, FillSharing::Each};
+        }
+        const Droplet linear = makeDroplet(mask, options);
+        options.solve.model = Model::Exact;
+        const double excess = linear.total.height_max / makeDroplet(mask, options).total.height_max - 1.0;
+        ASSERT_THAT(linear.warnings, ElementsAre(HasSubstr("the height about ")));
+        const std::string& warning = linear.warnings[0];
+        const double estimate = std::stod(warning.substr(warning.find("the height about ") + 17)) / 100.0;
+        EXPECT_GT(excess, 0.05);
+        EXPECT_NEAR(estimate / excess, 1.0, 0.02);
+    }
+}
+
+TEST(Droplet, RefusesWhatDoesNotExist)
+{
+    const Mask mask = smoothMask(256, 256, disc({128.0, 128.0}, 100.0));
+    DropletOptions options = plain();
+    options.mesh.triangles = 5'000;
+    options.solve.gravity = 0.0;
+    options.solve.model = Model::Exact;
+    const double radius = 100.0 * 0.2 * kMillimetre;
+    const double most = 2.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    options.solve.fill = {FillBy::Volume, 1.2 * most, FillSharing::Each};
+    try {
+        (void)makeDroplet(mask, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        const std::string message = error.what();
+        const auto at = message.find("largest volume that exists is ");
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + 30)) * kMicrolitre / most, 1.0, 0.02) << message;
+    }
+    options.solve.fill.amount = 0.9 * most;
+    EXPECT_EQ(makeDroplet(mask, options).solution.report.termination, Termination::Converged);
+    options.solve.gravity = -300.0;
+    try {
+        (void)makeDroplet(mask, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        EXPECT_THAT(error.what(), HasSubstr("at most 14."));  // 3.8317²
     }
 }
 
