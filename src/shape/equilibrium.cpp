@@ -369,6 +369,18 @@ std::vector<std::uint8_t> heldAfter(const Member& member, const Operator& op, co
     return some ? held : std::vector<std::uint8_t>{};
 }
 
+/// Vertices held in either of two sets.
+std::vector<std::uint8_t> united(std::vector<std::uint8_t> a, const std::vector<std::uint8_t>& b)
+{
+    if (a.empty()) {
+        return b;
+    }
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        a[i] = std::max(a[i], b[i]);
+    }
+    return a;
+}
+
 /// One Newton step of all members together.
 struct Advance {
     std::vector<Operator> operators;
@@ -418,6 +430,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
     std::vector<std::uint8_t> changed(count, 1);
     // Sets of held vertices that were tried, lest they come round again.
     std::set<std::vector<std::vector<std::uint8_t>>> tried;
+    bool release = true;
     for (;;) {
         const bool with_rise = !isVolumeOfOne(members, options.fill) ||
                                std::abs(options.fill.amount - members[0].sheet->volume) > 1e-13 * options.fill.amount;
@@ -455,16 +468,20 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
                 held[k] =
                     heldAfter(members[k], advance.operators[k], gradients[k], advance.changes[k], advance.pressures[k]);
             });
+            // What comes round again is decided by the systems' tolerance: then nothing is let go any more.
+            release = release && tried.insert(held).second;
             bool settled = true;
             for (std::size_t k = 0; k < count; ++k) {
+                if (!release) {
+                    held[k] = united(std::move(held[k]), advance.operators[k].held);
+                }
                 changed[k] = held[k] != advance.operators[k].held ? 1 : 0;
                 settled = settled && changed[k] == 0;
-                advance.operators[k].held = held[k];
+                advance.operators[k].held = std::move(held[k]);
             }
-            if (!settled && tried.insert(std::move(held)).second) {
+            if (!settled) {
                 continue;
             }
-            advance.converged = settled;
         }
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<double>& flux = advance.fluxes.emplace_back(std::move(steps[k].flux));
