@@ -68,15 +68,15 @@ struct Waypoint {
     double angle = 0.0;   ///< [rad]
 };
 
-/// The volume at which the rim stands upright: the volume as a function of the angle, smooth there, through three
+/// The volume at which the rim stands upright: the volume as a function of the angle, smooth there, through four
 /// waypoints.
-double uprightVolume(const std::array<Waypoint, 3>& way)
+double uprightVolume(const std::array<Waypoint, 4>& way)
 {
     constexpr double kUpright = 90.0 * kDegree;
     double volume = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
         double weight = 1.0;
-        for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t j = 0; j < 4; ++j) {
             weight *= i == j ? 1.0 : (kUpright - way[j].angle) / (way[i].angle - way[j].angle);
         }
         volume += weight * way[i].volume;
@@ -282,15 +282,17 @@ private:
     /// The volume at which the rim stands upright, from sheets of somewhat less than what they hold now.
     double uprightFrom(double now)
     {
-        std::array<Waypoint, 3> way;
-        const std::array<double, 3> parts{1.0, 0.9, 0.8};
-        for (std::size_t i = 0; i < 3; ++i) {
+        std::array<Waypoint, 4> way;
+        const std::array<double, 4> parts{0.8, 0.7, 0.6, 0.5};
+        for (std::size_t i = 0; i < 4; ++i) {
             if (!settleExact({FillBy::Volume, parts[i] * now, options_->fill.sharing})) {
                 return now;
             }
             way[i] = {parts[i] * now, steepest()};
         }
-        return way[0].angle > way[1].angle && way[1].angle > way[2].angle ? std::max(uprightVolume(way), now) : now;
+        return way[0].angle > way[1].angle && way[1].angle > way[2].angle && way[2].angle > way[3].angle
+                   ? std::max(uprightVolume(way), now)
+                   : now;
     }
 
     const std::vector<Member>* members_;
