@@ -620,7 +620,9 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     const bool exact = members.front().energy->physics().model == Model::Exact;
     Settled settled;
     std::vector<std::vector<double>> gradients = gradientsOf(members);
-    StepOptions step{options.fill, options.no_penetration, exact ? kRoughly : kExactly};
+    // Which vertices are held can hang on the last digits of a step: rough ones go round in circles.
+    const double roughly = exact && !options.no_penetration ? kRoughly : kExactly;
+    StepOptions step{options.fill, options.no_penetration, exact ? roughly : options.linear_tolerance};
     while (settled.newton_steps < options.most_steps) {
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
@@ -663,7 +665,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             return settled;
         }
         // As exact as this step's error is worth: the next is of the order of its square.
-        step.tolerance = std::clamp(0.1 * settled.residual, kExactly, kRoughly);
+        step.tolerance = std::clamp(0.1 * settled.residual, kExactly, roughly);
     }
     return settled;
 }

@@ -35,7 +35,8 @@ struct Member {
 struct SettleOptions {
     Fill fill;  ///< of all members together, at one pressure
     bool no_penetration = false;
-    double tolerance = 1e-9;  ///< of the exact model's residual, relative to pressure and size
+    double tolerance = 1e-9;          ///< of the exact model's residual, relative to pressure and size
+    double linear_tolerance = 1e-10;  ///< of the linear model's systems
     std::size_t most_steps = 40;
 };
 

@@ -55,6 +55,9 @@ double steepestAngle(const Member& member)
     return std::asin(std::clamp(-steepest->first, -1.0, 1.0));
 }
 
+/// Of a linear solution that only begins Newton's method.
+constexpr double kStartTolerance = 1e-4;
+
 /// A mean angle at which the linear model and the exact one are close.
 constexpr double kGentle = 20.0 * kDegree;
 
@@ -125,7 +128,11 @@ private:
 
     bool settleLinear(const Fill& fill)
     {
-        const Settled settled = settle(*members_, {.fill = fill, .no_penetration = options_->no_penetration});
+        SettleOptions options{.fill = fill, .no_penetration = options_->no_penetration};
+        if (options_->model == Model::Exact) {
+            options.linear_tolerance = kStartTolerance;
+        }
+        const Settled settled = settle(*members_, options);
         outcome_.iterations = settled.iterations;
         outcome_.residual = settled.residual;
         outcome_.newton_steps = options_->model == Model::Linear ? settled.newton_steps : 0;
