@@ -258,8 +258,9 @@ TEST(Curved, CapsOnSpheresConvergeWithOrderTwo)
             EXPECT_GE(meanOrder(l2), 1.8);
             EXPECT_GE(meanOrder(pressure), 1.8);
             EXPECT_GE(meanOrder(mean_angle), 1.8);
-            // The worst of all rim vertices, where single ones carry how the band lies there.
-            EXPECT_GE(meanOrder(extreme_angle), 0.5);
+            // The worst of all rim vertices, where single ones carry how the band lies there. Measured: 0.76 to
+            // 0.86.
+            EXPECT_GE(meanOrder(extreme_angle), 0.7);
             EXPECT_LT(extreme_angle.back(), 1.5 * kDegree);
             EXPECT_GE(meanOrder(area_error), 1.8);
             EXPECT_GE(meanOrder(thickness), 1.8);

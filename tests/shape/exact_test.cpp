@@ -201,6 +201,7 @@ PlanarMesh ringsFor(double rim_angle, std::uint32_t rings)
 void expectOrderTwo(const Errors& errors, std::size_t meshes)
 {
     ASSERT_EQ(errors.l2.size(), meshes);
+    // Measured: 1.82 to 2.29, the least at 70° on even meshes.
     EXPECT_GE(meanOrder(errors.l2), 1.8);
     EXPECT_GE(meanOrder(errors.height), 1.8);
     EXPECT_GE(meanOrder(errors.pressure), 1.8);
@@ -258,10 +259,10 @@ TEST(Exact, NearlyAHemisphereIsFoundAndConverges)
     const Revolution exact = dropletOfVolume(0.0, 2.0);
     const Errors errors = discErrors(exact, discs);
     ASSERT_EQ(errors.l2.size(), discs.size());
-    // Between that of a square root at the rim, 1, and 2.
-    EXPECT_GE(meanOrder(errors.l2), 1.2);
-    EXPECT_GE(meanOrder(errors.height), 1.2);
-    EXPECT_GE(meanOrder(errors.energy), 1.2);
+    // Between that of a square root at the rim, 1, and 2. Measured: 1.61 to 2.00.
+    EXPECT_GE(meanOrder(errors.l2), 1.5);
+    EXPECT_GE(meanOrder(errors.height), 1.5);
+    EXPECT_GE(meanOrder(errors.energy), 1.5);
     EXPECT_LT(errors.height.back() / exact.height, 5e-3);
 }
 
@@ -315,13 +316,14 @@ TEST(Exact, LiquidAroundAHoleConvergesWithOrderTwo)
 
 TEST(Exact, NewtonStepsDoNotDependOnTheMesh)
 {
-    for (const std::size_t triangles : {10'000U, 100'000U}) {
+    for (const std::size_t triangles : {10'000U, 100'000U, 1'000'000U}) {
         const std::vector<PlanarMesh> meshes =
             triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = triangles, .edge = {}});
         const SolveOptions options = unitOptions(Model::Exact, 0.0, capOfAngle(60 * kDegree).volume());
         const Solution solution = solve(meshes, options);
         EXPECT_TRUE(solution.report.usable());
         EXPECT_GT(solution.report.newton_steps, 1U);
+        // Measured: 4 on each.
         EXPECT_LE(solution.report.newton_steps, 12U) << triangles;
     }
 }
@@ -557,6 +559,7 @@ TEST(Exact, OneReservoirHasOnePressure)
         }
         EXPECT_LT(each.droplets[0].pressure, each.droplets[1].pressure);
     }
+    // Measured: 2.06, 2.22.
     EXPECT_GE(meanOrder(pressure_errors), 1.8);
     EXPECT_GE(meanOrder(volume_errors), 1.8);
 }
@@ -635,9 +638,10 @@ TEST(Exact, FindsMinimalSurfaces)
                 area_error.push_back(
                     std::abs(measure(meshes[0], solution.droplets[0], options).liquid_area - minimal.area));
             }
-            EXPECT_GE(meanOrder(pressure), 1.8);
-            EXPECT_GE(meanOrder(l2), 1.8);
-            EXPECT_GE(meanOrder(area_error), 1.8);
+            // Measured: 1.94 to 2.28.
+            EXPECT_GE(meanOrder(pressure), 1.9);
+            EXPECT_GE(meanOrder(l2), 1.9);
+            EXPECT_GE(meanOrder(area_error), 1.9);
         }
     }
 }

@@ -145,9 +145,10 @@ void expectFilmsConverge(Model model, const Film& film, double b, double a)
             EXPECT_TRUE(field.dry[v] == 0 || r < a + edge) << r;
         }
     }
-    EXPECT_GE(meanOrder(l2), 1.8);
-    EXPECT_GE(meanOrder(pressure), 1.8);
-    EXPECT_GE(meanOrder(angle), 1.8);
+    // Measured: 2.05 to 2.22, and 1.40 to 1.59 for areas, whose edge the triangles are.
+    EXPECT_GE(meanOrder(l2), 1.9);
+    EXPECT_GE(meanOrder(pressure), 1.9);
+    EXPECT_GE(meanOrder(angle), 1.9);
     EXPECT_GE(meanOrder(dry), 0.9);
     if (model == Model::Exact) {
         EXPECT_GE(meanOrder(area_error), 0.9);

@@ -142,8 +142,8 @@ TEST(Tilt, DropletOnAWallConvergesWithOrderTwo)
         EXPECT_GE(meanOrder(l2), 1.9) << direction;
         EXPECT_GE(meanOrder(pressure), 1.9) << direction;
         EXPECT_GE(meanOrder(middle), 1.8) << direction;
-        // The worst of all rim vertices: order 1 but for a logarithm.
-        EXPECT_GE(meanOrder(angle), 0.75) << direction;
+        // The worst of all rim vertices, where single ones carry how the band lies there. Measured: 1.56.
+        EXPECT_GE(meanOrder(angle), 1.4) << direction;
     }
 }
 
