@@ -93,8 +93,8 @@ public:
 
     Outcome run()
     {
-        const bool hanging = members_->front().energy->physics().normal < 0.0;
-        if ((hanging && !canHang()) || !settleLinear(linearFill(options_->fill))) {
+        if (!settleLinear(linearFill(options_->fill))) {
+            refuseWhatFalls();
             return outcome_;
         }
         if (options_->model == Model::Linear) {
@@ -103,7 +103,7 @@ public:
         }
         outcome_.iterations = 0;
         use(Model::Exact);
-        if ((settleExact(options_->fill) && isStable() && steepest() < kReliable) || climb()) {
+        if ((settleExact(options_->fill) && steepest() < kReliable) || climb()) {
             outcome_.termination = Termination::Converged;
         }
         return outcome_;
@@ -160,18 +160,19 @@ private:
         outcome_.critical_bond_number = bondNumber(energy, critical_weight);
     }
 
-    /// Whether gravity away from the ground leaves every droplet in its place, however small.
-    bool canHang()
+    /// Looks for a droplet that gravity away from the ground leaves no place, however small it is.
+    void refuseWhatFalls()
     {
-        for (std::size_t k = 0; k < members_->size(); ++k) {
+        for (std::size_t k = 0; k < members_->size() && outcome_.termination != Termination::Unstable; ++k) {
             const Member& member = (*members_)[k];
-            const double critical = criticalWeight(*member.energy, Operator{}, *member.solver);
-            if (-member.energy->physics().normal >= critical) {
-                refuseAsUnstable(k, critical);
-                return false;
+            const double weight = -member.energy->physics().normal;
+            if (weight > 0.0) {
+                const double critical = criticalWeight(*member.energy, Operator{}, *member.solver);
+                if (weight >= critical) {
+                    refuseAsUnstable(k, critical);
+                }
             }
         }
-        return true;
     }
 
     /// The steepest angle of all members; that one is the first to fail.
@@ -186,20 +187,6 @@ private:
             }
         }
         return angle;
-    }
-
-    /// Whether no droplet would leave what was settled for the ceiling's sake.
-    [[nodiscard]] bool isStable() const
-    {
-        return std::all_of(members_->begin(), members_->end(), [](const Member& member) {
-            const Energy& energy = *member.energy;
-            if (energy.physics().normal >= 0.0) {
-                return true;
-            }
-            Operator op = energy.hessian(member.sheet->height);
-            op.held = member.sheet->held;
-            return -energy.physics().normal < criticalWeight(energy, op, *member.solver);
-        });
     }
 
     [[nodiscard]] std::vector<Sheet> sheets() const
@@ -236,7 +223,7 @@ private:
         const Settled start = settle(*members_, {.fill = gentle, .no_penetration = options_->no_penetration});
         use(Model::Exact);
         const double little = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
-        return start.converged && settleExact({FillBy::Volume, little, wanted.sharing}) && isStable();
+        return start.converged && settleExact({FillBy::Volume, little, wanted.sharing});
     }
 
     /// From little liquid to what is asked for.
@@ -258,14 +245,14 @@ private:
                 return true;
             }
             if (!by_volume && amountOf(*members_, wanted.by) >= wanted.amount) {
-                return settleExact(wanted) && isStable();
+                return settleExact(wanted);
             }
             if (too_much && *too_much - here <= kCloseEnough * here) {
                 break;
             }
             double next = too_much ? std::sqrt(here * *too_much) : 1.5 * here;
             next = by_volume ? std::min(next, wanted.amount) : next;
-            const bool found = settleExact({FillBy::Volume, next, wanted.sharing}) && isStable();
+            const bool found = settleExact({FillBy::Volume, next, wanted.sharing});
             if (found && steepest() < kReliable) {
                 here = next;
                 good = sheets();
@@ -278,7 +265,7 @@ private:
         outcome_.largest_volume = upright ? uprightFrom(here) : here;
         putBack(good);
         // Between the last sheet whose angle is reliable and the upright one, there is one for the asking.
-        if (upright && (!by_volume || wanted.amount <= outcome_.largest_volume) && settleExact(wanted) && isStable() &&
+        if (upright && (!by_volume || wanted.amount <= outcome_.largest_volume) && settleExact(wanted) &&
             volume() <= outcome_.largest_volume) {
             return true;
         }
