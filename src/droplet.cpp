@@ -57,6 +57,25 @@ std::string steepness(const Droplet& droplet, const SolveOptions& options)
            " (model exact has no such error)";
 }
 
+/// How much of all rims liquid leaves at 89° or more, by length.
+double uprightShare(const Droplet& droplet)
+{
+    constexpr double kUpright = 89.0 * kDegree;
+    double upright = 0.0;
+    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        const PlanarMesh& mesh = droplet.meshes[k];
+        const std::vector<double>& angle = droplet.solution.droplets[k].contact_angle;
+        for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+            for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+                const std::uint32_t next = nextOnRim(mesh, loop, v);
+                const double half = 0.5 * length(mesh.vertices[next] - mesh.vertices[v]);
+                upright += (angle[v] >= kUpright ? half : 0.0) + (angle[next] >= kUpright ? half : 0.0);
+            }
+        }
+    }
+    return upright / droplet.total.rim_length;
+}
+
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
 {
     constexpr double kVisible = 1e-6;  // of the height; less is round-off
@@ -64,6 +83,10 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     const ShapeFigures& total = droplet.total;
     if (options.solve.model == Model::Linear && total.steep_area > 0.0) {
         warnings.push_back(steepness(droplet, options.solve));
+    }
+    if (options.solve.model == Model::Exact && uprightShare(droplet) > 0.0) {
+        warnings.push_back("the liquid stands upright along " + percent(uprightShare(droplet)) +
+                           " of its rim, where that bends into it; in truth it hangs over there");
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +

@@ -199,7 +199,7 @@ std::pair<double, double> Energy::contactAngle(std::uint32_t rim_vertex, double 
         // The flux is (∂u/∂n) / √(1 + (∂u/∂t)² + (∂u/∂n)²), the sine of that angle.
         const double sine = std::clamp(flux, -kSteepestFlux, kSteepestFlux);
         angle = std::asin(sine) - ground;
-        derivative = 1.0 / std::sqrt(1.0 - sine * sine);
+        derivative = sine == flux ? 1.0 / std::sqrt(1.0 - sine * sine) : 0.0;
     }
     if (physics_.no_penetration && angle < 0.0) {
         return {0.0, 0.0};

@@ -30,6 +30,9 @@ namespace {
 constexpr double kRoughly = 1e-2;
 constexpr double kExactly = 1e-10;
 
+/// Residuals of Newton's method that may be due to round-off.
+constexpr double kStuckResidual = 1e-7;
+
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Where a Newton step may lead one droplet: affine in the volume it gains.
@@ -623,6 +626,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     // Which vertices are held can hang on the last digits of a step: rough ones go round in circles.
     const double roughly = exact && !options.no_penetration ? kRoughly : kExactly;
     StepOptions step{options.fill, options.no_penetration, exact ? roughly : options.linear_tolerance};
+    double least_residual = std::numeric_limits<double>::infinity();
     while (settled.newton_steps < options.most_steps) {
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
@@ -652,8 +656,13 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             settled.residual = std::max(settled.residual, residualOf(members[k], gradients[k]));
             missed = std::max(missed, std::abs(next.gains[k]) / std::abs(sheet.volume));
         }
-        const bool filled = isVolumeOfOne(members, options.fill) || missed < options.tolerance;
-        if (settled.residual <= options.tolerance && trial.part == 1.0 && filled) {
+        const bool whole = trial.part == 1.0;
+        const bool filled = isVolumeOfOne(members, options.fill) ? whole || !options.no_penetration
+                                                                 : whole && missed < options.tolerance;
+        // Needles of triangles leave more to round-off; what no longer gets better is as good as it gets.
+        const bool stuck = settled.residual < kStuckResidual && settled.residual > 0.5 * least_residual;
+        least_residual = std::min(least_residual, settled.residual);
+        if ((settled.residual <= options.tolerance || stuck) && filled) {
             settled.converged = true;
             for (std::size_t k = 0; k < members.size(); ++k) {
                 Sheet& sheet = *members[k].sheet;

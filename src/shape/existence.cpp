@@ -29,12 +29,39 @@ double bondNumber(const Energy& energy, double weight)
     return std::abs(weight) * footprintOf(energy) / std::numbers::pi;
 }
 
-/// The angle that a fiftieth of the rim exceeds: tips of corners that point into the liquid are upright always, and
-/// take less.
+/// A piece of rim: how steep it is, and how long.
+struct RimPiece {
+    double flux = 0.0;
+    double length = 0.0;  ///< [m]
+};
+
+/// The angle that a share of some pieces exceeds.
+double exceededBy(std::vector<RimPiece> pieces, double share)
+{
+    if (pieces.empty()) {
+        return 0.0;
+    }
+    std::sort(pieces.begin(), pieces.end(), [](const RimPiece& a, const RimPiece& b) { return a.flux > b.flux; });
+    double left = share * std::accumulate(pieces.begin(), pieces.end(), 0.0,
+                                          [](double sum, const RimPiece& piece) { return sum + piece.length; });
+    auto steepest = pieces.begin();
+    for (; left > steepest->length && steepest + 1 != pieces.end(); ++steepest) {
+        left -= steepest->length;
+    }
+    return std::asin(std::clamp(steepest->flux, -1.0, 1.0));
+}
+
+/// How steep the rim is where it counts: the angle that a fiftieth of it exceeds, but for where it bends into the
+/// liquid, or a tenth of all of it. Tips of corners that point into the liquid are upright always; how much of bends
+/// is, is a matter of degree.
 double steepestAngle(const Member& member)
 {
     constexpr double kShare = 0.02;
-    constexpr int kEvenings = 8;  // no single vertex decides
+    constexpr double kShareWithBends = 0.1;
+    constexpr int kEvenings = 8;         // no single vertex decides
+    constexpr std::uint32_t kReach = 5;  // vertices to either side that tell a bend
+    constexpr double kStraight = 0.02;   // sine of the turn between them
+    const PlanarMesh& mesh = member.energy->mesh();
     const std::vector<double>& weights = member.energy->rimWeights();
     std::vector<double> forces = weights;
     for (std::size_t v = 0; v < forces.size(); ++v) {
@@ -42,17 +69,25 @@ double steepestAngle(const Member& member)
     }
     forces = member.energy->evenedOut(std::move(forces), kEvenings);
     const std::vector<double> lengths = member.energy->evenedOut(weights, kEvenings);
-    std::vector<std::pair<double, double>> fluxes;
-    for (std::size_t v = 0; v < weights.size(); ++v) {
-        fluxes.emplace_back(-forces[v] / lengths[v], weights[v]);
+    std::vector<RimPiece> all;
+    std::vector<RimPiece> straight;
+    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+        const std::uint32_t first = mesh.loop_starts[loop];
+        const std::uint32_t count = mesh.loop_starts[loop + 1] - first;
+        const std::uint32_t reach = std::min(kReach, (count - 1) / 2);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vec2 here = mesh.vertices[first + i];
+            const Vec2 in = here - mesh.vertices[first + (i + count - reach) % count];
+            const Vec2 out = mesh.vertices[first + (i + reach) % count] - here;
+            const RimPiece piece{forces[first + i] / lengths[first + i], weights[first + i]};
+            all.push_back(piece);
+            // Liquid lies on the left: a bend into it turns right.
+            if (cross(in, out) > -kStraight * length(in) * length(out)) {
+                straight.push_back(piece);
+            }
+        }
     }
-    std::sort(fluxes.begin(), fluxes.end());
-    double left = kShare * std::accumulate(weights.begin(), weights.end(), 0.0);
-    auto steepest = fluxes.begin();
-    for (; left > steepest->second && steepest + 1 != fluxes.end(); ++steepest) {
-        left -= steepest->second;
-    }
-    return std::asin(std::clamp(-steepest->first, -1.0, 1.0));
+    return std::max(exceededBy(std::move(straight), kShare), exceededBy(std::move(all), kShareWithBends));
 }
 
 /// Of a linear solution that only begins Newton's method.
