@@ -189,8 +189,8 @@ Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps,
     return by == FillBy::ContactAngle ? Jet{total.value / rim_length, total.derivative / rim_length} : total;
 }
 
-/// The gain of volume after which the fill is met.
-double gainFor(const std::vector<Member>& members, const std::vector<Step>& steps, const Fill& fill)
+/// The gain of volume after which the fill is met, if there is one.
+std::optional<double> gainFor(const std::vector<Member>& members, const std::vector<Step>& steps, const Fill& fill)
 {
     double volume = 0.0;
     double footprint = 0.0;
@@ -204,17 +204,17 @@ double gainFor(const std::vector<Member>& members, const std::vector<Step>& step
     }
     // Of the order of what a droplet of that footprint holds.
     const double scale = 1e-3 * std::pow(footprint, 1.5);
-    const auto gain =
-        whereIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
-    if (!gain) {
-        // Rim pieces in sharp corners steepen slowly, so the mean may lag behind for long, but not for ever.
-        throw Error(ErrorCode::NoSuchDroplet, fill.by == FillBy::Height
-                                                  ? "no volume gives a droplet of that height on this footprint"
-                                                  : "no volume gives a mean contact angle of " +
-                                                        std::to_string(fill.amount / kDegree) +
-                                                        " degrees on this footprint; ask for a smaller angle");
-    }
-    return *gain;
+    return whereIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
+}
+
+[[noreturn]] void refuse(const Fill& fill)
+{
+    // Rim pieces in sharp corners steepen slowly, so the mean may lag behind for long, but not for ever.
+    throw Error(ErrorCode::NoSuchDroplet, fill.by == FillBy::Height
+                                              ? "no volume gives a droplet of that height on this footprint"
+                                              : "no volume gives a mean contact angle of " +
+                                                    std::to_string(fill.amount / kDegree) +
+                                                    " degrees on this footprint; ask for a smaller angle");
 }
 
 bool isVolumeOfOne(const std::vector<Member>& members, const Fill& fill)
@@ -455,7 +455,15 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
         if (!advance.converged || !advance.stable) {
             return advance;
         }
-        const Shares shares = sharesOf(steps, with_rise ? gainFor(members, steps, options.fill) : 0.0);
+        const std::optional<double> gain = with_rise ? gainFor(members, steps, options.fill) : 0.0;
+        if (!gain && members.front().energy->physics().model == Model::Linear) {
+            refuse(options.fill);
+        }
+        if (!gain) {
+            advance.converged = false;
+            return advance;
+        }
+        const Shares shares = sharesOf(steps, *gain);
         advance.changes.resize(count);
         advance.pressures.resize(count);
         advance.gains.resize(count);

@@ -272,6 +272,7 @@ private:
         const Fill& wanted = options_->fill;
         const bool by_volume = wanted.by == FillBy::Volume;
         double here = volume();
+        double before = here;
         std::vector<Sheet> good = sheets();
         std::optional<double> too_much;
         bool upright = false;
@@ -280,7 +281,7 @@ private:
                 return true;
             }
             if (!by_volume && amountOf(*members_, wanted.by) >= wanted.amount) {
-                return settleExact(wanted);
+                return settleExact(wanted) || meet(before, here);
             }
             if (too_much && *too_much - here <= kCloseEnough * here) {
                 break;
@@ -289,6 +290,7 @@ private:
             next = by_volume ? std::min(next, wanted.amount) : next;
             const bool found = settleExact({FillBy::Volume, next, wanted.sharing});
             if (found && steepest() < kReliable) {
+                before = here;
                 here = next;
                 good = sheets();
             } else {
@@ -305,6 +307,43 @@ private:
             return true;
         }
         outcome_.termination = Termination::NoHeightField;
+        return false;
+    }
+
+    /// Meets the fill by volumes between two, of which the first gives too little and the second enough: regula falsi
+    /// in the manner of Illinois, which needs no derivative.
+    bool meet(double low, double high)
+    {
+        constexpr int kMostTries = 60;
+        constexpr double kAccuracy = 1e-9;
+        const Fill& wanted = options_->fill;
+        const auto excess = [&](double volume) -> std::optional<double> {
+            if (!settleExact({FillBy::Volume, volume, wanted.sharing})) {
+                return std::nullopt;
+            }
+            return amountOf(*members_, wanted.by) / wanted.amount - 1.0;
+        };
+        std::optional<double> at_high = excess(high);
+        std::optional<double> at_low = excess(low);
+        for (int k = 0; k < kMostTries && at_low && at_high; ++k) {
+            const double middle = low + (high - low) * *at_low / (*at_low - *at_high);
+            const std::optional<double> here = excess(middle);
+            if (!here) {
+                return false;
+            }
+            if (std::abs(*here) <= kAccuracy) {
+                return true;
+            }
+            if (*here < 0.0) {
+                low = middle;
+                at_low = here;
+                *at_high *= 0.5;
+            } else {
+                high = middle;
+                at_high = here;
+                *at_low *= 0.5;
+            }
+        }
         return false;
     }
 
