@@ -296,6 +296,9 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
         }
         ConstrainedSolution solution = member.solver->solve(problem);
         take(solution);
+        if (!step.converged) {
+            return step;
+        }
         step.pressure = member.sheet->pressure + solution.multiplier;
         step.base = std::move(solution.values);
         for (std::size_t i = 0; i < inner && !down.empty(); ++i) {
@@ -305,6 +308,9 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
     if (with_rise) {
         ConstrainedSolution solution = member.solver->solve({{}, 1.0, tolerance});
         take(solution);
+        if (!step.converged) {
+            return step;
+        }
         step.pressure_rise = solution.multiplier;
         step.rise = std::move(solution.values);
         step.flux_rise = fluxThroughRim(member, step.pressure_rise, energy.appliedOnRim(op, withRim(step.rise, rim)));
