@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "blocks.h"
@@ -63,11 +64,18 @@ std::vector<std::uint8_t> openEdgesOf(const PlanarMesh& mesh)
 std::vector<double> loadOf(const PlanarMesh& mesh)
 {
     std::vector<double> load(mesh.vertices.size(), 0.0);
-    for (const Triangle& t : mesh.triangles) {
+    const std::size_t irregular = irregularTriangleCount(mesh);
+    for (std::size_t i = 0; i < irregular; ++i) {
+        const Triangle& t = mesh.triangles[i];
         const double third = doubleArea(mesh, t) / 6.0;
         for (const std::uint32_t v : t) {
             load[v] += third;
         }
+    }
+    // A third of each of six equilateral triangles.
+    const double regular = 0.5 * std::numbers::sqrt3 * mesh.lattice.edge * mesh.lattice.edge;
+    for (const RegularRun& run : regularRuns(mesh.lattice)) {
+        std::fill_n(load.begin() + run.first, run.count, regular);
     }
     return load;
 }
