@@ -84,8 +84,9 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     if (options.solve.model == Model::Linear && total.steep_area > 0.0) {
         warnings.push_back(steepness(droplet, options.solve));
     }
-    if (options.solve.model == Model::Exact && uprightShare(droplet) > 0.0) {
-        warnings.push_back("the liquid stands upright along " + percent(uprightShare(droplet)) +
+    const double upright = options.solve.model == Model::Exact ? uprightShare(droplet) : 0.0;
+    if (upright > 0.0) {
+        warnings.push_back("the liquid stands upright along " + percent(upright) +
                            " of its rim, where that bends into it; in truth it hangs over there");
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {

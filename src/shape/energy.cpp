@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "blocks.h"
@@ -104,6 +105,8 @@ Energy::Energy(const PlanarMesh& mesh, const BaseSurface& ground, const Physics&
       rim_open_(openEdgesOf(mesh)),
       rim_triangles_(rimTrianglesOf(mesh))
 {
+    area_ = std::accumulate(load_.begin(), load_.end(), 0.0);
+    rim_length_ = std::accumulate(rim_weights_.begin(), rim_weights_.end(), 0.0);
     evened_weights_ = evenedOut(rim_weights_, kEvenings);
     if (!ground.flat()) {
         sampleGround(ground);
@@ -306,13 +309,15 @@ std::vector<double> Energy::applied(const Operator& op, const std::vector<double
 
 std::vector<double> Energy::appliedOnRim(const Operator& op, const std::vector<double>& x) const
 {
-    std::vector<double> result(mesh_->rimVertexCount(), 0.0);
+    const std::uint32_t rim = mesh_->rimVertexCount();
+    const auto at = [&](std::uint32_t v) { return v < rim ? 0.0 : x[v - rim]; };
+    std::vector<double> result(rim, 0.0);
     for (const std::uint32_t i : rim_triangles_) {
         const Triangle& t = mesh_->triangles[i];
         const auto matrix = elementMatrix(*mesh_, i, op);
         for (std::size_t a = 0; a < 3; ++a) {
             if (mesh_->onRim(t[a])) {
-                result[t[a]] += matrix[a][0] * x[t[0]] + matrix[a][1] * x[t[1]] + matrix[a][2] * x[t[2]];
+                result[t[a]] += matrix[a][0] * at(t[0]) + matrix[a][1] * at(t[1]) + matrix[a][2] * at(t[2]);
             }
         }
     }

@@ -36,6 +36,10 @@ public:
     [[nodiscard]] const std::vector<double>& load() const { return load_; }
     /// Half the length of the two rim edges at every rim vertex [m].
     [[nodiscard]] const std::vector<double>& rimWeights() const { return rim_weights_; }
+    /// Of the footprint [m²].
+    [[nodiscard]] double area() const { return area_; }
+    /// Of all its rims [m].
+    [[nodiscard]] double rimLength() const { return rim_length_; }
     /// Forces on the rim's vertices, evened out between neighbours, but not across corners, so often; their sum stays.
     [[nodiscard]] std::vector<double> evenedOut(std::vector<double> forces, int times) const;
     /// The flux through the rim of forces on its vertices, evened out; over every loop it adds up to them.
@@ -61,7 +65,7 @@ public:
     [[nodiscard]] Operator hessian(const std::vector<double>& u) const;
     /// ∂²E/∂u²·x at every vertex, of an x that is 0 on the rim.
     [[nodiscard]] std::vector<double> applied(const Operator& op, const std::vector<double>& x) const;
-    /// The same at the rim's vertices alone.
+    /// The same at the rim's vertices alone, of x at the inner vertices.
     [[nodiscard]] std::vector<double> appliedOnRim(const Operator& op, const std::vector<double>& x) const;
 
 private:
@@ -72,6 +76,8 @@ private:
     Physics physics_;
     std::vector<double> load_;
     std::vector<double> rim_weights_;
+    double area_ = 0.0;
+    double rim_length_ = 0.0;
     std::vector<double> evened_weights_;
     std::vector<std::uint8_t> rim_open_;  ///< 1 where neither a rim vertex nor the next is a corner
     std::vector<double> rim_stretch_;     ///< √(1 + (∂h/∂t)²) along the rim; empty where flat

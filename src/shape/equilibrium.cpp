@@ -14,7 +14,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -179,8 +178,7 @@ Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps,
                                               : angleAt(members[k], steps[k], shares[k].value);
         const double derivative = part.derivative * shares[k].derivative;
         if (by == FillBy::ContactAngle) {
-            const std::vector<double>& weights = members[k].energy->rimWeights();
-            rim_length += std::accumulate(weights.begin(), weights.end(), 0.0);
+            rim_length += members[k].energy->rimLength();
             total = {total.value + part.value, total.derivative + derivative};
         } else if (k == 0 || part.value > total.value) {
             total = {part.value, derivative};
@@ -195,9 +193,8 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
     double volume = 0.0;
     double footprint = 0.0;
     for (const Member& member : members) {
-        const std::vector<double>& load = member.energy->load();
         volume += member.sheet->volume;
-        footprint += std::accumulate(load.begin(), load.end(), 0.0);
+        footprint += member.energy->area();
     }
     if (fill.by == FillBy::Volume) {
         return fill.amount - volume;
@@ -217,6 +214,11 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
                                                     " degrees on this footprint; ask for a smaller angle");
 }
 
+bool keepsAbove(const std::vector<Member>& members)
+{
+    return members.front().energy->physics().no_penetration;
+}
+
 bool isVolumeOfOne(const std::vector<Member>& members, const Fill& fill)
 {
     return members.size() == 1 && fill.by == FillBy::Volume;
@@ -230,14 +232,6 @@ std::vector<double> fluxThroughRim(const Member& member, double pressure, const 
         forces[v] = pressure * member.energy->load()[v] - gradient[v];
     }
     return member.energy->fluxOf(forces);
-}
-
-/// A function of the inner vertices, at all of them.
-std::vector<double> withRim(const std::vector<double>& inner, std::uint32_t rim)
-{
-    std::vector<double> all(rim, 0.0);
-    all.insert(all.end(), inner.begin(), inner.end());
-    return all;
 }
 
 /// The step that leaves all of a member's ground dry.
@@ -313,11 +307,11 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
         }
         step.pressure_rise = solution.multiplier;
         step.rise = std::move(solution.values);
-        step.flux_rise = fluxThroughRim(member, step.pressure_rise, energy.appliedOnRim(op, withRim(step.rise, rim)));
+        step.flux_rise = fluxThroughRim(member, step.pressure_rise, energy.appliedOnRim(op, step.rise));
     }
     step.flux.assign(rim, 0.0);
     if (!gradient.empty()) {
-        std::vector<double> after = energy.appliedOnRim(op, withRim(step.base, rim));
+        std::vector<double> after = energy.appliedOnRim(op, step.base);
         for (std::uint32_t v = 0; v < rim; ++v) {
             after[v] += gradient[v];
         }
@@ -421,7 +415,6 @@ bool isStable(const std::vector<Step>& steps)
 /// Tolerances of one step.
 struct StepOptions {
     Fill fill;
-    bool no_penetration = false;
     double tolerance = 1e-10;  ///< of linear systems
 };
 
@@ -479,7 +472,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
             advance.changes[k] = changeOf(members[k], steps[k], shares.gains[k].value);
             changed[k] = 0;
         });
-        if (options.no_penetration) {
+        if (keepsAbove(members)) {
             std::vector<std::vector<std::uint8_t>> held(count);
             tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
                 held[k] =
@@ -531,16 +524,14 @@ double residualOf(const Member& member, const std::vector<double>& gradient)
     const std::uint32_t rim = rimOf(member);
     double squares = 0.0;
     double loads = 0.0;
-    double footprint = 0.0;
-    for (std::size_t v = 0; v < load.size(); ++v) {
-        footprint += load[v];
-        if (v >= rim && (held.empty() || held[v - rim] == 0)) {
+    for (std::size_t v = rim; v < load.size(); ++v) {
+        if (held.empty() || held[v - rim] == 0) {
             const double force = member.sheet->pressure * load[v] - gradient[v];
             squares += force * force;
             loads += load[v] * load[v];
         }
     }
-    const double pressure = std::max(std::abs(member.sheet->pressure), 1.0 / std::sqrt(footprint));
+    const double pressure = std::max(std::abs(member.sheet->pressure), 1.0 / std::sqrt(member.energy->area()));
     return std::sqrt(squares / loads) / pressure;
 }
 
@@ -638,8 +629,8 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     Settled settled;
     std::vector<std::vector<double>> gradients = gradientsOf(members);
     // Which vertices are held can hang on the last digits of a step: rough ones go round in circles.
-    const double roughly = exact && !options.no_penetration ? kRoughly : kExactly;
-    StepOptions step{options.fill, options.no_penetration, exact ? roughly : options.linear_tolerance};
+    const double roughly = exact && !keepsAbove(members) ? kRoughly : kExactly;
+    StepOptions step{options.fill, exact ? roughly : options.linear_tolerance};
     double least_residual = std::numeric_limits<double>::infinity();
     while (settled.newton_steps < options.most_steps) {
         const Advance next = advanceOf(members, gradients, step);
@@ -671,8 +662,8 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             missed = std::max(missed, std::abs(next.gains[k]) / std::abs(sheet.volume));
         }
         const bool whole = trial.part == 1.0;
-        const bool filled = isVolumeOfOne(members, options.fill) ? whole || !options.no_penetration
-                                                                 : whole && missed < options.tolerance;
+        const bool filled =
+            isVolumeOfOne(members, options.fill) ? whole || !keepsAbove(members) : whole && missed < options.tolerance;
         // Needles of triangles leave more to round-off; what no longer gets better is as good as it gets.
         const bool stuck = settled.residual < kStuckResidual && settled.residual > 0.5 * least_residual;
         least_residual = std::min(least_residual, settled.residual);

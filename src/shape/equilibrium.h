@@ -33,8 +33,7 @@ struct Member {
 
 /// How sheets are brought to equilibrium.
 struct SettleOptions {
-    Fill fill;  ///< of all members together, at one pressure
-    bool no_penetration = false;
+    Fill fill;                        ///< of all members together, at one pressure
     double tolerance = 1e-9;          ///< of the exact model's residual, relative to pressure and size
     double linear_tolerance = 1e-10;  ///< of the linear model's systems
     std::size_t most_steps = 40;

@@ -19,14 +19,9 @@
 namespace droplet {
 namespace {
 
-double footprintOf(const Energy& energy)
-{
-    return std::accumulate(energy.load().begin(), energy.load().end(), 0.0);
-}
-
 double bondNumber(const Energy& energy, double weight)
 {
-    return std::abs(weight) * footprintOf(energy) / std::numbers::pi;
+    return std::abs(weight) * energy.area() / std::numbers::pi;
 }
 
 /// A piece of rim: how steep it is, and how long.
@@ -163,7 +158,7 @@ private:
 
     bool settleLinear(const Fill& fill)
     {
-        SettleOptions options{.fill = fill, .no_penetration = options_->no_penetration};
+        SettleOptions options{.fill = fill};
         if (options_->model == Model::Exact) {
             options.linear_tolerance = kStartTolerance;
         }
@@ -179,7 +174,7 @@ private:
 
     bool settleExact(const Fill& fill)
     {
-        const Settled settled = settle(*members_, {.fill = fill, .no_penetration = options_->no_penetration});
+        const Settled settled = settle(*members_, {.fill = fill});
         outcome_.residual = settled.residual;
         outcome_.newton_steps += settled.newton_steps;
         outcome_.iterations = outcome_.newton_steps;
@@ -255,7 +250,7 @@ private:
         }
         const Fill& wanted = options_->fill;
         const Fill gentle{FillBy::ContactAngle, kGentle, wanted.sharing};
-        const Settled start = settle(*members_, {.fill = gentle, .no_penetration = options_->no_penetration});
+        const Settled start = settle(*members_, {.fill = gentle});
         use(Model::Exact);
         const double little = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
         return start.converged && settleExact({FillBy::Volume, little, wanted.sharing});

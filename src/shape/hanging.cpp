@@ -6,17 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "blocks.h"
+
 namespace droplet {
 namespace {
-
-double dotOf(const std::vector<double>& a, const std::vector<double>& b)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
 
 /// ∫φφ·x at inner vertices, of an x that is 0 on the rim.
 std::vector<double> massTimes(const PlanarMesh& mesh, const std::vector<double>& x)

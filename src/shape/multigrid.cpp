@@ -46,29 +46,6 @@ constexpr double kSmoothedShare = 0.25;
 /// triangles takes 48 iterations instead of 57, one of 60° as many as before.
 constexpr double kStretchedShare = 0.15;
 
-template <typename A>
-double dotOf(const std::vector<A>& a, const std::vector<double>& b)
-{
-    return sumOverBlocks(a.size(), [&](std::size_t begin, std::size_t end) {
-        // Four sums, so that they need not wait for one another.
-        double s0 = 0.0;
-        double s1 = 0.0;
-        double s2 = 0.0;
-        double s3 = 0.0;
-        std::size_t i = begin;
-        for (; i + 4 <= end; i += 4) {
-            s0 += static_cast<double>(a[i]) * b[i];
-            s1 += static_cast<double>(a[i + 1]) * b[i + 1];
-            s2 += static_cast<double>(a[i + 2]) * b[i + 2];
-            s3 += static_cast<double>(a[i + 3]) * b[i + 3];
-        }
-        for (; i < end; ++i) {
-            s0 += static_cast<double>(a[i]) * b[i];
-        }
-        return (s0 + s1) + (s2 + s3);
-    });
-}
-
 /// Pieces of work of about equal size, as ranges of a list of runs.
 std::vector<std::size_t> piecesOf(std::size_t count, const std::vector<Index>& sizes)
 {

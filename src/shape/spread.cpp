@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "shape/cap.h"
-#include "shape/gradient.h"
+#include "shape/recovered_gradients.h"
 
 namespace droplet {
 namespace {
@@ -24,25 +21,6 @@ constexpr double kSteep = 60.0 * kDegree;
 
 /// Up to which steepness meshes are spread: triangles at the rim become infinitely thin toward 90°.
 constexpr double kSteepest = 86.0 * kDegree;
-
-/// Area-weighted means of the gradients on the triangles around every vertex.
-std::vector<Vec2> meanGradients(const PlanarMesh& mesh, const std::vector<double>& u)
-{
-    std::vector<Vec2> gradients(mesh.vertices.size());
-    std::vector<double> weights(mesh.vertices.size(), 0.0);
-    for (const Triangle& t : mesh.triangles) {
-        const double twice = doubleArea(mesh, t);
-        const Vec2 g = gradient(mesh, t, u);
-        for (const std::uint32_t v : t) {
-            gradients[v] = gradients[v] + twice * g;
-            weights[v] += twice;
-        }
-    }
-    for (std::size_t v = 0; v < gradients.size(); ++v) {
-        gradients[v] = (1.0 / weights[v]) * gradients[v];
-    }
-    return gradients;
-}
 
 /// Mean of the squared slope along the rim.
 double meanSquaredSlope(const PlanarMesh& mesh, const HeightField& field)
@@ -71,7 +49,7 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
     // spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ wherever the slope is the rim's mean.
     const double scale = 2.0 * highest / meanSquaredSlope(mesh, field);
     const double most = 2.0 * squared / (1.0 + squared);
-    const std::vector<Vec2> gradients = meanGradients(mesh, u);
+    const std::vector<Vec2> gradients = recoveredGradients(mesh, u);
     std::vector<Vec2> moves(u.size());
     for (std::size_t v = mesh.rimVertexCount(); v < u.size(); ++v) {
         const double share = u[v] / highest;

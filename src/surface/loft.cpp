@@ -10,59 +10,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "blocks.h"
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
-#include "mesh/regular_runs.h"
-#include "shape/gradient.h"
+#include "shape/recovered_gradients.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
 
 namespace droplet {
 namespace {
 
-constexpr double kRoot3 = std::numbers::sqrt3;
-
 /// Area-weighted means of the gradients on the triangles around every vertex; on the rim from the slope across it and
 /// the ground along it.
-std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
+std::vector<Vec2> surfaceGradients(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
 {
-    std::vector<Vec2> gradients(mesh.vertices.size());
-    const std::size_t irregular = irregularTriangleCount(mesh);
-    std::vector<double> weights(mesh.vertices.size(), 0.0);
-    for (std::size_t i = 0; i < irregular; ++i) {
-        const Triangle& t = mesh.triangles[i];
-        const double twice = doubleArea(mesh, t);
-        const Vec2 g = gradient(mesh, t, field.height);
-        for (const std::uint32_t v : t) {
-            gradients[v] = gradients[v] + twice * g;
-            weights[v] += twice;
-        }
-    }
-    for (std::size_t v = 0; v < gradients.size(); ++v) {
-        if (weights[v] > 0.0) {
-            gradients[v] = (1.0 / weights[v]) * gradients[v];
-        }
-    }
-    // Around six equilateral triangles the mean is Σ u·(direction to the neighbour) / (3·edge).
-    const double along = 1.0 / (3.0 * mesh.lattice.edge);
-    const std::vector<RegularRun> runs = regularRuns(mesh.lattice);
-    tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
-        const RegularRun& run = runs[k];
-        const double* centre = field.height.data() + run.first;
-        const double* below = field.height.data() + run.below;
-        const double* above = field.height.data() + run.above;
-        const double* left = centre - 1;
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            const double across = (above[i + 1] - above[i]) + (below[i + 1] - below[i]);
-            const double up = (above[i] + above[i + 1]) - (below[i] + below[i + 1]);
-            gradients[run.first + i] = along * Vec2{(centre[i + 1] - left[i]) + 0.5 * across, 0.5 * kRoot3 * up};
-        }
-    });
+    std::vector<Vec2> gradients = recoveredGradients(mesh, field.height);
     const std::vector<Vec2> outward = rimNormals(mesh);
     for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
         gradients[v] = -field.rim_slope[v] * outward[v];
@@ -106,7 +71,7 @@ Vec2 textureAt(Vec2 p, const LoftOptions& options)
 void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& options, const Counts& begin,
                 Surface& surface)
 {
-    const std::vector<Vec2> gradients = recoveredGradients(mesh, field, options.ground);
+    const std::vector<Vec2> gradients = surfaceGradients(mesh, field, options.ground);
     const auto first = static_cast<std::uint32_t>(begin.vertices);
     forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
