@@ -136,14 +136,23 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
     options.trace.validate();
     options.mesh.validate();
     options.solve.validate();
+    if (progress) {
+        progress(Stage::Trace);
+    }
+    return makeDroplet(trace(mask, options.trace), options, progress);
+}
+
+Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
+{
+    options.mesh.validate();
+    options.solve.validate();
     const auto begin = [&](Stage stage) {
         if (progress) {
             progress(stage);
         }
     };
     Droplet droplet;
-    begin(Stage::Trace);
-    droplet.outline = trace(mask, options.trace);
+    droplet.outline = std::move(outline);
     droplet.domain = split(droplet.outline);
     begin(Stage::Triangulate);
     droplet.meshes = triangulate(droplet.domain, options.mesh);

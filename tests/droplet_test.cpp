@@ -140,6 +140,20 @@ TEST(Droplet, DiscUnderGravityIsTheBesselShape)
                    4.212881, 2e-3, "pressure");
 }
 
+TEST(Droplet, OutlineGivesTheSameDropletAsItsMask)
+{
+    const Mask mask = sceneMask();
+    std::ostringstream from_mask;
+    std::ostringstream from_outline;
+    writeSurface(makeDroplet(mask, plain()).surface, from_mask, Format::Glb);
+    std::vector<Stage> stages;
+    const Droplet drop =
+        makeDroplet(trace(mask, plain().trace), plain(), [&](Stage stage) { stages.push_back(stage); });
+    writeSurface(drop.surface, from_outline, Format::Glb);
+    EXPECT_TRUE(from_mask.str() == from_outline.str());
+    EXPECT_THAT(stages, ElementsAre(Stage::Triangulate, Stage::Assemble, Stage::Solve, Stage::Loft));
+}
+
 TEST(Droplet, ConvergesAsTheMaskGetsFiner)
 {
     // The same scene on finer and finer masks and meshes; the area is known, the volume from the finest.

@@ -44,4 +44,12 @@ struct Droplet {
 /// @throws Error    InvalidInput: no liquid; InvalidArgument: options; NoSuchDroplet: the solver failed
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options = {}, const Progress& progress = {});
 
+/// The river from an outline on, wherever that comes from: split, triangulate, solve, measure, loft.
+/// @param outline   loops that do not cross, and an extent
+/// @param options   of every stage but trace
+/// @param progress  told of every stage but Trace; may be empty
+/// @throws Error    InvalidInput: no loop encloses liquid; InvalidArgument: options, crossing loops; NoSuchDroplet: the
+///                  solver failed
+Droplet makeDroplet(Outline outline, const DropletOptions& options = {}, const Progress& progress = {});
+
 }  // namespace droplet

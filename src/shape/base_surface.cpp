@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
@@ -136,13 +137,30 @@ private:
 
 BaseSurface::BaseSurface(Sample sample) : sample_(std::move(sample)) {}
 
+BaseSurface::BaseSurface(Sample sample, Distance distance) : sample_(std::move(sample)), distance_(std::move(distance))
+{
+}
+
+void BaseSurface::requireAt(std::span<const Vec2> points) const
+{
+    if (distance_ && !points.empty()) {
+        std::ignore = at(*std::max_element(points.begin(), points.end(),
+                                           [this](Vec2 a, Vec2 b) { return distance_(a) < distance_(b); }));
+        return;
+    }
+    for (const Vec2 p : points) {
+        std::ignore = at(p);
+    }
+}
+
 BaseSurface BaseSurface::sphere(double radius)
 {
     checkRadius(radius, Body::Sphere);
-    return BaseSurface([radius](Vec2 p) {
-        const Arc arc = arcAt(radius, length(p), Body::Sphere);
-        return GroundPoint{arc.height, arc.slope * p};
-    });
+    return {[radius](Vec2 p) {
+                const Arc arc = arcAt(radius, length(p), Body::Sphere);
+                return GroundPoint{arc.height, arc.slope * p};
+            },
+            [](Vec2 p) { return length(p); }};
 }
 
 BaseSurface BaseSurface::cylinder(double radius, double axis)
@@ -153,11 +171,12 @@ BaseSurface BaseSurface::cylinder(double radius, double axis)
                     "axis " + std::to_string(axis / kDegree) + " degrees of the ground's cylinder must be finite");
     }
     const Vec2 across{-std::sin(axis), std::cos(axis)};
-    return BaseSurface([radius, across](Vec2 p) {
-        const double away = dot(across, p);
-        const Arc arc = arcAt(radius, std::abs(away), Body::Cylinder);
-        return GroundPoint{arc.height, arc.slope * away * across};
-    });
+    return {[radius, across](Vec2 p) {
+                const double away = dot(across, p);
+                const Arc arc = arcAt(radius, std::abs(away), Body::Cylinder);
+                return GroundPoint{arc.height, arc.slope * away * across};
+            },
+            [across](Vec2 p) { return std::abs(dot(across, p)); }};
 }
 
 BaseSurface BaseSurface::heightMap(HeightMap map, Vec2 extent, std::optional<double> depth)

@@ -121,6 +121,16 @@ HeightField fieldOf(const Energy& energy, Sheet&& sheet, double surface_tension)
     return field;
 }
 
+/// Threads that sample the ground would complain of whichever vertex they come to first.
+void requireGround(const std::vector<PlanarMesh>& meshes, const BaseSurface& ground)
+{
+    std::vector<Vec2> rims;
+    for (const PlanarMesh& mesh : meshes) {
+        rims.insert(rims.end(), mesh.vertices.begin(), mesh.vertices.begin() + mesh.rimVertexCount());
+    }
+    ground.requireAt(rims);
+}
+
 }  // namespace
 
 void SolveOptions::validate() const
@@ -158,6 +168,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
             throw Error(ErrorCode::InvalidArgument, "meshes[" + std::to_string(k) + "] must have an inner vertex");
         }
     }
+    requireGround(meshes, options.ground);
     if (progress) {
         progress(Stage::Assemble);
     }

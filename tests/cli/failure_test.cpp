@@ -137,7 +137,7 @@ TEST_F(FailureTest, GroundOfWholeNumbersWithoutItsDepth)
 TEST_F(FailureTest, FootprintBeyondTheGround)
 {
     // The disc is 7.5 mm in radius.
-    expectRefusal({"disc.pgm", "old.glb", "--surface", "sphere:R=7mm"}, 2, {"radius 7", "sphere", "must exceed 7.4"});
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "sphere:R=7mm"}, 2, {"radius 7", "sphere", "must exceed 7.5"});
     expectRefusal({"disc.pgm", "old.glb", "--surface", "cylinder:R=-7mm,axis=20deg"}, 2,
                   {"radius 7", "cylinder", "must exceed 7."});
 }

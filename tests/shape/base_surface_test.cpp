@@ -256,5 +256,23 @@ TEST(BaseSurface, BeyondItsPictureAHeightMapStaysAtItsBorder)
     EXPECT_NEAR(one.at({0.4, -0.2}).height, 2e-3, 1e-18);
 }
 
+TEST(BaseSurface, TellsOfThePointFarthestOut)
+{
+    const std::vector<Vec2> points{{0.0, 0.0}, {2e-3, 1e-3}, {-3e-3, 2e-3}, {0.5e-3, -3.2e-3}};
+    BaseSurface::sphere(3.7e-3).requireAt(points);
+    EXPECT_THAT(complaintOf([&] { BaseSurface::sphere(1e-3).requireAt(points); }), HasSubstr("exceed 3.605551 mm"));
+    EXPECT_THAT(complaintOf([&] { BaseSurface::cylinder(1e-3, 0.0).requireAt(points); }),
+                HasSubstr("exceed 3.200000 mm"));
+    const BaseSurface half([](Vec2 p) {
+        if (p.x > 0.0) {
+            throw Error(ErrorCode::InvalidArgument, "no ground at " + std::to_string(p.x));
+        }
+        return GroundPoint{};
+    });
+    EXPECT_THAT(complaintOf([&] { half.requireAt(points); }), HasSubstr("0.002"));
+    BaseSurface().requireAt(points);
+    BaseSurface::sphere(1e-3).requireAt({});
+}
+
 }  // namespace
 }  // namespace droplet

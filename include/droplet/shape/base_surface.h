@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "droplet/footprint/height_map.h"
 #include "droplet/vector.h"
@@ -52,8 +53,20 @@ public:
     [[nodiscard]] bool flat() const { return !sample_; }
     [[nodiscard]] GroundPoint at(Vec2 p) const { return sample_ ? sample_(p) : GroundPoint{}; }
 
+    /// Guarantees: returns only when there is ground at all of the points; of a sphere or a cylinder, then also between
+    /// them.
+    /// @param points  of the plane [m]
+    /// @throws Error  InvalidArgument, of the point farthest out where the ground has a radius, else of the first
+    void requireAt(std::span<const Vec2> points) const;
+
 private:
+    /// How far a point is from where the ground touches the plane [m].
+    using Distance = std::function<double(Vec2)>;
+
+    BaseSurface(Sample sample, Distance distance);
+
     Sample sample_;
+    Distance distance_;  ///< empty where the ground has no radius
 };
 
 }  // namespace droplet
