@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "droplet/error.h"
 #include "shape_command.h"
@@ -62,6 +63,28 @@ void keepMemory()
     mallopt(M_TOP_PAD, kAtOnce);
 }
 
+/// What is run when the first argument is its name.
+struct Command {
+    std::string_view name;
+    int (*run)(int argc, const char* const* argv);
+};
+
+const std::vector<Command>& commands()
+{
+    static const std::vector<Command> all{};
+    return all;
+}
+
+int run(int argc, const char* const* argv)
+{
+    for (const Command& command : commands()) {
+        if (argc > 1 && argv[1] == command.name) {
+            return command.run(argc - 1, argv + 1);
+        }
+    }
+    return cli::runShape(argc, argv);
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -71,7 +94,7 @@ int main(int argc, char** argv)
     occupyStandardStreams();
     keepMemory();
     try {
-        return cli::runShape(argc, argv);
+        return run(argc, argv);
     } catch (const droplet::Error& error) {
         return fail(error.what(), exitCodeOf(error.code()));
     } catch (const std::bad_alloc&) {

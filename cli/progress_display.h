@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "droplet/progress.h"
-#include "shape_options.h"
+#include "droplet_options.h"
 
 namespace cli {
 

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "droplet/io/report.h"
+#include "droplet/progress.h"
+#include "shape_options.h"
+
 namespace cli {
 
-/// The main job: `droplet-shape INPUT OUTPUT`.
+/// Makes one droplet from its picture, and writes its files, all of them or none.
+/// @param progress        told of every stage, from Read to Write
+/// @return                what was done, with times and memory
+/// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed, NoSuchDroplet
+droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& progress);
+
+/// Runs the main job: the picture of a footprint in, a droplet out.
 /// @return                exit code
-/// @throws droplet::Error as main() maps to exit codes
+/// @throws droplet::Error for whatever goes wrong
 int runShape(int argc, const char* const* argv);
 
 }  // namespace cli

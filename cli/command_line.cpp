@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CLI11 splits the command line and lays out the help; what values mean and how a refusal reads is decided here.
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "config_file.h"
+#include "droplet/version.h"
+
+namespace cli {
+namespace {
+
+/// Changes of one letter that turn one word into the other (Levenshtein).
+std::size_t distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+class HelpFormatter : public CLI::Formatter {
+public:
+    explicit HelpFormatter(const CommandText& text) : usage_("\nUsage: " + text.name + " " + text.usage + "\n")
+    {
+        column_width(26);
+        label("Positionals", "Arguments");
+    }
+
+    std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override { return usage_; }
+
+    /// One empty line between groups: the base class leaves two between all but the first.
+    std::string make_group(std::string group, bool is_positional,
+                           std::vector<const CLI::Option*> options) const override
+    {
+        const std::string text = CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
+        return is_positional ? text + "\n" : text.substr(1);
+    }
+
+    std::string make_option_name(const CLI::Option* option, bool is_positional) const override
+    {
+        const std::string name = CLI::Formatter::make_option_name(option, is_positional);
+        const auto comma = name.find(',');
+        return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
+    }
+
+    std::string make_option_opts(const CLI::Option* option) const override
+    {
+        return option->get_expected_max() == 0 || option->get_positional() ? "" : " " + option->get_type_name();
+    }
+
+private:
+    std::string usage_;
+};
+
+}  // namespace
+
+class CommandLine::Parser {
+public:
+    explicit Parser(const CommandText& text)
+        : text_(text), app_("droplet-shape " + std::string(droplet::kVersion) + ": " + text.title)
+    {
+        app_.formatter(std::make_shared<HelpFormatter>(text));
+        app_.set_help_flag();
+        app_.allow_extras();
+        app_.footer(text.footer);
+    }
+
+    void add(const char* group, const char* names, const char* type, const std::string& description)
+    {
+        app_.add_option(names)->description(description)->type_name(type)->group(group)->take_all();
+    }
+
+    void addList(const char* group, const char* names, const char* type, const std::string& description)
+    {
+        add(group, names, type, description);
+        lists_.insert(app_.get_options().back());
+    }
+
+    void addFlag(const char* group, const char* names, const std::string& description)
+    {
+        app_.add_flag(names)->description(description)->group(group);
+    }
+
+    void addArgument(const char* name, const std::string& description)
+    {
+        app_.add_option(name)->description(description);
+        arguments_ += (arguments_.empty() ? "" : " and ") + std::string(name);
+    }
+
+    void addArguments(const char* name, const std::string& description)
+    {
+        // CLI11 wants to know how many at most.
+        app_.add_option(name)->description(description)->expected(0, 1 << 29);
+    }
+
+    void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }
+
+    void parse(int argc, const char* const* argv)
+    {
+        refuseEmptyValues(argc, argv);
+        try {
+            app_.parse(argc, argv);
+        } catch (const CLI::ArgumentMismatch& error) {
+            const std::string message = error.what();
+            refuse(message.substr(0, message.find(':')) + ": value is missing");
+        } catch (const CLI::ParseError& error) {
+            refuse(error.what());
+        }
+        refuseExtras();
+        refuseRepetitions();
+        if (!asksForText()) {
+            if (const auto config = has("--config") ? value("--config") : std::nullopt) {
+                addConfig(config->text);
+            }
+            refuseConflicts();
+        }
+    }
+
+    [[nodiscard]] bool flag(const std::string& name) const
+    {
+        const CLI::Option* option = app_.get_option(name);
+        return option->count() > 0 && option->results().back() == "true";
+    }
+
+    [[nodiscard]] std::optional<Given> value(const std::string& name) const
+    {
+        const CLI::Option* option = app_.get_option(name);
+        if (option->count() == 0) {
+            return std::nullopt;
+        }
+        const auto origin = origins_.find(name);
+        return Given{option->results().back(), origin == origins_.end() ? name : name + origin->second};
+    }
+
+    [[nodiscard]] std::vector<Given> values(const std::string& name) const
+    {
+        const auto origin = origins_.find(name);
+        std::vector<Given> all;
+        for (const std::string& text : app_.get_option(name)->results()) {
+            all.push_back({text, origin == origins_.end() ? name : name + origin->second});
+        }
+        return all;
+    }
+
+    [[nodiscard]] std::string argument(const std::string& name) const
+    {
+        const auto given = value(name);
+        if (!given || given->text.empty()) {
+            refuse(name + " is missing; usage: " + text_.name + " " + text_.usage + ", more with --help");
+        }
+        return given->text;
+    }
+
+    [[nodiscard]] std::string help() const { return app_.help(); }
+
+private:
+    [[nodiscard]] bool has(const std::string& name) const { return app_.get_option_no_throw(name) != nullptr; }
+
+    /// Whether the rest of the line does not matter.
+    [[nodiscard]] bool asksForText() const
+    {
+        return (has("--help") && flag("--help")) || (has("--version") && flag("--version"));
+    }
+
+    [[nodiscard]] bool isList(const CLI::Option* option) const { return lists_.count(option) > 0; }
+
+    /// CLI11 takes `--width= in.png` for `--width in.png`.
+    static void refuseEmptyValues(int argc, const char* const* argv)
+    {
+        for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+            const std::string_view argument = argv[i];
+            if (argument.substr(0, 2) == "--" && argument.find('=') + 1 == argument.size()) {
+                refuse(std::string(argument.substr(0, argument.size() - 1)) + ": value is empty");
+            }
+        }
+    }
+
+    [[nodiscard]] std::string nearest(const std::string& unknown) const
+    {
+        constexpr std::size_t kFarthest = 2;  // a slip or two; more is another word
+        std::string best;
+        std::size_t least = kFarthest + 1;
+        for (const CLI::Option* option : app_.get_options()) {
+            for (const std::string& name : option->get_lnames()) {
+                if (distance("--" + name, unknown) < least) {
+                    least = distance("--" + name, unknown);
+                    best = "--" + name;
+                }
+            }
+        }
+        return best;
+    }
+
+    void refuseExtras() const
+    {
+        const auto extras = app_.remaining();
+        const auto is_option = [](const std::string& e) { return e.size() > 1 && e.front() == '-' && e != "--"; };
+        const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+        if (option != extras.end()) {
+            const std::string name = option->substr(0, option->find('='));
+            const std::string known = nearest(name);
+            refuse("unknown option " + name + (known.empty() ? "" : ", did you mean " + known + "?") +
+                   (known.empty() ? "; " + text_.name + " --help lists all" : ""));
+        }
+        const auto argument = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e != "--"; });
+        if (argument != extras.end()) {
+            refuse("unexpected argument '" + *argument + "'" + (arguments_.empty() ? "" : " after " + arguments_));
+        }
+    }
+
+    void refuseRepetitions() const
+    {
+        for (const CLI::Option* option : app_.get_options()) {
+            if (option->count() == 0 || option->get_positional()) {
+                continue;
+            }
+            const std::string name = "--" + option->get_lnames().front();
+            if (isFlag(option)) {
+                requireBoolean({option->results().back(), name});
+            } else if (option->count() > 1 && !isList(option)) {
+                refuse(name + ": given " + std::to_string(option->count()) + " times, must be given once");
+            }
+        }
+    }
+
+    static bool isFlag(const CLI::Option* option) { return option->get_expected_max() == 0; }
+
+    /// CLI11 takes any word in `--open=word`.
+    static void requireBoolean(const Given& given)
+    {
+        if (given.text != "true" && given.text != "false") {
+            refuse(given, "true or false");
+        }
+    }
+
+    /// Whether the command line decides what an option of this name would decide.
+    [[nodiscard]] bool settled(const std::string& name) const
+    {
+        const auto given = [&](const std::string& other) {
+            return app_.get_option(other)->count() > 0 && origins_.find(other) == origins_.end();
+        };
+        for (const auto& group : exclusive_) {
+            if (std::find(group.begin(), group.end(), name) != group.end()) {
+                return std::any_of(group.begin(), group.end(), given);
+            }
+        }
+        return given(name);
+    }
+
+    void addConfig(const std::string& path)
+    {
+        for (const ConfigEntry& entry : readConfig(path)) {
+            const std::string name = "--" + entry.key;
+            const std::string origin = " (" + path + ":" + std::to_string(entry.line) + ")";
+            CLI::Option* const option = entry.key.size() > 1 ? app_.get_option_no_throw(name) : nullptr;
+            if (option == nullptr || name == "--config" || name == "--help" || name == "--version") {
+                const std::string known = option == nullptr ? nearest(name) : "";
+                refuse("--config: " + path + ":" + std::to_string(entry.line) + ": unknown key '" + entry.key + "'" +
+                       (known.empty() ? "" : ", did you mean '" + known.substr(2) + "'?"));
+            }
+            if (isFlag(option)) {
+                requireBoolean({entry.value, name + origin});
+            }
+            if (!settled(name)) {
+                option->add_result(entry.value);
+                origins_[name] = origin;
+            }
+        }
+    }
+
+    void refuseConflicts() const
+    {
+        for (const auto& group : exclusive_) {
+            std::vector<std::string> given;
+            for (const std::string& name : group) {
+                if (isFlag(app_.get_option(name)) ? flag(name) : value(name).has_value()) {
+                    given.push_back(name);
+                }
+            }
+            if (given.size() > 1) {
+                refuse(given[0] + " and " + given[1] + " exclude each other, give one of them");
+            }
+        }
+    }
+
+    CommandText text_;
+    CLI::App app_;
+    std::string arguments_;  ///< their names, for a message
+    std::vector<std::vector<std::string>> exclusive_;
+    std::unordered_set<const CLI::Option*> lists_;
+    std::unordered_map<std::string, std::string> origins_;  ///< of options that come from the configuration file
+};
+
+CommandLine::CommandLine(const CommandText& text) : parser_(std::make_unique<Parser>(text)) {}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::add(const char* group, const char* names, const char* type, const std::string& description)
+{
+    parser_->add(group, names, type, description);
+}
+
+void CommandLine::addList(const char* group, const char* names, const char* type, const std::string& description)
+{
+    parser_->addList(group, names, type, description);
+}
+
+void CommandLine::addFlag(const char* group, const char* names, const std::string& description)
+{
+    parser_->addFlag(group, names, description);
+}
+
+void CommandLine::addArgument(const char* name, const std::string& description)
+{
+    parser_->addArgument(name, description);
+}
+
+void CommandLine::addArguments(const char* name, const std::string& description)
+{
+    parser_->addArguments(name, description);
+}
+
+void CommandLine::exclude(const std::vector<std::string>& names)
+{
+    parser_->exclude(names);
+}
+
+void CommandLine::parse(int argc, const char* const* argv)
+{
+    parser_->parse(argc, argv);
+}
+
+bool CommandLine::flag(const std::string& name) const
+{
+    return parser_->flag(name);
+}
+
+std::optional<Given> CommandLine::value(const std::string& name) const
+{
+    return parser_->value(name);
+}
+
+std::vector<Given> CommandLine::values(const std::string& name) const
+{
+    return parser_->values(name);
+}
+
+std::string CommandLine::argument(const std::string& name) const
+{
+    return parser_->argument(name);
+}
+
+std::string CommandLine::help() const
+{
+    return parser_->help();
+}
+
+}  // namespace cli

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "droplet/error.h"
+#include "droplet/liquid.h"
+#include "droplet/units.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+
+constexpr Range kVolume{Dimension::Volume, 1e-27, 1e9, "from 1e-18uL to 1e9m3"};
+// 90° would stand upright: the height has no finite slope there.
+constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 89.999 * droplet::kDegree,
+                       "from 0.001deg to 89.999deg"};
+constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
+constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
+constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
+constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
+constexpr Range kDirection{Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi, "from -360deg to 360deg"};
+
+void readLiquid(const CommandLine& line, DropletSettings& settings)
+{
+    auto& solve = settings.droplet.solve;
+    if (const auto angle = line.value("--contact-angle")) {
+        solve.fill = {droplet::FillBy::ContactAngle, quantity(*angle, kAngle)};
+    }
+    if (const auto volume = line.value("--volume")) {
+        solve.fill = {droplet::FillBy::Volume, quantity(*volume, kVolume)};
+    }
+    if (const auto height = line.value("--height")) {
+        solve.fill = {droplet::FillBy::Height, quantity(*height, kLength)};
+    }
+    if (const auto sharing = line.value("--fill")) {
+        solve.fill.sharing = choice<droplet::FillSharing>(
+            *sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}});
+    }
+
+    const auto liquid = line.value("--liquid");
+    if (liquid) {
+        solve.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
+    }
+    const auto tension = line.value("--surface-tension");
+    if (tension) {
+        solve.liquid.surface_tension = quantity(*tension, kTension);
+    }
+    const auto density = line.value("--density");
+    if (density) {
+        solve.liquid.density = quantity(*density, kDensity);
+    }
+    if (!liquid && (tension || density)) {
+        solve.liquid.name = "custom";
+    }
+    if (const auto model = line.value("--model")) {
+        solve.model =
+            choice<droplet::Model>(*model, {{"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
+    }
+}
+
+void readGravity(const CommandLine& line, DropletSettings& settings)
+{
+    auto& solve = settings.droplet.solve;
+    if (const auto gravity = line.value("--gravity")) {
+        solve.gravity = quantity(*gravity, kGravity);
+    }
+    if (const auto tilt = line.value("--tilt")) {
+        solve.tilt = quantity(*tilt, kHalfTurn);
+        if (solve.tilt > 0.0 && solve.gravity == 0.0) {
+            settings.warnings.push_back("--tilt has no effect: there is no gravity");
+        }
+    }
+    if (const auto direction = line.value("--tilt-direction")) {
+        solve.tilt_direction = quantity(*direction, kDirection);
+        if (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max) {
+            settings.warnings.push_back("--tilt-direction has no effect: no side of level ground is downhill");
+        }
+    }
+}
+
+void readHysteresis(const CommandLine& line, DropletSettings& settings)
+{
+    const auto advancing = line.value("--advancing");
+    const auto receding = line.value("--receding");
+    if (!advancing && !receding) {
+        return;
+    }
+    if (!advancing || !receding) {
+        refuse(std::string("--advancing and --receding belong together, ") +
+               (advancing ? "--receding" : "--advancing") + " is missing");
+    }
+    droplet::Hysteresis hysteresis;
+    hysteresis.advancing = quantity(*advancing, kHalfTurn);
+    hysteresis.receding = quantity(*receding, kHalfTurn);
+    if (hysteresis.receding > hysteresis.advancing) {
+        refuse(*receding, "at most --advancing, '" + advancing->text + "'");
+    }
+    settings.hysteresis = hysteresis;
+}
+
+constexpr const char* kGroundWords =
+    "a height map's file, sphere:R=LENGTH or cylinder:R=LENGTH,axis=ANGLE, where axis may also be x or y";
+
+/// The values in a list such as `R=33mm,axis=y`, in the order of `keys`, each of which it must have once.
+std::vector<Given> partsOf(const Given& given, std::string_view list, const std::vector<std::string>& keys)
+{
+    std::vector<std::optional<std::string>> values(keys.size());
+    for (bool last = false; !last;) {
+        const std::string_view part = list.substr(0, list.find(','));
+        last = part.size() == list.size();
+        list.remove_prefix(last ? list.size() : part.size() + 1);
+        const auto equals = part.find('=');
+        const auto key =
+            static_cast<std::size_t>(std::find(keys.begin(), keys.end(), part.substr(0, equals)) - keys.begin());
+        if (equals == std::string_view::npos || key == keys.size() || values[key]) {
+            refuse(given, kGroundWords);
+        }
+        values[key] = part.substr(equals + 1);
+    }
+    std::vector<Given> parts;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!values[i]) {
+            refuse(given, kGroundWords);
+        }
+        parts.push_back({*values[i], given.subject + ": " + keys[i]});
+    }
+    return parts;
+}
+
+/// A radius, of a bowl or gutter if negative.
+double radius(const Given& given)
+{
+    constexpr Range kRadius{Dimension::Length, -kLength.max, kLength.max, "from 1nm to 1000m, or from -1000m to -1nm"};
+    const double value = quantity(given, kRadius);
+    if (std::abs(value) < kLength.min) {
+        refuse(given, kRadius.words);
+    }
+    return value;
+}
+
+double axis(const Given& given)
+{
+    if (given.text == "x" || given.text == "y") {
+        return given.text == "x" ? 0.0 : 0.5 * std::numbers::pi;
+    }
+    return quantity(given, kDirection);
+}
+
+/// Whether a text is of the form `word:…=…`: a ground described, or misspelt, rather than the name of a file.
+bool describesGround(std::string_view text)
+{
+    const auto colon = text.find(':');
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const std::string_view word = text.substr(0, colon);
+    return word == "sphere" || word == "cylinder" ||
+           (colon != std::string_view::npos && text.find('=', colon) != std::string_view::npos &&
+            std::all_of(word.begin(), word.end(), is_letter));
+}
+
+droplet::GroundReport groundOf(const Given& given)
+{
+    const std::string_view text = given.text;
+    const std::string_view kind = text.substr(0, text.find(':'));
+    const std::string_view list = text.substr(std::min(text.size(), kind.size() + 1));
+    droplet::GroundReport ground;
+    if (text.empty()) {
+        refuse(given, kGroundWords);
+    }
+    if (!describesGround(text)) {
+        ground.kind = droplet::GroundKind::HeightMap;
+        ground.path = given.text;
+    } else if (kind == "sphere") {
+        ground.kind = droplet::GroundKind::Sphere;
+        ground.radius = radius(partsOf(given, list, {"R"})[0]);
+    } else if (kind == "cylinder") {
+        const auto parts = partsOf(given, list, {"R", "axis"});
+        ground.kind = droplet::GroundKind::Cylinder;
+        ground.radius = radius(parts[0]);
+        ground.axis = axis(parts[1]);
+    } else {
+        refuse(given, kGroundWords);
+    }
+    return ground;
+}
+
+void readGround(const CommandLine& line, DropletSettings& settings)
+{
+    auto& solve = settings.droplet.solve;
+    if (const auto surface = line.value("--surface")) {
+        settings.ground = groundOf(*surface);
+    }
+    if (const auto depth = line.value("--surface-depth")) {
+        settings.ground.depth = quantity(*depth, kLength);
+        if (settings.ground.kind != droplet::GroundKind::HeightMap) {
+            settings.ground.depth.reset();
+            settings.warnings.push_back("--surface-depth has no effect: the ground is no height map");
+        }
+    }
+    if (const auto onto = line.value("--onto")) {
+        settings.onto = onto->text;
+    }
+    solve.no_penetration = line.flag("--no-penetration");
+    const bool pulled_down = solve.gravity >= 0.0 && solve.tilt == 0.0;
+    if (solve.no_penetration && pulled_down && settings.ground.kind == droplet::GroundKind::Flat) {
+        settings.warnings.push_back("--no-penetration has no effect: on level flat ground the liquid stays above it");
+    }
+}
+
+void readSurface(const CommandLine& line, DropletSettings& settings)
+{
+    if (const auto triangles = line.value("--triangles")) {
+        settings.droplet.mesh.triangles = count(*triangles, kMostTriangles, "100M, such as 5000, 5k or 1M");
+    }
+    if (const auto edge = line.value("--edge")) {
+        settings.droplet.mesh.edge = quantity(*edge, kLength);
+    }
+    if (const auto grading = line.value("--grading")) {
+        settings.droplet.mesh.grading =
+            choice<int>(*grading, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
+    }
+    settings.droplet.open = line.flag("--open");
+    if (const auto material = line.value("--material")) {
+        settings.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
+    }
+    if (const auto solver = line.value("--solver")) {
+        settings.droplet.solve.solver = choice<droplet::Solver>(*solver, {{"auto", droplet::Solver::Auto},
+                                                                          {"llt", droplet::Solver::Llt},
+                                                                          {"cholmod", droplet::Solver::Cholmod},
+                                                                          {"multigrid", droplet::Solver::Multigrid}});
+    }
+}
+
+}  // namespace
+
+void declareFootprint(CommandLine& line)
+{
+    constexpr const char* kGroup = "Footprint";
+    line.add(kGroup, "--width", "LENGTH", "width of the picture [20mm]");
+    line.add(kGroup, "--pixel-size", "LENGTH", "or edge of one pixel");
+    line.add(kGroup, "--channel", "NAME",
+             "what shows the liquid: alpha, luma, or auto: alpha\n"
+             "where some of the picture is transparent, else what\n"
+             "differs from the colour of its border [auto]");
+    line.add(kGroup, "--threshold", "F", "coverage at which liquid begins, over 0, under 1 [0.5]");
+    line.addFlag(kGroup, "--invert", "exchange liquid and dry");
+    line.add(kGroup, "--speck-size", "F", "drop spots and holes of less than F square pixels [3]");
+    line.exclude({"--width", "--pixel-size"});
+}
+
+void declareLiquid(CommandLine& line)
+{
+    constexpr const char* kGroup = "Liquid";
+    line.add(kGroup, "--contact-angle", "ANGLE", "mean angle along the rim, under 90deg [40deg]");
+    line.add(kGroup, "--volume", "VOLUME", "or volume");
+    line.add(kGroup, "--height", "LENGTH", "or largest height");
+    line.add(kGroup, "--fill", "NAME",
+             "each droplet gets that much, or they share it as one\n"
+             "reservoir of one pressure: each, total [each]");
+    line.add(kGroup, "--liquid", "NAME", "water, ethanol, glycerol, mercury, honey, all at 20 C\n[water]");
+    line.add(kGroup, "--surface-tension", "S", "instead of the liquid's own");
+    line.add(kGroup, "--density", "D", "instead of the liquid's own");
+    line.add(kGroup, "--model", "NAME",
+             "area of the liquid's surface: linear, good to slopes\n"
+             "of some 50deg; exact [linear]");
+    line.exclude({"--contact-angle", "--volume", "--height"});
+}
+
+void declareGround(CommandLine& line)
+{
+    constexpr const char* kGroup = "Gravity and ground";
+    line.add(kGroup, "--gravity", "G", "into the ground; negative under a ceiling [9.81m/s2]");
+    line.add(kGroup, "--tilt", "ANGLE", "of the ground: 90deg a wall, 180deg a ceiling [0deg]");
+    line.add(kGroup, "--tilt-direction", "ANGLE",
+             "of downhill, counter-clockwise from the picture's\n"
+             "right: -90deg is toward its lower edge [-90deg]");
+    line.add(kGroup, "--surface", "GROUND",
+             "a height map's file, white is high; sphere:R=40mm; or\n"
+             "cylinder:R=33mm,axis=y, its axis x, y or an angle;\n"
+             "R < 0 is a bowl or a gutter [flat]");
+    line.add(kGroup, "--surface-depth", "LENGTH", "height of white over black in the height map");
+    line.addFlag(kGroup, "--no-penetration", "keep the liquid above the ground, or leave it dry");
+    line.add(kGroup, "--onto", "OBJECT", "lay the droplets on a .glb or .gltf by its uv");
+    line.add(kGroup, "--advancing", "ANGLE",
+             "contact angle beyond which the rim moves out; with\n"
+             "--receding the report says if droplets would slide");
+    line.add(kGroup, "--receding", "ANGLE", "contact angle below which the rim moves in");
+    line.exclude({"--surface", "--onto"});
+}
+
+void declareSurface(CommandLine& line)
+{
+    constexpr const char* kGroup = "Surface";
+    line.add(kGroup, "--triangles", "N", "about so many on the footprint: 5000, 5k, 1M [40k]");
+    line.add(kGroup, "--edge", "LENGTH", "or length of their edges");
+    line.add(kGroup, "--grading", "N",
+             "edges far from the rim up to N times as long as there:\n"
+             "1, 2, 4, 8, 16, 32, 64 [1]");
+    line.addFlag(kGroup, "--open", "leave out the base");
+    line.add(kGroup, "--material", "NAME", "look in glTF: water, ink, mercury, honey, plain\n[water]");
+    line.exclude({"--triangles", "--edge"});
+}
+
+void declareRun(CommandLine& line)
+{
+    constexpr const char* kGroup = "Run";
+    line.addFlag(kGroup, "--no-clobber", "do not replace existing files");
+    line.add(kGroup, "--solver", "NAME",
+             "of the linear system: auto, whichever is fastest; llt,\n"
+             "Eigen's factorisation; cholmod, CHOLMOD's; multigrid,\n"
+             "by iteration [auto]");
+    line.add(kGroup, "-j,--threads", "N", "use at most N threads [all cores]");
+    line.addFlag(kGroup, "-q,--quiet", "say nothing but errors");
+    line.addFlag(kGroup, "-v,--verbose", "say more: every droplet, times, memory");
+    line.add(kGroup, "--progress", "NAME",
+             "auto: a bar on a terminal; json: a line of JSON per\n"
+             "stage in place of the summary; none [auto]");
+    line.add(kGroup, "--config", "FILE",
+             "take options from lines such as width = \"8cm\";\n"
+             "the command line goes before them");
+    line.addFlag(kGroup, "-h,--help", "print this help");
+    line.addFlag(kGroup, "--version", "print the version");
+    line.exclude({"--quiet", "--verbose"});
+}
+
+FootprintOptions readFootprint(const CommandLine& line)
+{
+    FootprintOptions options;
+    auto& trace = options.trace;
+    if (const auto width = line.value("--width")) {
+        trace.width = quantity(*width, kLength);
+    }
+    if (const auto pixel = line.value("--pixel-size")) {
+        trace.pixel_size = quantity(*pixel, kLength);
+    }
+    options.sized = line.value("--width") || line.value("--pixel-size");
+    if (const auto channel = line.value("--channel")) {
+        options.mask.channel = choice<droplet::Channel>(
+            *channel,
+            {{"auto", droplet::Channel::Auto}, {"alpha", droplet::Channel::Alpha}, {"luma", droplet::Channel::Luma}});
+    }
+    if (const auto threshold = line.value("--threshold")) {
+        const auto number = finiteNumber(threshold->text);
+        if (!number || *number <= 0.0 || *number >= 1.0) {
+            refuse(*threshold, "a number over 0 and under 1, such as 0.5");
+        }
+        trace.threshold = *number;
+    }
+    options.mask.invert = line.flag("--invert");
+    if (const auto speck = line.value("--speck-size")) {
+        const auto number = finiteNumber(speck->text);
+        if (!number || *number < 0.0) {
+            refuse(*speck, "a number of square pixels, at least 0");
+        }
+        trace.speck_size = *number;
+    }
+    return options;
+}
+
+DropletSettings readDroplet(const CommandLine& line)
+{
+    DropletSettings settings;
+    readLiquid(line, settings);
+    readGravity(line, settings);
+    readHysteresis(line, settings);
+    readGround(line, settings);
+    readSurface(line, settings);
+    return settings;
+}
+
+RunOptions readRun(const CommandLine& line)
+{
+    RunOptions options;
+    constexpr std::size_t kMostThreads = 1024;  // more than any machine this runs on
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    options.files.no_clobber = line.flag("--no-clobber");
+    if (const auto threads = line.value("--threads")) {
+        options.threads = count(*threads, kMostThreads, "1024");
+    }
+    options.verbosity = line.flag("--quiet")     ? Verbosity::Quiet
+                        : line.flag("--verbose") ? Verbosity::Verbose
+                                                 : Verbosity::Normal;
+    if (const auto progress = line.value("--progress")) {
+        options.progress = choice<ProgressMode>(
+            *progress, {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}});
+    }
+    return options;
+}
+
+}  // namespace cli

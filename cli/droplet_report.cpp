@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet_report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace cli {
+namespace {
+
+droplet::MeshReport describeMeshes(const std::vector<droplet::PlanarMesh>& meshes)
+{
+    droplet::MeshReport report;
+    report.min_angle = std::numeric_limits<double>::infinity();
+    for (const droplet::PlanarMesh& mesh : meshes) {
+        report.vertices += mesh.vertices.size();
+        report.triangles += mesh.triangles.size();
+        report.holes += mesh.loopCount() - 1;
+        report.min_angle = std::min(report.min_angle, droplet::minAngle(mesh));
+    }
+    return report;
+}
+
+std::optional<droplet::Retention> retentionOf(const droplet::ShapeFigures& figures, const DropletSettings& settings)
+{
+    if (!settings.hysteresis) {
+        return std::nullopt;
+    }
+    return droplet::retention(figures, settings.droplet.solve, *settings.hysteresis);
+}
+
+}  // namespace
+
+droplet::OutputReport describeOutput(const droplet::Surface& surface, const std::string& path, droplet::Format format)
+{
+    droplet::OutputReport output;
+    output.path = path;
+    output.format = format;
+    output.triangles = surface.triangles.size();
+    output.topology = droplet::topology(surface);
+    // Only glTF repeats a place to give it a second normal.
+    const bool repeats = format == droplet::Format::Glb || format == droplet::Format::Gltf;
+    for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
+        output.vertices += repeats || surface.weld[i] == i ? 1 : 0;
+    }
+    return output;
+}
+
+droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings& settings)
+{
+    droplet::Report report;
+    report.physics = settings.droplet.solve;
+    report.hysteresis = settings.hysteresis;
+    report.ground = settings.ground;
+    report.solve = droplet.solution.report;
+    report.mesh = describeMeshes(droplet.meshes);
+    report.total = droplet.total;
+    for (std::size_t i = 0; i < droplet.meshes.size(); ++i) {
+        report.droplets.push_back({droplet.figures[i], droplet.meshes[i].loopCount() - 1,
+                                   droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], settings)});
+    }
+    report.retention = retentionOf(droplet.total, settings);
+    const bool one_pressure =
+        report.droplets.size() == 1 || settings.droplet.solve.fill.sharing == droplet::FillSharing::Total;
+    if (one_pressure) {
+        report.pressure = report.droplets.front().pressure;
+    }
+    report.warnings = settings.warnings;
+    report.warnings.insert(report.warnings.end(), droplet.warnings.begin(), droplet.warnings.end());
+    return report;
+}
+
+std::uint64_t peakMemory()
+{
+    struct rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace cli

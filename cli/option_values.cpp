@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+namespace cli {
+
+void refuse(const std::string& message)
+{
+    throw droplet::Error(droplet::ErrorCode::InvalidArgument, message);
+}
+
+void refuse(const Given& given, const std::string& constraint)
+{
+    refuse(given.subject + ": '" + given.text + "' must be " + constraint);
+}
+
+double quantity(const Given& given, const Range& range)
+{
+    const double value = forOption(given.subject, [&] { return droplet::parseQuantity(given.text, range.dimension); });
+    // Units round: 89.999deg itself must pass.
+    const double slack = 4 * std::numeric_limits<double>::epsilon();
+    if (value < range.min - slack * std::abs(range.min) || value > range.max + slack * std::abs(range.max)) {
+        refuse(given, range.words);
+    }
+    return std::clamp(value, range.min, range.max);
+}
+
+std::optional<double> finiteNumber(std::string_view text)
+{
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::size_t count(const Given& given, std::size_t max, const std::string& words)
+{
+    std::string_view digits = given.text;
+    double factor = 1.0;
+    if (!digits.empty() && (digits.back() == 'k' || digits.back() == 'M')) {
+        factor = digits.back() == 'k' ? 1e3 : 1e6;
+        digits.remove_suffix(1);
+    }
+    const auto number = finiteNumber(digits);
+    const double value = number.value_or(0.0) * factor;
+    if (value < 1.0 || value > static_cast<double>(max) || value != std::floor(value)) {
+        refuse(given, "a whole number from 1 to " + words);
+    }
+    return static_cast<std::size_t>(value);
+}
+
+}  // namespace cli

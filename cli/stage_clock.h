@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+
+#include "droplet/io/report.h"
+#include "droplet/progress.h"
+
+namespace cli {
+
+/// Adds up how long each stage takes.
+class StageClock {
+public:
+    void begin(droplet::Stage stage)
+    {
+        close();
+        current_ = stage;
+    }
+
+    /// Seconds of every stage up to now.
+    std::array<double, droplet::kStageCount> times()
+    {
+        close();
+        return times_;
+    }
+
+    [[nodiscard]] double total() const { return seconds(start_, Clock::now()); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    static double seconds(Clock::time_point from, Clock::time_point to)
+    {
+        return std::chrono::duration<double>(to - from).count();
+    }
+
+    void close()
+    {
+        const auto now = Clock::now();
+        if (current_) {
+            times_[static_cast<std::size_t>(*current_)] += seconds(since_, now);
+        }
+        since_ = now;
+    }
+
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point since_ = start_;
+    std::optional<droplet::Stage> current_;
+    std::array<double, droplet::kStageCount> times_{};
+};
+
+}  // namespace cli

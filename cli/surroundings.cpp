@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surroundings.h"
+
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/io/object.h"
+#include "droplet/surface/onto.h"
+
+namespace cli {
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+Surroundings readSurroundings(const DropletSettings& settings)
+{
+    Surroundings around;
+    if (settings.ground.path) {
+        around.map = droplet::readHeightMap(*settings.ground.path);
+        if (!around.map->in_floats && !settings.ground.depth) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "--surface-depth is missing: how much higher white is than black in " + *settings.ground.path +
+                            ", such as 2mm");
+        }
+    }
+    if (settings.onto) {
+        around.object = droplet::readObject(*settings.onto);
+    }
+    return around;
+}
+
+droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent)
+{
+    if (around.object) {
+        // Level, but not known to be: a flat base of few triangles could not follow the object.
+        return droplet::BaseSurface([](droplet::Vec2) { return droplet::GroundPoint{}; });
+    }
+    const droplet::GroundReport& ground = settings.ground;
+    switch (ground.kind) {
+        case droplet::GroundKind::Sphere:
+            return droplet::BaseSurface::sphere(ground.radius.value());
+        case droplet::GroundKind::Cylinder:
+            return droplet::BaseSurface::cylinder(ground.radius.value(), ground.axis.value());
+        case droplet::GroundKind::HeightMap:
+            return droplet::BaseSurface::heightMap(around.map.value(), extent, ground.depth);
+        case droplet::GroundKind::Flat:
+            break;
+    }
+    return {};
+}
+
+droplet::ObjectReport lay(droplet::Droplet& droplet, const droplet::TexturedMesh& object, const std::string& path)
+{
+    droplet::OntoResult result = droplet::layOnto(droplet.surface, object, {droplet.domain.extent});
+    droplet.surface = std::move(result.surface);
+    droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+    const droplet::OntoReport& onto = result.report;
+    return {path,
+            onto.laid,
+            onto.outside + onto.across + onto.folded,
+            onto.flipped_charts,
+            onto.overlapping_charts,
+            onto.least_scale,
+            onto.most_scale};
+}
+
+}  // namespace cli
