@@ -31,13 +31,15 @@ _droplet_shape()
         --surface | --onto | --json | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
-                choices='--width --pixel-size --channel --threshold --invert --speck-size
-                    --contact-angle --volume --height --fill
+                local making='--contact-angle --volume --height --fill
                     --liquid --surface-tension --density --model
                     --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
-                    --advancing --receding
-                    --triangles --edge --grading --open --material --format
-                    --json --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
+                    --advancing --receding --triangles --edge --grading --open --material'
+                local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
+                local picture='--width --pixel-size --channel --threshold --invert --speck-size'
+                case ${COMP_WORDS[1]} in
+                    *) choices="$picture $making $running --format --json --export-evolver" ;;
+                esac
             fi
             ;;
     esac
@@ -45,6 +47,10 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
+    fi
+    if ((COMP_CWORD == 1)); then
+        local commands=''
+        mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }
 complete -o filenames -F _droplet_shape droplet-shape

@@ -95,7 +95,7 @@ std::string bracketed(const std::string& text)
     return std::regex_search(text, match, std::regex(R"(\[([^\]]*)\]\s*$)")) ? match.str(1) : "";
 }
 
-Options optionsInHelp()
+Options optionsInHelp(const std::string& command = "")
 {
     Options options;
     std::string usage;
@@ -108,7 +108,8 @@ Options optionsInHelp()
     };
     static const std::regex kOption(R"(^  ((-[a-z], )?--[a-z-]+( [A-Z]+)?)( {2,}(.*))?$)");
     static const std::regex kMore("^ {10,}(.*)$");
-    for (const std::string& line : linesOf(runDroplet({"--help"}).output)) {
+    for (const std::string& line :
+         linesOf(command.empty() ? runDroplet({"--help"}).output : runDroplet({command, "--help"}).output)) {
         std::smatch match;
         if (std::regex_match(line, match, kOption)) {
             finish();
@@ -136,17 +137,23 @@ std::vector<std::string> cellsOf(const std::string& row)
     return cells;
 }
 
-Options optionsInReadme()
+/// The options in the tables of README, by the command whose section they stand in, "" being the main job.
+std::map<std::string, Options> optionsInReadme()
 {
-    Options options;
+    std::map<std::string, Options> sections;
+    std::string command;
+    static const std::regex kHeading("^##+ (`droplet-shape ([a-z-]+)`)?.*$");
     for (const std::string& line : linesOf(sourceFile("README.md"))) {
-        if (line.rfind("| `-", 0) == 0) {
+        std::smatch heading;
+        if (std::regex_match(line, heading, kHeading)) {
+            command = heading.str(2);
+        } else if (line.rfind("| `-", 0) == 0) {
             const auto cells = cellsOf(line);
             EXPECT_EQ(cells.size(), 3U) << line;
-            options[longName(cells.at(0))] = {cells.at(0), cells.at(2)};
+            sections[command][longName(cells.at(0))] = {cells.at(0), cells.at(2)};
         }
     }
-    return options;
+    return sections;
 }
 
 TEST(Readme, ShowsTheProgramThatIsBuiltOutside)
@@ -169,7 +176,33 @@ TEST(Readme, OptionsAndDefaultsAreTheCommands)
 {
     const Options known = optionsInHelp();
     EXPECT_EQ(known.size(), 40U);
-    EXPECT_EQ(optionsInReadme(), known);
+    for (const auto& [command, options] : optionsInReadme()) {
+        if (command.empty()) {
+            EXPECT_EQ(options, known);
+            continue;
+        }
+        // A command's section has what is its own; the rest is as in the first table.
+        Options own = optionsInHelp(command);
+        EXPECT_THAT(own, Not(IsEmpty())) << command;
+        for (const auto& [name, shown] : known) {
+            const auto same = own.find(name);
+            if (same != own.end() && same->second == shown) {
+                own.erase(same);
+            }
+        }
+        EXPECT_EQ(options, own) << command;
+    }
+}
+
+TEST(Readme, EveryCommandHasASection)
+{
+    const std::string help = runDroplet({"--help"}).output;
+    static const std::regex kCommand("\n  ([a-z-]+) {2,}[^\n]*");
+    const auto begin = help.find("\nCommands:\n");
+    const std::string list = begin == std::string::npos ? "" : help.substr(begin, help.find("\n\n", begin) - begin);
+    for (std::sregex_iterator entry(list.begin(), list.end(), kCommand), end; entry != end; ++entry) {
+        EXPECT_EQ(optionsInReadme().count(entry->str(1)), 1U) << entry->str(1);
+    }
 }
 
 TEST(Readme, ExitCodesAreTheCommands)

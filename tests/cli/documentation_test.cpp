@@ -28,9 +28,24 @@ std::string sourceFile(const std::string& name)
     return readFile(std::string(DROPLET_SOURCE_DIR) + "/cli/" + name);
 }
 
-std::string help()
+std::string help(const std::string& command = "")
 {
-    return runDroplet({"--help"}).output;
+    return command.empty() ? runDroplet({"--help"}).output : runDroplet({command, "--help"}).output;
+}
+
+/// The commands beside the main job, as its help lists them.
+std::vector<std::string> commands()
+{
+    std::istringstream lines(help());
+    std::vector<std::string> names;
+    bool listed = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (listed && line.rfind("  ", 0) == 0) {
+            names.push_back(line.substr(2, line.find(' ', 2) - 2));
+        }
+        listed = line == "Commands:" || (listed && !line.empty());
+    }
+    return names;
 }
 
 std::set<std::string> longOptions(const std::string& text)
@@ -82,22 +97,47 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
-    const auto known = longOptions(help());
-    EXPECT_THAT(known, SizeIs(40));
+    EXPECT_THAT(longOptions(help()), SizeIs(40));
+    auto known = longOptions(help());
+    for (const std::string& command : commands()) {
+        known.merge(longOptions(help(command)));
+    }
     EXPECT_EQ(longOptions(manual()), known);
-    EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), [&] {
-        auto with_syntax = known;
-        with_syntax.insert("--option");  // of a comment
-        return with_syntax;
-    }());
-    const auto offered = completions({"--"});
-    EXPECT_EQ(std::set<std::string>(offered.begin(), offered.end()), known);
+    known.insert("--option");  // of a comment
+    EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), known);
+}
+
+TEST(Documentation, CompletionOffersTheOptionsOfTheCommandThatStandsFirst)
+{
+    const auto expect_options = [](const std::vector<std::string>& words, const std::string& text) {
+        const auto offered = completions(words);
+        EXPECT_EQ(std::set<std::string>(offered.begin(), offered.end()), longOptions(text)) << words.front();
+    };
+    expect_options({"--"}, help());
+    expect_options({"in.png", "--"}, help());
+    for (const std::string& command : commands()) {
+        expect_options({command, "--"}, help(command));
+        EXPECT_THAT(completions({command.substr(0, 2)}), ::testing::Contains(command));
+    }
 }
 
 TEST(Documentation, EveryOptionInTheHelpIsAccepted)
 {
     for (const std::string& option : longOptions(help())) {
         EXPECT_THAT(runDroplet({option}).error, ::testing::Not(HasSubstr("unknown option"))) << option;
+    }
+    for (const std::string& command : commands()) {
+        for (const std::string& option : longOptions(help(command))) {
+            EXPECT_THAT(runDroplet({command, option}).error, ::testing::Not(HasSubstr("unknown option")))
+                << command << " " << option;
+        }
+    }
+}
+
+TEST(Documentation, ManualHasASectionForEveryCommand)
+{
+    for (const std::string& command : commands()) {
+        EXPECT_THAT(manual(), HasSubstr("\n.SS droplet-shape " + command + "\n"));
     }
 }
 
