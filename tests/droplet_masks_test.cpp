@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DataMaskTest,
                          ::testing::Values("ampersand.png", "butterfly.jpg", "cluster.png", "debian_astro.png",
                                            "debian_swirl.png", "deer.bmp", "flourish.png", "handprint.jpg",
                                            "inkscape.png", "letter_g_1bit.png", "line_of_type.png", "maze.pgm",
-                                           "ornament.png", "sakura.tif", "shamrock.webp"),
+                                           "ornament.png", "raindrops.png", "sakura.tif", "shamrock.webp"),
                          [](const auto& info) {
                              const std::string name = info.param;
                              return name.substr(0, name.find('.'));
