@@ -24,7 +24,7 @@ _droplet_shape()
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
-            --advancing | --receding | --triangles | --edge | --threads | -j)
+            --advancing | --receding | --triangles | --edge | --fill-range | --threads | -j)
             COMPREPLY=()
             return
             ;;
@@ -38,7 +38,7 @@ _droplet_shape()
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
-                    *) choices="$picture $making $running --format --json --export-evolver" ;;
+                    *) choices="$picture $making $running --format --fill-range --json --export-evolver" ;;
                 esac
             fi
             ;;

@@ -53,6 +53,7 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
 {
     droplet::Report report;
     report.physics = settings.droplet.solve;
+    report.fill_range = settings.droplet.fill_range;
     report.hysteresis = settings.hysteresis;
     report.ground = settings.ground;
     report.solve = droplet.solution.report;

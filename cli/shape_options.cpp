@@ -44,6 +44,10 @@ void declareShape(CommandLine& line)
     line.add("Surface", "--format", "NAME",
              "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
              "[by OUTPUT's extension]");
+    line.add("Surface", "--fill-range", "RANGE",
+             "add a slider to glb or gltf that fills and drains the\n"
+             "droplet: 0..2, from none to twice its liquid; of the\n"
+             "linear model alone");
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     line.add("Run", "--export-evolver", "FILE", "write the droplets for Surface Evolver");
     declareRun(line);
@@ -76,6 +80,48 @@ void readFormat(const CommandLine& line, ShapeOptions& options)
     }
 }
 
+/// A slider is made where the droplet is affine in its volume, and where a file can hold it.
+void readFillRange(const CommandLine& line, ShapeOptions& options)
+{
+    const auto given = line.value("--fill-range");
+    if (!given) {
+        return;
+    }
+    const std::string words = "two numbers such as 0..2, the first from 0 to 1, the second larger and at least 1";
+    const auto dots = given->text.find("..");
+    const auto least = finiteNumber(given->text.substr(0, dots));
+    const auto most = dots == std::string::npos ? std::nullopt : finiteNumber(given->text.substr(dots + 2));
+    if (!least || !most) {
+        refuse(*given, words);
+    }
+    const droplet::FillRange range{*least, *most};
+    constexpr double kMostFills = 1e6;  // far beyond what the linear model is good for
+    try {
+        range.validate();
+    } catch (const droplet::Error&) {
+        refuse(*given, words);
+    }
+    if (range.most > kMostFills) {
+        refuse(*given, words + ", up to 1000000");
+    }
+    const auto clash = [&](const std::string& option, const std::string& why) {
+        refuse("--fill-range and " + option + " exclude each other: " + why);
+    };
+    if (options.settings.droplet.solve.model == droplet::Model::Exact) {
+        clash("--model exact", "only the linear model changes in proportion to the volume");
+    }
+    if (options.settings.droplet.solve.no_penetration) {
+        clash("--no-penetration", "what is dry changes with the volume");
+    }
+    if (options.settings.onto) {
+        clash("--onto", "droplets on an object have no slider");
+    }
+    if (options.format != droplet::Format::Glb && options.format != droplet::Format::Gltf) {
+        clash(std::string("the format ") + droplet::name(options.format), "only glb and gltf hold a slider");
+    }
+    options.settings.droplet.fill_range = range;
+}
+
 }  // namespace
 
 std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* argv)
@@ -102,6 +148,7 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     options.input = line.argument("INPUT");
     options.output = line.argument("OUTPUT");
     readFormat(line, options);
+    readFillRange(line, options);
     return options;
 }
 

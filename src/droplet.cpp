@@ -129,13 +129,22 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
            "); try another number of triangles";
 }
 
+void checkSolve(const DropletOptions& options)
+{
+    options.solve.validate();
+    if (options.fill_range) {
+        options.fill_range->validate();
+        requireRefillable(options.solve);
+    }
+}
+
 }  // namespace
 
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progress& progress)
 {
     options.trace.validate();
     options.mesh.validate();
-    options.solve.validate();
+    checkSolve(options);
     if (progress) {
         progress(Stage::Trace);
     }
@@ -145,7 +154,7 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
 Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
 {
     options.mesh.validate();
-    options.solve.validate();
+    checkSolve(options);
     const auto begin = [&](Stage stage) {
         if (progress) {
             progress(stage);
@@ -168,8 +177,11 @@ Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progre
         droplet.figures.push_back(measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
     }
     droplet.total = combine(droplet.figures);
-    droplet.surface = loft(droplet.meshes, droplet.solution.droplets,
-                           {.open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground});
+    LoftOptions lofting{.open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground};
+    if (options.fill_range) {
+        lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, options.solve)};
+    }
+    droplet.surface = loft(droplet.meshes, droplet.solution.droplets, lofting);
     droplet.warnings = warningsOf(droplet, options);
     return droplet;
 }

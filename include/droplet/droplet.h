@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "droplet/mesh/triangulate.h"
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
+#include "droplet/shape/refill.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/loft.h"
 #include "droplet/surface/surface.h"
@@ -22,7 +24,9 @@ struct DropletOptions {
     TraceOptions trace;
     TriangulateOptions mesh;
     SolveOptions solve;
-    bool open = false;  ///< leave out the base
+    bool open = false;                         ///< leave out the base
+    std::optional<FillRange> fill_range = {};  ///< makes a surface that can be filled and drained; of the linear model
+                                               ///< alone, without no_penetration
 };
 
 /// Everything the river carried, stage by stage.

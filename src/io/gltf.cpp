@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <sstream>
@@ -36,10 +37,10 @@ constexpr std::uint64_t kJsonBound = 4096;
 // 65535 restarts primitives; with fewer vertices it can be no index.
 constexpr std::size_t kVerticesBeyond16Bit = 65535;
 
-// Position 3, normal 3, uv 2, contact angle 1.
+// Position 3, normal 3, uv 2, contact angle 1, changes of position and normal 6.
 std::uint64_t vertexBytes(const Surface& surface)
 {
-    return (surface.contact_angle.empty() ? 8 : 9) * sizeof(float);
+    return ((surface.contact_angle.empty() ? 8U : 9U) + (surface.refill ? 6U : 0U)) * sizeof(float);
 }
 
 struct Look {
@@ -93,8 +94,15 @@ void checkFileSize(const Surface& surface, bool binary)
 }
 
 // Before the first byte is written; of positions the bounds tell, and normals are unit.
-void checkUvs(const Surface& surface)
+void checkFloats(const Surface& surface)
 {
+    if (surface.refill) {
+        for (const Vec3& normal : surface.refill->normals) {
+            toFloat(normal.x);
+            toFloat(normal.y);
+            toFloat(normal.z);
+        }
+    }
     for (const Vec2& uv : surface.uvs) {
         toFloat(uv.x);
         toFloat(uv.y);
@@ -179,6 +187,14 @@ void addBounds(tinygltf::Accessor& accessor, const std::vector<Vec3>& positions)
     accessor.maxValues = {toFloat(high.x), toFloat(high.y), toFloat(high.z)};
 }
 
+// targetNames is a convention that viewers share (section 3.7.2.2, implementation note).
+tinygltf::Value refillExtras(const Refill& refill)
+{
+    using tinygltf::Value;
+    return Value(Value::Object{{"targetNames", Value(Value::Array{Value(std::string("volume"))})},
+                               {"fill_range", Value(Value::Array{Value(refill.least), Value(refill.most)})}});
+}
+
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
 {
     tinygltf::Model model;
@@ -201,6 +217,12 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     if (!surface.contact_angle.empty()) {
         primitive.attributes["_CONTACT_ANGLE"] = addVertexArray(model, TINYGLTF_TYPE_SCALAR, vertices);
     }
+    if (surface.refill) {
+        std::map<std::string, int>& target = primitive.targets.emplace_back();
+        target["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
+        addBounds(model.accessors.back(), surface.refill->positions);
+        target["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
+    }
     primitive.indices =
         addArray(model, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                  wideIndices(surface) ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
@@ -209,6 +231,10 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     tinygltf::Mesh mesh;
     mesh.name = "droplet";
     mesh.primitives.push_back(std::move(primitive));
+    if (surface.refill) {
+        mesh.weights = {0.0};
+        mesh.extras = refillExtras(*surface.refill);
+    }
     model.meshes.push_back(std::move(mesh));
     tinygltf::Node node;
     node.name = "droplet";
@@ -234,24 +260,30 @@ nlohmann::json jsonOf(const tinygltf::Model& model)
     return json;
 }
 
+void writeVectors(const std::vector<Vec3>& vectors, ByteStream& bytes)
+{
+    for (const Vec3& vector : vectors) {
+        const Vec3 up = yUp(vector);
+        bytes.f32(up.x, up.y, up.z);
+    }
+}
+
 // Positions within half an ulp of float: of a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest mesh
 // that fits a file. What little closer vertices would merge to stays closed, as faces go by index and welded copies
 // round alike; normals are stored, so no flat triangle asks for one.
 void writeBuffer(const Surface& surface, ByteStream& bytes)
 {
-    for (const Vec3& position : surface.positions) {
-        const Vec3 up = yUp(position);
-        bytes.f32(up.x, up.y, up.z);
-    }
-    for (const Vec3& normal : surface.normals) {
-        const Vec3 up = yUp(normal);
-        bytes.f32(up.x, up.y, up.z);
-    }
+    writeVectors(surface.positions, bytes);
+    writeVectors(surface.normals, bytes);
     for (const Vec2& uv : surface.uvs) {  // glTF's texture origin is the upper left, as the mask's
         bytes.f32(uv.x, uv.y);
     }
     for (const float angle : surface.contact_angle) {
         bytes.f32(angle / kDegree);
+    }
+    if (surface.refill) {
+        writeVectors(surface.refill->positions, bytes);
+        writeVectors(surface.refill->normals, bytes);
     }
     for (const auto& [a, b, c] : surface.triangles) {
         if (wideIndices(surface)) {
@@ -361,7 +393,7 @@ std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOpt
 {
     checkFileSize(surface, options.binary);
     surface.validate();
-    checkUvs(surface);
+    checkFloats(surface);
     const tinygltf::Model model = makeModel(surface, options);
     ByteStream bytes(out);
     if (options.binary) {

@@ -129,11 +129,12 @@ Json outputSection(const OutputReport& output)
             {"boundary_loops", output.topology.boundary_loops}};
 }
 
-Json fillSection(const Fill& fill)
+Json fillSection(const Fill& fill, const std::optional<FillRange>& range)
 {
     return {{"by", nameOf(fill.by)},
             {"amount", fill.by == FillBy::ContactAngle ? degrees(fill.amount) : fill.amount},
-            {"sharing", fill.sharing == FillSharing::Each ? "each" : "total"}};
+            {"sharing", fill.sharing == FillSharing::Each ? "each" : "total"},
+            {"range", range ? Json::array({range->least, range->most}) : Json()}};
 }
 
 Json liquidSection(const SolveOptions& physics, const std::optional<Hysteresis>& hysteresis)
@@ -221,7 +222,7 @@ Json sections(const Report& report)
     json["ground"] = groundSection(report.ground);
     json["no_penetration"] = report.physics.no_penetration;
     json["onto"] = report.onto ? ontoSection(*report.onto) : Json();
-    json["fill"] = fillSection(report.physics.fill);
+    json["fill"] = fillSection(report.physics.fill, report.fill_range);
     json["mesh"] = {{"vertices", report.mesh.vertices},
                     {"triangles", report.mesh.triangles},
                     {"min_angle_deg", degrees(report.mesh.min_angle)},

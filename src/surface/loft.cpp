@@ -51,6 +51,27 @@ struct Counts {
     std::size_t triangles = 0;
 };
 
+/// What one more fill does to vertices and normals of the liquid; rim and base stay.
+///
+/// Before it is brought to unit length a normal is (−∇u, 1), which is affine in the volume as u is. Divided by its
+/// length at fill 1, its change can be added to the unit normal there.
+void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first, Surface& surface)
+{
+    std::vector<Vec2> gradients = recoveredGradients(mesh, gain.height);
+    const std::vector<Vec2> outward = rimNormals(mesh);
+    for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
+        gradients[v] = -gain.rim_slope[v] * outward[v];
+    }
+    Refill& refill = *surface.refill;
+    forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
+        for (std::size_t v = from; v < to; ++v) {
+            const double shortened = surface.normals[first + v].z;
+            refill.positions[first + v] = {0.0, 0.0, gain.height[v]};
+            refill.normals[first + v] = {-shortened * gradients[v].x, -shortened * gradients[v].y, 0.0};
+        }
+    });
+}
+
 /// A droplet, or a part of one, and where in the surface its own begins.
 struct Piece {
     const PlanarMesh* mesh = nullptr;
@@ -167,6 +188,27 @@ void check(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& 
     }
 }
 
+void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftRefill& refill)
+{
+    refill.range.validate();
+    if (refill.gains.size() != meshes.size()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "refill.gains must be as many as meshes: " + std::to_string(refill.gains.size()) + " against " +
+                        std::to_string(meshes.size()));
+    }
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (refill.gains[k].height.size() != meshes[k].vertices.size() ||
+            refill.gains[k].rim_slope.size() != meshes[k].rimVertexCount()) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "refill.gains[" + std::to_string(k) + "] does not belong to its mesh");
+        }
+        if (hasDry(fields[k])) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "field " + std::to_string(k) + " has dry ground, so it cannot be refilled");
+        }
+    }
+}
+
 /// @param wet  parts of the droplets that have dry vertices
 std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
                             const std::vector<std::vector<WetPart>>& wet, const LoftOptions& options)
@@ -232,6 +274,9 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
             wet[k] = wetParts(meshes[k], fields[k], options.ground);
         }
     });
+    if (options.refill) {
+        check(meshes, fields, *options.refill);
+    }
     std::vector<Piece> pieces = piecesOf(meshes, fields, wet, options);
     if (pieces.empty()) {
         throw Error(ErrorCode::InvalidArgument, "fields must leave some liquid; all of the footprint is dry");
@@ -244,11 +289,19 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     surface.contact_angle.resize(total.vertices, 0.0F);
     surface.weld.resize(total.vertices);
     surface.triangles.resize(total.triangles);
+    if (options.refill) {
+        const FillRange& range = options.refill->range;
+        surface.refill =
+            Refill{range.least, range.most, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)};
+    }
     std::vector<Extent> extents(pieces.size());
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {
         fillLiquid(*pieces[k].mesh, *pieces[k].field, options, pieces[k].liquid, surface);
         if (!options.open) {
             fillBase(pieces[k], options, surface);
+        }
+        if (options.refill) {  // nothing is dry, so pieces are the droplets
+            fillRefill(*pieces[k].mesh, options.refill->gains[k], pieces[k].liquid.vertices, surface);
         }
         extents[k] = extentOf(*pieces[k].mesh, *pieces[k].field);
     });

@@ -267,6 +267,30 @@ std::size_t countJoins(const Surface& surface)
     return joins;
 }
 
+void checkRefill(const Surface& surface)
+{
+    const Refill& refill = *surface.refill;
+    const std::size_t count = surface.positions.size();
+    if (refill.positions.size() != count || refill.normals.size() != count) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "surface has " + std::to_string(count) + " positions, and a refill of " +
+                        std::to_string(refill.positions.size()) + " positions and " +
+                        std::to_string(refill.normals.size()) + " normals; there must be equally many");
+    }
+    if (!(refill.least >= 0.0 && refill.least <= 1.0 && refill.most >= 1.0 && refill.least < refill.most &&
+          std::isfinite(refill.most))) {
+        throw Error(ErrorCode::InvalidArgument, "surface.refill from " + std::to_string(refill.least) + " to " +
+                                                    std::to_string(refill.most) + " must be a range around 1, from 0");
+    }
+    const std::size_t i = firstOf(count, [&](std::size_t v) {
+        return !finite(refill.positions[v]) || !finite(refill.normals[v]) ||
+               refill.positions[surface.weld[v]] != refill.positions[v];
+    });
+    if (i < count) {
+        refuse("refill.positions", i, "must be finite with its normal, and that of all copies at the same place");
+    }
+}
+
 }  // namespace
 
 void Surface::validate() const
@@ -314,11 +338,38 @@ void Surface::validate() const
         }
         refuse("weld", i, "= " + std::to_string(weld[i]) + " must be the first vertex at the same place");
     }
+    if (refill) {
+        checkRefill(*this);
+    }
     const auto last = [&](std::size_t t) { return std::max({triangles[t][0], triangles[t][1], triangles[t][2]}); };
     const std::size_t t = firstOf(triangles.size(), [&](std::size_t triangle) { return last(triangle) >= count; });
     if (t < triangles.size()) {
         refuse("triangles", t, "names vertex " + std::to_string(last(t)) + " of " + std::to_string(count));
     }
+}
+
+Surface refilled(const Surface& surface, double fill)
+{
+    surface.validate();
+    if (!surface.refill) {
+        throw Error(ErrorCode::InvalidArgument, "surface.refill is empty; there must be one");
+    }
+    if (!(fill >= surface.refill->least && fill <= surface.refill->most)) {
+        throw Error(ErrorCode::InvalidArgument, "fill " + std::to_string(fill) + " must be from " +
+                                                    std::to_string(surface.refill->least) + " to " +
+                                                    std::to_string(surface.refill->most));
+    }
+    const double weight = fill - 1.0;
+    Surface result = surface;
+    result.refill.reset();
+    result.contact_angle.clear();
+    result.mean_height *= fill;
+    for (std::size_t v = 0; v < result.positions.size(); ++v) {
+        result.positions[v] = result.positions[v] + weight * surface.refill->positions[v];
+        const Vec3 normal = result.normals[v] + weight * surface.refill->normals[v];
+        result.normals[v] = (1.0 / length(normal)) * normal;
+    }
+    return result;
 }
 
 bool isClosed(const Surface& surface)

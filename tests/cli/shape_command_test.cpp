@@ -614,6 +614,32 @@ TEST_F(ShapeCommandTest, GivesTheSameBytesAtAnyNumberOfThreads)
     }
 }
 
+TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
+{
+    make({"two.pgm", "plain.gltf"});
+    const json plain = json::parse(bytesOf("plain.gltf"));
+    const json told = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5"});
+    const json slider = json::parse(bytesOf("slider.gltf"));
+    EXPECT_EQ(told["fill"]["range"], json({0.5, 1.5}));
+    EXPECT_EQ(slider["meshes"][0]["extras"], json({{"targetNames", {"volume"}}, {"fill_range", {0.5, 1.5}}}));
+    EXPECT_EQ(slider["meshes"][0]["weights"], json({0.0}));
+    EXPECT_EQ(slider["meshes"][0]["primitives"][0]["targets"].size(), 1U);
+    EXPECT_FALSE(plain["meshes"][0].contains("weights"));
+    const auto bounds = [](const json& file) {
+        return file["accessors"][file["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+    };
+    EXPECT_EQ(bounds(slider), bounds(plain));
+    // On level ground one more fill raises the highest place by its height.
+    const auto& change =
+        slider["accessors"][slider["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
+    EXPECT_NEAR(change["max"][1].get<double>(), told["shape"]["height_max_m"].get<double>(), 1e-9);
+
+    make({"two.pgm", "one.glb", "--fill-range", "0..2", "--tilt", "40deg", "-j", "1"});
+    make({"two.pgm", "other.glb", "--fill-range", "0..2", "--tilt", "40deg", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.glb"), bytesOf("other.glb"));
+    EXPECT_TRUE(report({"two.pgm", "plain.glb"})["fill"]["range"].is_null());
+}
+
 /// A report without what no two runs share.
 json comparable(json report)
 {

@@ -106,6 +106,53 @@ class Gltf : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(BinaryOrNot, Gltf, ::testing::Bool(),
                          [](const auto& run) { return run.param ? "Glb" : "Gltf"; });
 
+TEST_P(Gltf, HoldsTheRefillAsAMorphTargetThatShowsEveryFill)
+{
+    Surface surface = testing::withRefill(withContactAngles(roundDroplet({.inner = 1e-3})));
+    surface.refill->least = 0.25;
+    const tinygltf::Model model = parsed(written(surface, {.binary = GetParam()}), GetParam());
+    const tinygltf::Mesh& mesh = model.meshes.at(0);
+    EXPECT_EQ(mesh.weights, std::vector<double>{0.0});
+    ASSERT_EQ(mesh.extras.Get("targetNames").ArrayLen(), 1U);
+    EXPECT_EQ(mesh.extras.Get("targetNames").Get(0).Get<std::string>(), "volume");
+    ASSERT_EQ(mesh.extras.Get("fill_range").ArrayLen(), 2U);
+    EXPECT_EQ(mesh.extras.Get("fill_range").Get(0).GetNumberAsDouble(), 0.25);
+    EXPECT_EQ(mesh.extras.Get("fill_range").Get(1).GetNumberAsDouble(), 2.0);
+    const tinygltf::Primitive& primitive = onlyPrimitive(model);
+    ASSERT_EQ(primitive.targets.size(), 1U);
+    const auto positions = numbersOf<float>(model, primitive.attributes.at("POSITION"));
+    const auto normals = numbersOf<float>(model, primitive.attributes.at("NORMAL"));
+    const auto moves = numbersOf<float>(model, primitive.targets[0].at("POSITION"));
+    const auto turns = numbersOf<float>(model, primitive.targets[0].at("NORMAL"));
+    ASSERT_EQ(moves.size(), positions.size());
+    ASSERT_EQ(turns.size(), positions.size());
+    for (const double fill : {0.25, 1.0, 1.5, 2.0}) {
+        const Surface wanted = refilled(surface, fill);
+        for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
+            const auto shown = [&](const std::vector<float>& base, const std::vector<float>& change, std::size_t k) {
+                return base[3 * v + k] + (fill - 1) * change[3 * v + k];
+            };
+            EXPECT_NEAR(shown(positions, moves, 0), wanted.positions[v].x, 1e-9);
+            EXPECT_NEAR(shown(positions, moves, 1), wanted.positions[v].z, 1e-9);
+            EXPECT_NEAR(shown(positions, moves, 2), -wanted.positions[v].y, 1e-9);
+            const Vec3 turned{shown(normals, turns, 0), -shown(normals, turns, 2), shown(normals, turns, 1)};
+            EXPECT_LT(length((1.0 / length(turned)) * turned - wanted.normals[v]), 1e-6);
+        }
+    }
+    const tinygltf::Accessor& bounds =
+        model.accessors.at(static_cast<std::size_t>(primitive.targets[0].at("POSITION")));
+    EXPECT_EQ(bounds.minValues, (std::vector<double>{0.0, 0.0, 0.0}));
+    EXPECT_EQ(bounds.maxValues.at(1), static_cast<double>(*std::max_element(moves.begin(), moves.end())));
+}
+
+TEST_P(Gltf, WithoutARefillThereIsNoMorphTarget)
+{
+    const tinygltf::Model model = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
+    EXPECT_TRUE(onlyPrimitive(model).targets.empty());
+    EXPECT_TRUE(model.meshes.at(0).weights.empty());
+    EXPECT_FALSE(model.meshes.at(0).extras.IsObject());
+}
+
 TEST_P(Gltf, HoldsTheSurfaceAsFloatsWithYUp)
 {
     const Surface surface = roundDroplet({.inner = 1e-3, .centre = {2e-3, -3e-3}});

@@ -84,6 +84,9 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
     add("ring", testing::roundDroplet({.inner = 1e-3}), Material::Water, true);
     add("two", testing::together(testing::roundDroplet(), testing::roundDroplet({.centre = {9e-3, 0.0}})),
         Material::Ink, true);
+    add("refill", testing::withRefill(testing::withContactAngles(testing::roundDroplet())), Material::Water, true);
+    add("refill_wide_indices", testing::withRefill(testing::roundDroplet({.rings = 200, .segments = 200})),
+        Material::Water, true);
     add("wide_indices", testing::roundDroplet({.rings = 200, .segments = 200}), Material::Water, true);
     add("flat", testing::roundDroplet({.height = 1e-12}), Material::Honey, true);
     add("nanometres", testing::roundDroplet({.outer = 1e-9, .height = 1e-10}), Material::Water, true);

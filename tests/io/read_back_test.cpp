@@ -112,6 +112,25 @@ TEST_P(ReadBack, EveryTriangleStandsWhereItStood)
     }
 }
 
+TEST_P(ReadBack, ARefillIsAMorphTargetOfGltfAndInNoOthersWay)
+{
+    const Surface surface = testing::withRefill(roundDroplet({.centre = {2e-3, -4e-3}}));
+    ASSERT_NO_FATAL_FAILURE(read(surface));
+    EXPECT_NEAR(volume() / enclosedVolume(surface), 1.0, 1e-5);
+    if (GetParam().format != Format::Glb && GetParam().format != Format::Gltf) {
+        EXPECT_EQ(mesh->mNumAnimMeshes, 0U);
+        return;
+    }
+    ASSERT_EQ(mesh->mNumAnimMeshes, 1U);
+    const aiAnimMesh& target = *mesh->mAnimMeshes[0];  // where vertices are at weight 1, that is at two fills
+    EXPECT_STREQ(target.mName.C_Str(), "volume");
+    ASSERT_EQ(target.mNumVertices, surface.positions.size());
+    const Surface twice = refilled(surface, 2.0);
+    for (unsigned v = 0; v < target.mNumVertices; ++v) {
+        EXPECT_LT(length(turnedBack(target.mVertices[v]) - twice.positions[v]), 1e-9);
+    }
+}
+
 TEST_P(ReadBack, NormalsAndTextureCoordinatesBelongToTheirCorners)
 {
     const Surface surface = roundDroplet({.centre = {2e-3, -4e-3}});

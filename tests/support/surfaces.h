@@ -124,6 +124,19 @@ inline Surface withContactAngles(Surface surface)
     return surface;
 }
 
+/// The same, to be filled from 0 to 2: every height grows by itself, and what is between rim and base with it.
+inline Surface withRefill(Surface surface)
+{
+    Refill refill;
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        const Vec3& normal = surface.normals[v];
+        refill.positions.push_back({0.0, 0.0, surface.positions[v].z});
+        refill.normals.push_back({normal.x, normal.y, 0.0});
+    }
+    surface.refill = refill;
+    return surface;
+}
+
 /// Triangles alone, on as many vertices as asked, every vertex at a place of its own.
 inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
 {

@@ -27,7 +27,9 @@ struct GltfOptions {
 /// and TEXCOORD_0, 32-bit indices where needed; and, if the surface has them, contact angles as a float scalar in
 /// degrees, _CONTACT_ANGLE: names of attributes that glTF does not define begin with an underscore (section 3.7.2.1),
 /// and viewers ignore them. No extension is required to show it; transmission, ior and volume
-/// are used where known. Colour by depth is given at the mean height; an open surface has it as plain tint.
+/// are used where known. A surface that can be refilled has a morph target named `volume`, whose weight w shows 1 + w
+/// fills: mesh.weights [0], and in mesh.extras `targetNames` and `fill_range`, the fills of least and most. Colour by
+/// depth is given at the mean height; an open surface has it as plain tint.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream

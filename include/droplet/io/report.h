@@ -13,6 +13,7 @@
 #include "droplet/io/output.h"
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
+#include "droplet/shape/refill.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/surface.h"
 
@@ -91,6 +92,7 @@ struct Report {
     InputReport input;
     OutputReport output;
     SolveOptions physics;
+    std::optional<FillRange> fill_range;  ///< where the surface can be filled and drained
     std::optional<Hysteresis> hysteresis;
     GroundReport ground;
     std::optional<ObjectReport> onto;  ///< empty where there is no object

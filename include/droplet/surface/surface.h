@@ -3,12 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
 
 namespace droplet {
+
+/// How a surface changes with the amount of liquid: at fill f, weight w = f − 1, its positions are
+/// positions + w·change and its normals those of normals + w·change, brought to unit length.
+struct Refill {
+    double least = 0.0;           ///< fill, from 0
+    double most = 2.0;            ///< fill; 1 lies between
+    std::vector<Vec3> positions;  ///< change per fill of every vertex [m]; 0 on rim and base
+    std::vector<Vec3> normals;    ///< change per fill of the normal, of which the surface has the direction at fill 1
+};
 
 /// The droplets' surface in space, ready to be written.
 ///
@@ -24,12 +34,21 @@ struct Surface {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> weld;  ///< smallest index of a vertex at the same place; weld[i] ≤ i
     double mean_height = 0.0;         ///< volume over the area of the footprint that is not dry [m], ≥ 0
+    std::optional<Refill> refill;     ///< where the surface can be filled and drained
 
     /// Guarantees: returns only when the invariants hold that can be checked without topology: there is a triangle,
-    /// the arrays fit together, indices are in range, numbers finite, normals unit to 1e-6, welded copies at one place.
+    /// the arrays fit together, indices are in range, numbers finite, normals unit to 1e-6, welded copies at one place,
+    /// and that they change alike.
     /// @throws Error InvalidArgument
     void validate() const;
 };
+
+/// The surface with that many fills of liquid, as a viewer shows it at weight fill − 1.
+/// @param surface  valid, with a refill
+/// @param fill     from least to most
+/// @return         without a refill; contact angles are left out, as they are not affine
+/// @throws Error   InvalidArgument
+Surface refilled(const Surface& surface, double fill);
 
 /// What a surface is, topologically, with copies of a vertex welded. Only a manifold is counted: otherwise all is 0.
 struct Topology {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The thesis, chapter 4: eq. 4.5 is linear in u and λ, so with the volume u moves along the solution of the same system
+// with neither ground nor tilt on its right-hand side.
+#include "droplet/shape/refill.h"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "blocks.h"
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+double volumeOf(const PlanarMesh& mesh, const HeightField& field)
+{
+    return sumOverBlocks(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+        double sum = 0.0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Triangle& t = mesh.triangles[i];
+            sum += doubleArea(mesh, t) / 6.0 *
+                   (field.thicknessAt(t[0]) + field.thicknessAt(t[1]) + field.thicknessAt(t[2]));
+        }
+        return sum;
+    });
+}
+
+void scale(FillGain& gain, double factor)
+{
+    for (double& height : gain.height) {
+        height *= factor;
+    }
+    for (double& slope : gain.rim_slope) {
+        slope *= factor;
+    }
+    gain.pressure *= factor;
+}
+
+void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const SolveOptions& options)
+{
+    options.validate();
+    requireRefillable(options);
+    if (meshes.empty() || meshes.size() != fields.size()) {
+        throw Error(ErrorCode::InvalidArgument, "fields must be as many as meshes: " + std::to_string(fields.size()) +
+                                                    " against " + std::to_string(meshes.size()));
+    }
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (fields[k].height.size() != meshes[k].vertices.size()) {
+            throw Error(ErrorCode::InvalidArgument, "field " + std::to_string(k) + " does not belong to its mesh");
+        }
+    }
+}
+
+}  // namespace
+
+void FillRange::validate() const
+{
+    if (!(least >= 0.0 && least <= 1.0 && most >= 1.0 && least < most && std::isfinite(most))) {
+        throw Error(ErrorCode::InvalidArgument, "fill_range " + std::to_string(least) + " to " + std::to_string(most) +
+                                                    " must be from 0 … 1 to 1 or more, and not empty");
+    }
+}
+
+void requireRefillable(const SolveOptions& options)
+{
+    if (options.model != Model::Linear) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "model exact is not affine in the volume, so it cannot be refilled; it "
+                    "must be linear");
+    }
+    if (options.no_penetration) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "no_penetration moves the rim of what is dry with the volume, so it cannot be refilled; it must be "
+                    "off");
+    }
+}
+
+std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
+                                   const SolveOptions& options)
+{
+    check(meshes, fields, options);
+    const bool shared = options.fill.sharing == FillSharing::Total;
+    std::vector<double> volumes;
+    double total = 0.0;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        volumes.push_back(volumeOf(meshes[k], fields[k]));
+        total += volumes.back();
+        if (!shared && !(volumes.back() > 0.0)) {
+            throw Error(ErrorCode::NoSuchDroplet,
+                        "droplet " + std::to_string(k + 1) + " of " + std::to_string(meshes.size()) + " holds " +
+                            std::to_string(volumes.back()) + " m³; only a positive volume can be refilled");
+        }
+    }
+    if (!(total > 0.0)) {
+        throw Error(ErrorCode::NoSuchDroplet,
+                    "the droplets hold " + std::to_string(total) + " m³; only a positive volume can be refilled");
+    }
+    // On the plane, level, what is there is a multiple of itself.
+    const PlaneGravity gravity = planeGravity(options);
+    std::vector<FillGain> gains(meshes.size());
+    if (options.ground.flat() && gravity.along == Vec2{}) {
+        for (std::size_t k = 0; k < meshes.size(); ++k) {
+            gains[k] = {fields[k].height, fields[k].rim_slope, fields[k].pressure};
+        }
+        return gains;
+    }
+    SolveOptions level = options;
+    level.gravity = gravity.normal;
+    level.tilt = 0.0;
+    level.ground = {};
+    level.fill = {FillBy::Volume, shared ? total : total / static_cast<double>(meshes.size()), options.fill.sharing};
+    Solution solution = solve(meshes, level);
+    if (!solution.report.usable()) {
+        throw Error(ErrorCode::NoSuchDroplet, "the change with the volume could not be solved for (residual " +
+                                                  std::to_string(solution.report.residual) +
+                                                  "); try another number of triangles");
+    }
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        HeightField& field = solution.droplets[k];
+        gains[k] = {std::move(field.height), std::move(field.rim_slope), field.pressure};
+        if (!shared) {
+            scale(gains[k], volumes[k] / level.fill.amount);
+        }
+    }
+    return gains;
+}
+
+}  // namespace droplet

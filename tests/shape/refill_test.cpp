@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What one more fill adds, against solving once more with that much liquid.
+#include "droplet/shape/refill.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/mesh/triangulate.h"
+#include "droplet/units.h"
+#include "support/grounded.h"
+#include "support/masks.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::volumeOf;
+
+/// Three droplets of different sizes, one with a hole.
+std::vector<PlanarMesh> meshes()
+{
+    const testing::Inside ring = [](Vec2 p) {
+        const double r = length(p - Vec2{25, 25});
+        return r < 20 && r > 7;
+    };
+    const testing::Inside bar = testing::rectangle({70, 20}, {14, 7}, 0.4);
+    const testing::Inside small = testing::disc({70, 50}, 9);
+    const Mask mask = testing::smoothMask(96, 64, [=](Vec2 p) { return ring(p) || bar(p) || small(p); });
+    return triangulate(split(trace(mask, {.pixel_size = 0.1 * kMillimetre})), {.triangles = 3000, .edge = {}});
+}
+
+struct Case {
+    std::string name;
+    SolveOptions options;
+};
+
+void PrintTo(const Case& run, std::ostream* out)
+{
+    *out << run.name;
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    const auto add = [&](const std::string& name, FillBy by, double amount, auto change) {
+        for (const FillSharing sharing : {FillSharing::Each, FillSharing::Total}) {
+            SolveOptions options;
+            options.fill = {by, amount, sharing};
+            change(options);
+            all.push_back({name + (sharing == FillSharing::Each ? "Each" : "Total"), options});
+        }
+    };
+    add("LevelByAngle", FillBy::ContactAngle, 35 * kDegree, [](SolveOptions&) {});
+    add("WeightlessByHeight", FillBy::Height, 0.4e-3, [](SolveOptions& o) { o.gravity = 0.0; });
+    add("TiltedByAngle", FillBy::ContactAngle, 35 * kDegree, [](SolveOptions& o) { o.tilt = 50 * kDegree; });
+    add("HangingByVolume", FillBy::Volume, 2 * kMicrolitre, [](SolveOptions& o) { o.tilt = 160 * kDegree; });
+    add("OnASphere", FillBy::Volume, 2 * kMicrolitre, [](SolveOptions& o) { o.ground = BaseSurface::sphere(20e-3); });
+    add("InATiltedGutter", FillBy::Volume, 3 * kMicrolitre, [](SolveOptions& o) {
+        o.ground = BaseSurface::cylinder(-15e-3, 0.3);
+        o.tilt = 20 * kDegree;
+        o.solver = Solver::Llt;
+    });
+    return all;
+}
+
+class Refill : public ::testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, Refill, ::testing::ValuesIn(cases()),
+                         [](const auto& run) { return run.param.name; });
+
+double largest(const std::vector<double>& values)
+{
+    double most = 0.0;
+    for (const double value : values) {
+        most = std::max(most, std::abs(value));
+    }
+    return most;
+}
+
+TEST_P(Refill, LeadsToWhatSolvingAgainWould)
+{
+    const SolveOptions& options = GetParam().options;
+    const std::vector<PlanarMesh> footprints = meshes();
+    const Solution solution = solve(footprints, options);
+    ASSERT_TRUE(solution.report.usable());
+    const std::vector<FillGain> gains = gainsPerFill(footprints, solution.droplets, options);
+    ASSERT_EQ(gains.size(), footprints.size());
+
+    std::vector<double> volumes;
+    double total = 0.0;
+    for (std::size_t k = 0; k < footprints.size(); ++k) {
+        volumes.push_back(volumeOf(footprints[k], solution.droplets[k]));
+        total += volumes.back();
+    }
+    const bool shared = options.fill.sharing == FillSharing::Total;
+    for (const double fill : {0.3, 1.0, 1.9}) {
+        SCOPED_TRACE(fill);
+        SolveOptions again = options;
+        again.fill.by = FillBy::Volume;
+        again.fill.amount = fill * total;
+        const Solution together = shared ? solve(footprints, again) : Solution{};
+        for (std::size_t k = 0; k < footprints.size(); ++k) {
+            again.fill.amount = fill * volumes[k];
+            const HeightField wanted = shared ? together.droplets[k] : solve({footprints[k]}, again).droplets.at(0);
+            const HeightField& field = solution.droplets[k];
+            const double height = largest(wanted.height);
+            for (std::size_t v = 0; v < wanted.height.size(); ++v) {
+                ASSERT_NEAR(field.height[v] + (fill - 1) * gains[k].height[v], wanted.height[v], 1e-8 * height);
+            }
+            const double slope = largest(wanted.rim_slope);
+            for (std::size_t v = 0; v < wanted.rim_slope.size(); ++v) {
+                ASSERT_NEAR(field.rim_slope[v] + (fill - 1) * gains[k].rim_slope[v], wanted.rim_slope[v], 1e-7 * slope);
+            }
+            EXPECT_NEAR(field.pressure + (fill - 1) * gains[k].pressure, wanted.pressure,
+                        1e-7 * std::abs(wanted.pressure));
+        }
+    }
+}
+
+TEST_P(Refill, GainsAreOneFillInVolumeAndNothingOnTheRim)
+{
+    const SolveOptions& options = GetParam().options;
+    const std::vector<PlanarMesh> footprints = meshes();
+    const Solution solution = solve(footprints, options);
+    ASSERT_TRUE(solution.report.usable());
+    const std::vector<FillGain> gains = gainsPerFill(footprints, solution.droplets, options);
+    double before = 0.0;
+    double gained = 0.0;
+    for (std::size_t k = 0; k < footprints.size(); ++k) {
+        HeightField gain;
+        gain.height = gains[k].height;
+        for (std::uint32_t v = 0; v < footprints[k].rimVertexCount(); ++v) {
+            EXPECT_EQ(gain.height[v], 0.0);
+        }
+        const double volume = volumeOf(footprints[k], solution.droplets[k]);
+        if (options.fill.sharing == FillSharing::Each) {
+            EXPECT_NEAR(volumeOf(footprints[k], gain) / volume, 1.0, 1e-9);
+        }
+        before += volume;
+        gained += volumeOf(footprints[k], gain);
+    }
+    EXPECT_NEAR(gained / before, 1.0, 1e-9);
+}
+
+std::string refusalOf(const SolveOptions& options, std::vector<HeightField> fields)
+{
+    try {
+        gainsPerFill(meshes(), fields, options);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(RefillRefuses, WhatIsNotAffine)
+{
+    const SolveOptions linear;
+    const std::vector<HeightField> fields = solve(meshes(), linear).droplets;
+    EXPECT_EQ(refusalOf(linear, fields), "");
+    SolveOptions exact;
+    exact.model = Model::Exact;
+    EXPECT_THAT(refusalOf(exact, fields), HasSubstr("model exact"));
+    SolveOptions above;
+    above.no_penetration = true;
+    EXPECT_THAT(refusalOf(above, fields), HasSubstr("no_penetration"));
+    EXPECT_THAT(refusalOf(linear, {fields[0]}), HasSubstr("1 against 3"));
+    EXPECT_THAT(refusalOf(linear, {fields[1], fields[0], fields[2]}), HasSubstr("field 0"));
+}
+
+TEST(RefillRefuses, WhereThereIsNothingToMultiply)
+{
+    std::vector<HeightField> fields = solve(meshes()).droplets;
+    std::fill(fields[1].height.begin(), fields[1].height.end(), 0.0);
+    EXPECT_THAT(refusalOf({}, fields), HasSubstr("droplet 2 of 3"));
+}
+
+TEST(FillRange, HoldsTheDropletItself)
+{
+    EXPECT_NO_THROW((FillRange{0.0, 2.0}.validate()));
+    EXPECT_NO_THROW((FillRange{1.0, 1.5}.validate()));
+    EXPECT_NO_THROW((FillRange{0.5, 1.0}.validate()));
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const FillRange wrong : {FillRange{-0.1, 2.0}, FillRange{1.1, 2.0}, FillRange{0.0, 0.9}, FillRange{1.0, 1.0},
+                                  FillRange{0.0, infinity}, FillRange{std::numeric_limits<double>::quiet_NaN(), 2.0}}) {
+        EXPECT_THROW(wrong.validate(), Error) << wrong.least << " to " << wrong.most;
+    }
+}
+
+}  // namespace
+}  // namespace droplet
