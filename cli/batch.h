@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "droplet/io/report.h"
-#include "shape_options.h"
+#include "droplet_options.h"
 
 namespace cli {
 

@@ -10,7 +10,7 @@ namespace droplet {
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
-        return maskFromImage(decodeImage(encoded, options.max_pixels), options);
+        return maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
     } catch (const std::bad_alloc&) {
         throwOutOfMemory();
     }
