@@ -21,7 +21,7 @@ struct Image {
     std::vector<std::uint16_t> alpha;  ///< 65535 opaque
     bool premultiplied = false;        ///< luma is already weighted by alpha
 
-    double drawn_scale = 1.0;              ///< as in Mask
+    std::optional<double> drawn_scale;     ///< as in Mask
     std::optional<double> physical_width;  ///< as in Mask [m]
 };
 

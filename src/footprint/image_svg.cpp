@@ -37,7 +37,8 @@ constexpr std::size_t kMostTags = 250'000;
 constexpr std::size_t kStackOfTag = 8 << 10;
 constexpr std::size_t kLeastStack = 8 << 20;
 constexpr double kDotsPerInch = 96.0;  // of CSS
-constexpr int kLongestSide = 32767;    // of Cairo's images
+constexpr double kInch = 25.4 * kMillimetre;
+constexpr int kLongestSide = 32767;  // of Cairo's images
 constexpr int kProbe = 64;
 
 [[noreturn]] void throwRefused(const std::string& detail)
@@ -173,12 +174,17 @@ public:
         if (rsvg_.intrinsic_size(handle_, &page.width, &page.height) != FALSE) {
             page.physical_width = metres(width);
         } else if (has_box != FALSE) {
-            page.width = box.width;
-            page.height = box.height;
+            // One of the two may be stated; the other, like both, is that of the box.
+            const double aspect = box.width / box.height;
             page.physical_width = metres(width);
             if (const auto physical_height = metres(height); physical_height && !page.physical_width) {
-                page.physical_width = *physical_height * (box.width / box.height);
+                page.physical_width = *physical_height * aspect;
             }
+            page.width = page.physical_width           ? *page.physical_width / kInch * kDotsPerInch
+                         : width.unit == RSVG_UNIT_PX  ? width.length
+                         : height.unit == RSVG_UNIT_PX ? height.length * aspect
+                                                       : box.width;
+            page.height = page.width / aspect;
         } else {
             page.as_drawn = true;
             RsvgRectangle ink{};
@@ -224,6 +230,11 @@ private:
         if (error != nullptr) {
             rsvg_.error_free(error);
         }
+        // "Error domain 1 code 77 on line 1 column 134 of data: ..." is libxml2's.
+        if (const auto from = message.find("Error domain "), to = message.find("on line ", from);
+            from != std::string::npos && to != std::string::npos) {
+            message.erase(from, to - from);
+        }
         while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) {
             message.pop_back();
         }
@@ -235,7 +246,6 @@ private:
 
     static std::optional<double> metres(const RsvgLength& length)
     {
-        constexpr double kInch = 25.4 * kMillimetre;
         switch (length.unit) {
             case RSVG_UNIT_IN:
                 return length.length * kInch;

@@ -228,8 +228,8 @@ void Mask::validate() const
         throw Error(ErrorCode::InvalidInput,
                     "mask size " + std::to_string(width) + " x " + std::to_string(height) + " must be at least 1 x 1");
     }
-    if (!(drawn_scale > 0.0 && std::isfinite(drawn_scale))) {
-        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + std::to_string(drawn_scale) + " must be positive");
+    if (drawn_scale && !(*drawn_scale > 0.0 && std::isfinite(*drawn_scale))) {
+        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + std::to_string(*drawn_scale) + " must be positive");
     }
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (coverage.size() != pixels) {

@@ -472,7 +472,7 @@ double signedArea(const Loop& loop)
 
 double pixelSize(const Mask& mask, const TraceOptions& options)
 {
-    return options.pixel_size ? *options.pixel_size / mask.drawn_scale : options.width / mask.width;
+    return options.pixel_size ? *options.pixel_size / mask.drawn_scale.value_or(1.0) : options.width / mask.width;
 }
 
 Outline trace(const Mask& mask, const TraceOptions& options)

@@ -16,6 +16,11 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
     }
 }
 
+std::vector<std::byte> readImageBytes(const std::filesystem::path& path)
+{
+    return readImageFile(path);
+}
+
 Mask readMask(const std::filesystem::path& path, const MaskOptions& options)
 {
     return fromImageFile(path, [&](std::span<const std::byte> encoded) { return decodeMask(encoded, options); });

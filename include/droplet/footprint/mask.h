@@ -37,8 +37,8 @@ struct Mask {
     double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
     double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
 
-    double drawn_scale = 1.0;              ///< pixels of the mask per pixel of its file: 1, but for SVG
-    std::optional<double> physical_width;  ///< what the file states of itself; SVG alone does [m] > 0
+    std::optional<double> drawn_scale;     ///< of an SVG image: pixels of the mask per CSS px of the page, > 0
+    std::optional<double> physical_width;  ///< of an SVG image that states its size in cm, mm, in, pt or pc [m]
 
     [[nodiscard]] std::uint16_t at(int x, int y) const
     {
@@ -75,6 +75,10 @@ struct Mask {
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, no alpha where alpha was asked;
 ///                 SVG: no area, over 64 MiB, 250 000 tags or 500 000 references, librsvg missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
+
+/// The bytes of an image's file, for decodeMask. Of a file that does not begin like an image only the beginning.
+/// @throws Error InvalidInput: missing, unreadable, a directory
+std::vector<std::byte> readImageBytes(const std::filesystem::path& path);
 
 /// Reads a mask from a file, as decodeMask does.
 /// @throws Error InvalidInput: missing, unreadable, a directory, empty, or as decodeMask
