@@ -71,9 +71,12 @@ std::string picture(const droplet::InputReport& input)
     const bool alpha = input.channel == droplet::Channel::Alpha;
     const std::string liquid =
         alpha ? (input.inverted ? "transparent" : "opaque") : (input.inverted ? "dark" : "bright");
-    std::string text = std::to_string(input.width_px) + " × " + std::to_string(input.height_px) + " pixels of " +
-                       millimetres(input.pixel_size) + "; " + liquid + " is liquid (" + (alpha ? "alpha" : "luma") +
-                       "), " + (input.anti_aliased ? "anti-aliased edges" : "hard edges");
+    const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +
+                             (input.own_size ? " as it states" : "") + ", drawn with ";
+    std::string text = (input.drawn ? page : "") + std::to_string(input.width_px) + " × " +
+                       std::to_string(input.height_px) + " pixels of " + millimetres(input.pixel_size) + "; " + liquid +
+                       " is liquid (" + (alpha ? "alpha" : "luma") + "), " +
+                       (input.anti_aliased ? "anti-aliased edges" : "hard edges");
     if (input.specks_dropped > 0) {
         text += "; " + counted(input.specks_dropped, "speck") + " dropped, the largest of " +
                 digits(input.largest_speck_px, 3) + " pixels";

@@ -42,7 +42,7 @@ HeightMap decodeHeightMap(std::span<const std::byte> encoded, std::size_t max_pi
         if (auto floats = decodeFloatImage(encoded, max_pixels)) {
             map = {floats->width, floats->height, std::move(floats->samples), true};
         } else {
-            Image image = decodeImage(encoded, max_pixels);
+            Image image = decodeImage(encoded, {.max_pixels = max_pixels});
             map = {image.width, image.height, {}, false};
             const std::vector<std::uint16_t> luma = lumaOverBlack(std::move(image));
             map.levels.resize(luma.size());

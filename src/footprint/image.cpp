@@ -143,6 +143,7 @@ Image decodeAsStored(std::span<const std::byte> encoded, const ImageHeader& head
         case ImageFormat::Webp:
             return decodeWebp(encoded, header);
         case ImageFormat::Pnm:
+        case ImageFormat::Svg:  // has no header, and does not come here
             break;
     }
     return decodePnm(encoded, header);
@@ -208,14 +209,20 @@ std::vector<std::uint16_t> lumaOverBlack(Image image)
     return std::move(image.luma);
 }
 
-Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels)
+Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& options)
 {
-    const ImageHeader header = readImageHeader(encoded, max_pixels);
+    if (imageFormat(encoded) == ImageFormat::Svg) {
+        return decodeSvg(encoded, options);
+    }
+    const ImageHeader header = readImageHeader(encoded, options.max_pixels);
     return upright(decodeAsStored(encoded, header), header.orientation);
 }
 
 std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels)
 {
+    if (imageFormat(encoded) == ImageFormat::Svg) {
+        return std::nullopt;
+    }
     const ImageHeader header = readImageHeader(encoded, max_pixels);
     if (header.format != ImageFormat::Tiff || !isFloatTiff(encoded)) {
         return std::nullopt;

@@ -20,6 +20,9 @@ struct Image {
     std::vector<std::uint16_t> luma;   ///< ITU-R BT.601, as stored: no gamma, no colour profile
     std::vector<std::uint16_t> alpha;  ///< 65535 opaque
     bool premultiplied = false;        ///< luma is already weighted by alpha
+
+    std::optional<double> drawn_scale;     ///< as in Mask
+    std::optional<double> physical_width;  ///< as in Mask [m]
 };
 
 /// An image all black and transparent.
@@ -39,9 +42,15 @@ void putPixels(Image& image, const PixelRun& run, std::span<const Sample> sample
 /// The image as seen when held by its EXIF (or TIFF) orientation, 1 … 8; needs one more plane of memory.
 Image upright(Image image, int orientation);
 
+/// How an image becomes pixels.
+struct DecodeOptions {
+    std::size_t max_pixels = std::size_t{1} << 28;  ///< as in MaskOptions
+    int vector_long_side = 2048;                    ///< as in MaskOptions [px]
+};
+
 /// Decodes an image of any format this library reads, upright. The size in its header is checked first.
 /// @throws Error InvalidInput
-Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels);
+Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& options);
 
 /// What is seen of an image in front of black: its luma, as much of it as is opaque.
 std::vector<std::uint16_t> lumaOverBlack(Image image);

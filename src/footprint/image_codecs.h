@@ -24,6 +24,10 @@ Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodeWebp(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodePnm(std::span<const std::byte> encoded, const ImageHeader& header);
 
+/// Draws a vector image, which has no pixels of its own. Nothing it refers to is read.
+/// @throws Error InvalidInput: damaged, a page without area, more than librsvg or its stack can take
+Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options);
+
 /// Whether the samples of a TIFF are floating-point numbers, and one a pixel.
 bool isFloatTiff(std::span<const std::byte> encoded);
 

@@ -4,8 +4,10 @@
 // pbm(5), pgm(5), ppm(5); the BITMAPCOREHEADER and BITMAPINFOHEADER structures.
 #include "footprint/image_header.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "droplet/error.h"
 #include "footprint/image_bytes.h"
@@ -163,6 +165,7 @@ Size sizeIn(ImageFormat format, std::span<const std::byte> encoded)
         case ImageFormat::Webp:
             return webpSize(encoded);
         case ImageFormat::Pnm:
+        case ImageFormat::Svg:
             break;
     }
     const PnmHeader header = readPnmHeader(encoded);
@@ -197,6 +200,21 @@ std::uint64_t pnmNumber(const ByteView& view, std::size_t& at)
     return value;
 }
 
+/// Whether a file begins as markup and soon comes to an svg element, or is markup in UTF-16.
+bool beginsLikeSvg(std::span<const std::byte> encoded)
+{
+    using namespace std::string_view_literals;
+    constexpr std::size_t kSoon = std::size_t{1} << 16;
+    const auto bytes = encoded.first(std::min(encoded.size(), kSoon));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view start = text.starts_with("\xef\xbb\xbf"sv) ? text.substr(3) : text;
+    const auto first = start.find_first_not_of(" \t\r\n");
+    if (first != std::string_view::npos && start[first] == '<') {
+        return text.find("<svg") != std::string_view::npos || text.find(":svg") != std::string_view::npos;
+    }
+    return text.starts_with("\xff\xfe<\0"sv) || text.starts_with("\xfe\xff\0<"sv);
+}
+
 }  // namespace
 
 const char* name(ImageFormat format)
@@ -212,6 +230,8 @@ const char* name(ImageFormat format)
             return "TIFF";
         case ImageFormat::Webp:
             return "WebP";
+        case ImageFormat::Svg:
+            return "SVG";
         case ImageFormat::Pnm:
             break;
     }
@@ -243,6 +263,9 @@ std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
         (isSpace(view.u8(2)) || view.u8(2) == '#')) {
         return ImageFormat::Pnm;
     }
+    if (view.startsWith("\x1f\x8b"sv) || beginsLikeSvg(encoded)) {
+        return ImageFormat::Svg;
+    }
     return std::nullopt;
 }
 
@@ -252,7 +275,7 @@ ImageHeader readImageHeader(std::span<const std::byte> encoded, std::size_t max_
     if (!format) {
         throw Error(ErrorCode::InvalidInput,
                     encoded.empty() ? "empty, not an image"
-                                    : "not an image this program reads (PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM)");
+                                    : "not an image this program reads (PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM, SVG)");
     }
     const Size size = sizeIn(*format, encoded);
     if (size.width == 0 || size.height == 0) {

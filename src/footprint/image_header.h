@@ -8,7 +8,7 @@
 
 namespace droplet {
 
-enum class ImageFormat { Png, Jpeg, Bmp, Tiff, Webp, Pnm };
+enum class ImageFormat { Png, Jpeg, Bmp, Tiff, Webp, Pnm, Svg };
 
 /// The name a format has in messages.
 const char* name(ImageFormat format);
@@ -21,9 +21,11 @@ struct ImageHeader {
     int orientation = 1;  ///< 1 … 8, from EXIF or TIFF; 1 is upright
 };
 
-/// The format that the first bytes of a file announce; 16 bytes are enough.
+/// The format that the first bytes of a file announce; 16 bytes are enough, but for SVG, which may begin with comments
+/// and then takes up to 64 KiB. Compressed data count as SVG.
 std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded);
 
+/// Of any format but SVG, whose size is known to librsvg alone.
 /// @throws Error InvalidInput: unknown format, header cut short, no size or more than max_pixels
 ImageHeader readImageHeader(std::span<const std::byte> encoded, std::size_t max_pixels);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -195,6 +196,8 @@ Mask maskFromImage(Image image, const MaskOptions& options)
     Mask mask;
     mask.width = image.width;
     mask.height = image.height;
+    mask.drawn_scale = image.drawn_scale;
+    mask.physical_width = image.physical_width;
     mask.channel = options.channel;
     if (options.channel == Channel::Auto) {
         mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
@@ -224,6 +227,9 @@ void Mask::validate() const
     if (width < 1 || height < 1) {
         throw Error(ErrorCode::InvalidInput,
                     "mask size " + std::to_string(width) + " x " + std::to_string(height) + " must be at least 1 x 1");
+    }
+    if (drawn_scale && !(*drawn_scale > 0.0 && std::isfinite(*drawn_scale))) {
+        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + std::to_string(*drawn_scale) + " must be positive");
     }
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (coverage.size() != pixels) {

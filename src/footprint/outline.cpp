@@ -470,6 +470,11 @@ double signedArea(const Loop& loop)
     return 0.5 * sum;
 }
 
+double pixelSize(const Mask& mask, const TraceOptions& options)
+{
+    return options.pixel_size ? *options.pixel_size / mask.drawn_scale.value_or(1.0) : options.width / mask.width;
+}
+
 Outline trace(const Mask& mask, const TraceOptions& options)
 {
     mask.validate();
@@ -483,7 +488,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     }
 
     Outline outline;
-    outline.pixel_size = options.pixel_size.value_or(options.width / mask.width);
+    outline.pixel_size = pixelSize(mask, options);
     outline.extent = {mask.width * outline.pixel_size, mask.height * outline.pixel_size};
     outline.anti_aliased = looksAntiAliased(field, borders);
 

@@ -10,10 +10,15 @@ namespace droplet {
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
-        return maskFromImage(decodeImage(encoded, options.max_pixels), options);
+        return maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
     } catch (const std::bad_alloc&) {
         throwOutOfMemory();
     }
+}
+
+std::vector<std::byte> readImageBytes(const std::filesystem::path& path)
+{
+    return readImageFile(path);
 }
 
 Mask readMask(const std::filesystem::path& path, const MaskOptions& options)

@@ -104,6 +104,8 @@ Json inputSection(const InputReport& input)
     return {{"path", input.path},
             {"width_px", input.width_px},
             {"height_px", input.height_px},
+            {"drawn", input.drawn},
+            {"own_size", input.own_size},
             {"pixel_size_m", input.pixel_size},
             {"channel", nameOf(input.channel)},
             {"inverted", input.inverted},

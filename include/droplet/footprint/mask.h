@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct MaskOptions {
     Channel channel = Channel::Auto;
     bool invert = false;                            ///< exchange liquid and dry, after all other decisions
     std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
+    int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
 };
 
 /// How much of every pixel liquid covers, and how that was decided.
@@ -35,6 +37,9 @@ struct Mask {
     double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
     double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
 
+    std::optional<double> drawn_scale;     ///< of an SVG image: pixels of the mask per CSS px of the page, > 0
+    std::optional<double> physical_width;  ///< of an SVG image that states its size in cm, mm, in, pt or pc [m]
+
     [[nodiscard]] std::uint16_t at(int x, int y) const
     {
         return coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
@@ -46,7 +51,14 @@ struct Mask {
 };
 
 /// Reads a mask from an encoded image: PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM; 1 to 16 bits;
-/// grey, palette, RGB, CMYK, with or without alpha; turned upright if its EXIF data say so.
+/// grey, palette, RGB, CMYK, with or without alpha; turned upright if its EXIF data say so. Or from an SVG image,
+/// compressed by gzip or not, which is drawn on a transparent page.
+///
+/// The mask of an SVG image is exactly as wide as its page and less than a pixel higher. Its longer side has
+/// vector_long_side pixels, or as many as max_pixels and 32767 a side admit; more if the shorter side would have fewer
+/// than 16. The page is that of the SVG's width and height, at 96 px to the inch, or its viewBox, or just what is
+/// drawn. Nothing the image refers to is read, neither from disk nor from the network, but what it holds itself as
+/// data: URLs. Text depends on the fonts installed.
 ///
 /// The size in the file's header is checked before any pixel is decoded or memory for it taken. Levels are those
 /// stored: 8-bit v is 257 v of 65535, luma is ITU-R BT.601 of the image in front of black, so that transparent
@@ -60,8 +72,13 @@ struct Mask {
 /// are dry. An image of one level is all liquid if brighter than half, all dry otherwise.
 /// @param encoded  the file's bytes
 /// @param options  which channel, whether to invert, largest size
-/// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, no alpha where alpha was asked
+/// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, no alpha where alpha was asked;
+///                 SVG: no area, over 64 MiB, 250 000 tags or 500 000 references, librsvg missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
+
+/// The bytes of an image's file, for decodeMask. Of a file that does not begin like an image only the beginning.
+/// @throws Error InvalidInput: missing, unreadable, a directory
+std::vector<std::byte> readImageBytes(const std::filesystem::path& path);
 
 /// Reads a mask from a file, as decodeMask does.
 /// @throws Error InvalidInput: missing, unreadable, a directory, empty, or as decodeMask

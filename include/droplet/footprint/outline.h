@@ -39,13 +39,16 @@ struct Outline {
 struct TraceOptions {
     double threshold = 0.5;            ///< coverage at which liquid begins, in (0, 1)
     double width = 20e-3;              ///< physical width of the image [m], > 0; ignored if pixel_size is set
-    std::optional<double> pixel_size;  ///< edge of a pixel [m], > 0
+    std::optional<double> pixel_size;  ///< edge of a pixel of the image's file [m], > 0; of SVG a CSS px
     double speck_size = 3.0;           ///< loops that enclose less than this are dropped [px²], ≥ 0
     bool corners = true;               ///< keep sharp corners sharp; otherwise everything is faired
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
+
+/// Edge of a pixel of the mask, as the options size the image [m].
+double pixelSize(const Mask& mask, const TraceOptions& options);
 
 /// Traces the rims of the liquid in a mask, to a fraction of a pixel.
 ///

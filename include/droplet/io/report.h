@@ -27,6 +27,8 @@ struct InputReport {
     std::string path;  ///< as given
     int width_px = 0;
     int height_px = 0;
+    bool drawn = false;       ///< an SVG image, which has no pixels but those it was drawn with
+    bool own_size = false;    ///< whether its size is what it states itself
     double pixel_size = 0.0;  ///< [m]
     Channel channel = Channel::Luma;
     bool inverted = false;
