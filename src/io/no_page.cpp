@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// In place of the page, in libraries built without it.
+#include "io/page_parts.h"
+
+namespace droplet {
+
+const std::array<std::string_view, 4> kPageParts = {};
+
+}  // namespace droplet

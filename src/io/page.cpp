@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// WHATWG, "HTML Living Standard", sections 13.1.2 (what ends raw text and title elements) and 4.12.1.3 (script
+// elements that hold data); RFC 4648, section 4 (base64).
+#include "droplet/io/page.h"
+
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "droplet/error.h"
+#include "io/byte_stream.h"
+#include "io/page_parts.h"
+
+namespace droplet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Browsers hold the base64 of it in one string; theirs end at some 512 MiB.
+constexpr std::size_t kLargestModel = std::size_t{256} << 20;
+
+// What differs from run to run of the same job.
+constexpr std::array kNotOfTheDroplet = {"time_s", "peak_memory_bytes"};
+
+[[noreturn]] void refuse(const std::string& what)
+{
+    throw Error(ErrorCode::InvalidArgument, "page: " + what);
+}
+
+void check(const std::string& glb)
+{
+    if (glb.substr(0, 4) != "glTF") {
+        refuse("content.glb must be a GLB file, which begins with 'glTF'");
+    }
+    if (glb.size() > kLargestModel) {
+        refuse("content.glb has " + std::to_string(glb.size()) + " bytes, must have at most " +
+               std::to_string(kLargestModel));
+    }
+}
+
+Json parsed(const std::string& report)
+{
+    Json json = Json::parse(report, nullptr, false);
+    if (!json.is_object()) {
+        refuse("content.report must be a JSON object");
+    }
+    for (const char* name : kNotOfTheDroplet) {
+        json.erase(name);
+    }
+    return json;
+}
+
+std::string dump(const Json& json)
+{
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// JSON as it may stand in a script element. The characters can only be in strings, where escapes mean the same.
+std::string forScript(const std::string& json)
+{
+    std::string safe;
+    for (const char c : json) {
+        switch (c) {
+            case '<':
+                safe += "\\u003c";
+                break;
+            case '>':
+                safe += "\\u003e";
+                break;
+            case '&':
+                safe += "\\u0026";
+                break;
+            default:
+                safe += c;
+        }
+    }
+    return safe;
+}
+
+/// Text as it may stand in a title element; control characters mean nothing there, and a NUL is an error.
+std::string forTitle(const std::string& text)
+{
+    std::string safe;
+    for (const char c : text) {
+        if (c == '<') {
+            safe += "&lt;";
+        } else if (c == '&') {
+            safe += "&amp;";
+        } else {
+            safe += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? ' ' : c;
+        }
+    }
+    return safe;
+}
+
+void base64(ByteStream& out, std::string_view bytes)
+{
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const auto octet = [&](std::size_t i) -> std::uint32_t {
+        return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
+    };
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::uint32_t group = octet(i) << 16 | octet(i + 1) << 8 | octet(i + 2);
+        out.u8(kDigits[group >> 18], kDigits[group >> 12 & 63], i + 1 < bytes.size() ? kDigits[group >> 6 & 63] : '=',
+               i + 2 < bytes.size() ? kDigits[group & 63] : '=');
+    }
+}
+
+}  // namespace
+
+bool pageIsBuiltIn() noexcept
+{
+    return !kPageParts[0].empty();
+}
+
+std::uint64_t writePage(std::ostream& out, const PageContent& content)
+{
+    if (!pageIsBuiltIn()) {
+        refuse("this library was built without it (DROPLET_PAGE=OFF)");
+    }
+    check(content.glb);
+    Json data;
+    data["title"] = content.title;
+    data["report"] = parsed(content.report);
+    // Through JSON, for there what is not UTF-8 is replaced.
+    const std::string title = Json::parse(dump(content.title)).get<std::string>();
+
+    ByteStream page(out);
+    page.text(kPageParts[0]);
+    page.text(forTitle(title));
+    page.text(kPageParts[1]);
+    page.text(forScript(dump(data)));
+    page.text(kPageParts[2]);
+    base64(page, content.glb);
+    page.text(kPageParts[3]);
+    return page.finish();
+}
+
+}  // namespace droplet

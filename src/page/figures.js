@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The report's numbers in units for people.
+
+const kScales = {
+    volume: [[1e-15, 'pL'], [1e-12, 'nL'], [1e-9, 'µL'], [1e-6, 'mL'], [1e-3, 'L'], [1, 'm³']],
+    length: [[1e-9, 'nm'], [1e-6, 'µm'], [1e-3, 'mm'], [1e-2, 'cm'], [1, 'm']],
+    area: [[1e-12, 'µm²'], [1e-6, 'mm²'], [1e-4, 'cm²'], [1, 'm²']],
+    energy: [[1e-12, 'pJ'], [1e-9, 'nJ'], [1e-6, 'µJ'], [1e-3, 'mJ'], [1, 'J']],
+    force: [[1e-9, 'nN'], [1e-6, 'µN'], [1e-3, 'mN'], [1, 'N']],
+};
+const kSpace = '\u00a0';
+
+/** Three significant digits without an exponent where that is short. */
+export function digits(value, count = 3) {
+    if (value === 0) {
+        return '0';
+    }
+    const size = Math.abs(value);
+    if (size >= 1e7 || size < 1e-4) {
+        return value.toExponential(count - 1).replace('-', '−').replace('e', ' × 10^').replace('^+', '^');
+    }
+    const places = Math.max(0, count - 1 - Math.floor(Math.log10(size)));
+    return value.toFixed(places).replace('-', '−');
+}
+
+/** The largest unit in which the number is one or more; the smallest if there is none. */
+function inUnit(kind, value) {
+    const scales = kScales[kind];
+    // 0.9995 would be printed as 1.00.
+    return scales.findLast(([size]) => Math.abs(value) >= 0.9995 * size) ?? scales[0];
+}
+
+export function quantity(kind, value) {
+    const [size, unit] = value === 0 ? kScales[kind].find(([, name]) => ['µL', 'mm', 'mm²'].includes(name)) ?? [1, ''] :
+        inUnit(kind, value);
+    return digits(value / size) + kSpace + unit;
+}
+
+export const volume = (value) => quantity('volume', value);
+/** Lengths stay in millimetres up to ten of these: so are droplets measured. */
+export function length(value) {
+    return Math.abs(value) >= 9.995e-3 && Math.abs(value) < 99.95e-3 ? digits(value / 1e-3) + kSpace + 'mm' :
+        quantity('length', value);
+}
+const area = (value) => (Math.abs(value) >= 99.95e-6 && Math.abs(value) < 999.5e-6 ? digits(value / 1e-6) + kSpace + 'mm²' :
+    quantity('area', value));
+const degrees = (value) => digits(value, value >= 10 ? 2 : 1) + '°';
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** The picture's sides [m]; undefined where the report does not say. */
+export function extent(report) {
+    const input = report?.input;
+    return input && [input.width_px * input.pixel_size_m, input.height_px * input.pixel_size_m];
+}
+
+function groundText(ground) {
+    if (ground.radius_m !== null) {
+        return `${ground.radius_m < 0 ? 'hollow ' : ''}${ground.kind}, radius ${length(Math.abs(ground.radius_m))}`;
+    }
+    return ground.kind;
+}
+
+/** Rows of the table: a name, and its value in words. What the report does not hold is not in it. */
+export function rows(report) {
+    const { shape, liquid, mesh, ground, model, onto } = report;
+    const found = [];
+    const add = (name, value, text) => {
+        if (value !== null && value !== undefined) {
+            found.push([name, text(value)]);
+        }
+    };
+    add('Liquid', liquid?.name, capital);
+    add('Surface tension', liquid?.surface_tension_n_per_m, (s) => `${digits(s * 1e3)}${kSpace}mN/m`);
+    add('Density', liquid?.density_kg_per_m3, (d) => `${digits(d)}${kSpace}kg/m³`);
+    add('Volume', shape?.volume_m3, volume);
+    add('Greatest height', shape?.height_max_m, length);
+    add('Contact angle, mean', shape?.contact_angle_deg?.mean, degrees);
+    add('Contact angle, range', shape?.contact_angle_deg, ({ min, max }) => `${degrees(min)} to ${degrees(max)}`);
+    add('Footprint', mesh?.footprint_area_m2, area);
+    add('Liquid surface', shape?.liquid_area_m2, area);
+    add('Rim', mesh?.rim_length_m, length);
+    add('Pressure', shape?.pressure_pa, (p) => `${digits(p)}${kSpace}Pa`);
+    add('Bond number', shape?.bond_number, (b) => digits(b));
+    add('Capillary length', liquid?.capillary_length_m, length);
+    add('Picture', extent(report), ([w, h]) => `${length(w)} × ${length(h)}`);
+    if (mesh?.droplets > 1) {
+        add('Droplets', mesh.droplets, String);
+    }
+    if (mesh?.holes > 0) {
+        add('Holes', mesh.holes, String);
+    }
+    if (liquid && liquid.gravity_m_per_s2 !== 9.81) {
+        add('Gravity', liquid.gravity_m_per_s2, (g) => `${digits(g)}${kSpace}m/s²`);
+    }
+    if (liquid?.tilt_deg) {
+        add('Tilt', liquid.tilt_deg, degrees);
+    }
+    if (ground && ground.kind !== 'flat') {
+        add('Ground', ground, groundText);
+    }
+    if (onto) {
+        add('Laid on', onto.path, (path) => path.split('/').pop());
+    }
+    add('Would slide', shape?.would_slide, (slides) => (slides ? 'yes' : 'no'));
+    add('Model', model, String);
+    return found;
+}

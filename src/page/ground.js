@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// What the droplet stands on, and what is behind it: opaque, because only that is seen through the liquid.
+import { BackSide, CircleGeometry, Color, Group, LinearMipmapLinearFilter, Mesh, ShaderMaterial, SphereGeometry,
+    SRGBColorSpace, Texture, Vector2 } from 'three';
+
+const paper = {
+    name: 'Paper with a grid', colour: '#f3efe6', far: '#e9e5dc', line: '#7d98aa', mark: '#33414d', sky: 0.6, sun: 0.42,
+    swatch: 'repeating-linear-gradient(0deg,#a9bcc8 0 1px,transparent 1px 7px),repeating-linear-gradient(90deg,#a9bcc8 0 1px,transparent 1px 7px),#f3efe6',
+};
+const studio = {
+    name: 'Dark studio', colour: '#3c454d', far: '#101315', mark: '#c9d3da', sky: 0.28, sun: 1.0, pool: 1, walls: 0.3,
+    swatch: 'radial-gradient(circle at 45% 40%,#56626c,#14181b 75%)',
+};
+const plain = (name, colour, far, mark) => ({ name, colour, far, mark, sky: 0.52, sun: 0.5, swatch: colour });
+
+/** What can be chosen, in the order it is shown in. */
+export const kGrounds = {
+    paper,
+    studio,
+    sky: plain('Blue', '#4f8fb8', '#3f7da6', '#f2f6f8'),
+    leaf: plain('Green', '#6f9a6a', '#5d8858', '#f2f6f2'),
+    clay: plain('Terracotta', '#c8704f', '#b56143', '#fdf3ee'),
+    rose: plain('Rose', '#dfa7ab', '#d3979c', '#4a2d30'),
+    slate: plain('Slate', '#5b646d', '#4a525a', '#eef2f5'),
+    white: plain('White', '#fbfbfa', '#f1f1ef', '#33414d'),
+};
+const kPicture = { name: 'Own picture', colour: '#d9d6d0', far: '#cfccc6', mark: '#33414d', sky: 0.55, sun: 0.47 };
+
+const kVertex = `
+varying vec3 place;
+void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    place = world.xyz;
+    gl_Position = projectionMatrix * viewMatrix * world;
+}`;
+
+const kGroundFragment = `
+uniform vec3 colour;
+uniform vec3 far;
+uniform vec3 line;
+uniform float step_length;
+uniform float lines;
+uniform float sky;
+uniform float sun;
+uniform float pool;
+uniform float lit;
+uniform sampler2D light;
+uniform vec2 light_centre;
+uniform float light_half;
+uniform sampler2D picture;
+uniform vec2 picture_half;
+uniform float pictured;
+varying vec3 place;
+
+// 1 on lines of a grid, a pixel wide and more, 0 where the grid is finer than the pixels.
+float grid(vec2 at, float width) {
+    vec2 pixel = fwidth(at);
+    vec2 away = abs(fract(at - 0.5) - 0.5);
+    vec2 half_width = max(vec2(width), pixel) * 0.5;
+    vec2 on = 1.0 - smoothstep(half_width - 0.5 * pixel, half_width + 0.5 * pixel, away);
+    on *= min(vec2(1.0), width / pixel) * (1.0 - smoothstep(0.25, 0.5, pixel));
+    return max(on.x, on.y);
+}
+
+void main() {
+    vec3 base = colour;
+    vec2 at = place.xz / step_length;
+    float fine = 0.34 * grid(at, 0.045);
+    float coarse = 0.7 * grid(at / 5.0, 0.013);
+    base = mix(base, line, lines * max(fine, coarse));
+    vec2 uv = place.xz / picture_half;
+    vec4 print = texture2D(picture, vec2(0.5, 0.5) + vec2(0.5, -0.5) * uv);
+    vec2 edge = abs(uv);
+    if (pictured > 0.5 && max(edge.x, edge.y) < 1.0) {
+        base = mix(base, print.rgb, print.a);
+    }
+    vec2 lamp = (place.xz - light_centre) / light_half;
+    vec2 inside = step(abs(lamp), vec2(1.0));
+    vec3 reached = vec3(1.0) + lit * inside.x * inside.y *
+        texture2D(light, vec2(0.5, 0.5) + vec2(0.5, -0.5) * lamp).rgb;
+    // Of the sky's light some is missing, too, where the sun's is.
+    vec3 shade = mix(vec3(1.0), clamp(reached, 0.0, 1.0), 0.3);
+    float away = length(place.xz);
+    float spot = mix(1.0, exp(-0.16 * away * away), pool);
+    vec3 result = base * (sky * shade + sun * spot * max(reached, 0.0));
+    gl_FragColor = vec4(mix(result, far * (sky + mix(sun, 0.0, pool)), smoothstep(2.2, 9.0, away)), 1.0);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+}`;
+
+const kDomeFragment = `
+uniform vec3 far;
+uniform float sky;
+uniform float sun;
+uniform float pool;
+varying vec3 place;
+void main() {
+    gl_FragColor = vec4(far * (sky + mix(sun, 0.0, pool)) * mix(1.0, 1.06, clamp(place.y / 30.0, 0.0, 1.0)), 1.0);
+    #include <tonemapping_fragment>
+    #include <colorspace_fragment>
+}`;
+
+export class Ground extends Group {
+    /**
+     * @param height       of the ground, in the scene's units
+     * @param step         of the grid, in the scene's units
+     * @param picture_half half the sides of the mask, in the scene's units: a picture of its shape lies where it lay
+     */
+    constructor({ height, step, light, picture_half }) {
+        super();
+        this.picture_half = picture_half;
+        this.uniforms = {
+            colour: { value: new Color() }, far: { value: new Color() }, line: { value: new Color() },
+            step_length: { value: step }, lines: { value: 0 }, sky: { value: 1 }, sun: { value: 1 }, pool: { value: 0 },
+            lit: { value: light ? 1 : 0 }, light: { value: light?.target.texture ?? new Texture() },
+            light_centre: { value: light?.centre ?? new Vector2() }, light_half: { value: light?.half ?? 1 },
+            picture: { value: new Texture() }, picture_half: { value: picture_half.clone() }, pictured: { value: 0 },
+        };
+        const floor = new Mesh(new CircleGeometry(30, 96),
+            new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kGroundFragment, uniforms: this.uniforms }));
+        floor.rotation.x = -Math.PI / 2;
+        floor.position.y = height;
+        const dome = new Mesh(new SphereGeometry(30, 32, 16),
+            new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kDomeFragment, uniforms: this.uniforms, side: BackSide }));
+        this.add(floor, dome);
+    }
+
+    #wear(look) {
+        const { uniforms } = this;
+        uniforms.colour.value.set(look.colour);
+        uniforms.far.value.set(look.far);
+        uniforms.line.value.set(look.line ?? look.colour);
+        uniforms.lines.value = look.line ? 1 : 0;
+        uniforms.sky.value = look.sky;
+        uniforms.sun.value = look.sun;
+        uniforms.pool.value = look.pool ?? 0;
+        uniforms.pictured.value = 0;
+        this.mark = look.mark;
+        return look;
+    }
+
+    /** One of kGrounds, by its key. */
+    choose(key) {
+        return this.#wear(kGrounds[key]);
+    }
+
+    /** A picture as a print under the droplet; one of the mask's shape lies where the mask lay, others around it. */
+    show(image, anisotropy) {
+        const look = this.#wear(kPicture);
+        const { uniforms, picture_half } = this;
+        uniforms.picture.value.dispose();
+        const texture = new Texture(image);
+        texture.colorSpace = SRGBColorSpace;
+        texture.minFilter = LinearMipmapLinearFilter;
+        texture.anisotropy = anisotropy;
+        texture.needsUpdate = true;
+        uniforms.picture.value = texture;
+        uniforms.pictured.value = 1;
+        const shape = image.width / image.height;
+        const same = Math.abs(shape * picture_half.y / picture_half.x - 1) < 0.02;
+        const short = same ? picture_half.y : 1.6 * Math.max(picture_half.x / Math.max(1, shape), picture_half.y);
+        uniforms.picture_half.value.set(same ? picture_half.x : short * shape, short);
+        return look;
+    }
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Light on the ground, through the liquid: the mesh itself is drawn where its rays land, after E. Wallace, "Rendering
+// realtime caustics in WebGL" (2016), brighter by as much as the area of a bundle of rays shrinks. Where these rays
+// would have gone without the liquid, the same light is missing. Several points of the window make the shadow soft.
+import { AddEquation, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
+    OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
+import { kAcross, kSun, kUpward } from './studio.js';
+
+const kTexels = 1024;
+
+const kVertex = `
+#include <common>
+#include <morphtarget_pars_vertex>
+uniform vec3 sun;
+uniform float ground;
+uniform float ior;
+uniform bool refracted;
+varying vec2 straight;
+varying vec2 bent;
+varying float facing;
+varying float depth;
+void main() {
+    #include <beginnormal_vertex>
+    #include <morphnormal_vertex>
+    #include <begin_vertex>
+    #include <morphtarget_vertex>
+    vec3 place = (modelMatrix * vec4(transformed, 1.0)).xyz;
+    vec3 normal = normalize(mat3(modelMatrix) * objectNormal);
+    float lift = max(place.y - ground, 0.0);
+    straight = place.xz - sun.xz * (lift / sun.y);
+    vec3 ray = refract(-sun, normal, 1.0 / ior);
+    bent = place.xz + ray.xz * (lift / max(-ray.y, 0.05));
+    depth = lift / max(-ray.y, 0.05);
+    facing = dot(normal, sun);
+    vec2 landing = refracted ? bent : straight;
+    // Not the base.
+    gl_Position = normal.y < -0.5 ? vec4(2.0, 2.0, 2.0, 1.0) :
+        projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0);
+}`;
+
+const kFragment = `
+uniform bool refracted;
+uniform float ior;
+uniform float share;
+uniform vec3 tint;
+uniform float tint_depth;
+varying vec2 straight;
+varying vec2 bent;
+varying float facing;
+varying float depth;
+float spread(vec2 at) {
+    vec2 x = dFdx(at);
+    vec2 y = dFdy(at);
+    return abs(x.x * y.y - x.y * y.x);
+}
+void main() {
+    if (facing <= 0.0) {
+        discard;
+    }
+    if (!refracted) {
+        gl_FragColor = vec4(vec3(-share), 1.0);
+        return;
+    }
+    float bundle = min(spread(straight) / max(spread(bent), 1e-12), 24.0);
+    float mirrored = pow((ior - 1.0) / (ior + 1.0), 2.0);
+    mirrored += (1.0 - mirrored) * pow(1.0 - facing, 5.0);
+    vec3 through = tint_depth > 0.0 ? pow(tint, vec3(depth / tint_depth)) : tint;
+    gl_FragColor = vec4(share * bundle * (1.0 - mirrored) * through, 1.0);
+}`;
+
+/** Light that reaches the ground, as a texture over a square around the droplet: 1 where nothing is in its way, less 1. */
+export class GroundLight {
+    /**
+     * @param box     around the droplet at its fullest, in the scene's units
+     * @param ground  height of the ground
+     * @param look    ior; tint, and the depth at which it is so [scene], none for the same tint at every depth; or opaque
+     */
+    constructor(box, ground, look, triangles) {
+        this.look = look;
+        const reach = (box.max.y - ground) * Math.hypot(kSun.x, kSun.z) / kSun.y + 0.12;
+        const centre = box.getCenter(new Vector3());
+        const half = Math.max(box.max.x - box.min.x, box.max.z - box.min.z) / 2 + reach;
+        this.centre = new Vector2(centre.x, centre.z);
+        this.half = half;
+        this.count = Math.round(Math.min(24, Math.max(6, 8e5 / triangles)));
+        this.camera = new OrthographicCamera(-half, half, half, -half, 0, 2);
+        this.camera.position.set(centre.x, ground + 1, centre.z);
+        this.camera.up.set(0, 0, -1);
+        this.camera.lookAt(centre.x, ground, centre.z);
+        this.scene = new Scene();
+        this.material = new ShaderMaterial({
+            vertexShader: kVertex,
+            fragmentShader: kFragment,
+            uniforms: {
+                sun: { value: new Vector3() },
+                ground: { value: ground },
+                ior: { value: look.ior },
+                refracted: { value: false },
+                share: { value: 1 },
+                tint: { value: look.tint ?? new Color(1, 1, 1) },
+                tint_depth: { value: look.tint_depth ?? 0 },
+            },
+            side: DoubleSide,
+            depthTest: false,
+            depthWrite: false,
+            toneMapped: false,
+            blending: CustomBlending,
+            blendEquation: AddEquation,
+            blendSrc: OneFactor,
+            blendDst: OneFactor,
+        });
+        this.target = new WebGLRenderTarget(kTexels, kTexels, {
+            type: HalfFloatType, depthBuffer: false, generateMipmaps: false, minFilter: LinearFilter,
+            magFilter: LinearFilter, wrapS: ClampToEdgeWrapping, wrapT: ClampToEdgeWrapping,
+        });
+    }
+
+    /** Draws it anew, with the droplet as it is now; `coarse` from fewer points of the window. */
+    update(renderer, object, meshes, coarse) {
+        const { scene, material, camera, target, look } = this;
+        const { sun, refracted, share } = material.uniforms;
+        const count = coarse ? Math.min(this.count, 6) : this.count;
+        share.value = 1 / count;
+        const parent = object.parent;
+        const worn = meshes.map((mesh) => mesh.material);
+        const colour = renderer.getClearColor(new Color());
+        const alpha = renderer.getClearAlpha();
+        const auto = renderer.autoClear;
+
+        scene.add(object);
+        // As the scene's override it would not do: three.js asks the mesh's own material whether it is transparent.
+        meshes.forEach((mesh) => { mesh.material = material; });
+        renderer.setRenderTarget(target);
+        renderer.setClearColor(0x000000, 0);
+        renderer.clear();
+        renderer.autoClear = false;
+        for (let i = 0; i < count; ++i) {
+            // Points of a sunflower, evenly over a disc.
+            const radius = 0.11 * Math.sqrt((i + 0.5) / count);
+            const angle = i * 2.399963;
+            sun.value.copy(kSun).addScaledVector(kAcross, radius * Math.cos(angle))
+                .addScaledVector(kUpward, radius * Math.sin(angle)).normalize();
+            for (const bends of look.opaque ? [false] : [false, true]) {
+                refracted.value = bends;
+                material.uniformsNeedUpdate = true;
+                renderer.render(scene, camera);
+            }
+        }
+        renderer.autoClear = auto;
+        renderer.setRenderTarget(null);
+        renderer.setClearColor(colour, alpha);
+        meshes.forEach((mesh, i) => { mesh.material = worn[i]; });
+        parent?.add(object);
+    }
+}

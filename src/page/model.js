@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The droplet out of the page: its bytes, its mesh, and how full it is.
+import { Box3, Vector3 } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+
+export function decodeBase64(text) {
+    if (Uint8Array.fromBase64) {
+        return Uint8Array.fromBase64(text);
+    }
+    const binary = atob(text);
+    const bytes = new Uint8Array(binary.length);
+    for (let i = 0; i < binary.length; ++i) {
+        bytes[i] = binary.charCodeAt(i);
+    }
+    return bytes;
+}
+
+export async function loadDroplet(bytes) {
+    const gltf = await new GLTFLoader().parseAsync(bytes.buffer, '');
+    return new Droplet(gltf.scene);
+}
+
+/** The meshes of a file, and the morph target that fills and drains them. */
+class Droplet {
+    constructor(scene) {
+        this.scene = scene;
+        this.meshes = [];
+        scene.updateMatrixWorld(true);
+        scene.traverse((object) => object.isMesh && this.meshes.push(object));
+        this.range = this.#fillRange();
+    }
+
+    /** How empty and how full it can be, in times of its volume; undefined when it cannot change. */
+    #fillRange() {
+        const target = (mesh) => mesh.morphTargetDictionary?.volume;
+        if (!this.meshes.length || !this.meshes.every((mesh) => target(mesh) !== undefined)) {
+            return undefined;
+        }
+        // The mesh's extras are on its object, or on the group of its primitives.
+        const extras = this.meshes.map((mesh) => mesh.userData.fill_range ?? mesh.parent?.userData.fill_range);
+        const [low, high] = extras.find(Array.isArray) ?? [0, 2];
+        return Number.isFinite(low) && Number.isFinite(high) && low < high ? [low, high] : [0, 2];
+    }
+
+    set fill(amount) {
+        for (const mesh of this.meshes) {
+            if (this.range) {
+                mesh.morphTargetInfluences[mesh.morphTargetDictionary.volume] = amount - 1;
+            }
+            mesh.visible = amount > 0.002;  // of nothing there is nothing to reflect in
+        }
+    }
+
+    /** The box around it at any of these fills [m]. */
+    box(fills) {
+        const box = new Box3();
+        const point = new Vector3();
+        for (const mesh of this.meshes) {
+            const { position } = mesh.geometry.attributes;
+            const delta = this.range && mesh.geometry.morphAttributes.position[mesh.morphTargetDictionary.volume];
+            for (let i = 0; i < position.count; ++i) {
+                for (const fill of fills) {
+                    point.fromBufferAttribute(position, i);
+                    if (delta) {
+                        const weight = fill - 1;
+                        point.x += weight * delta.getX(i);
+                        point.y += weight * delta.getY(i);
+                        point.z += weight * delta.getZ(i);
+                    }
+                    box.expandByPoint(point.applyMatrix4(mesh.matrixWorld));
+                }
+            }
+        }
+        return box;
+    }
+}

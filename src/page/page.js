@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+import { extent, length, rows, volume } from './figures.js';
+import { kGrounds } from './ground.js';
+import { decodeBase64, loadDroplet } from './model.js';
+import { roundLength, Stage } from './stage.js';
+
+const kLargestPicture = 2048;
+const find = (id) => document.getElementById(id);
+const root = document.documentElement;
+
+const { title, report } = JSON.parse(find('content').textContent);
+const bytes = decodeBase64(find('model').textContent.trim());
+
+function showFigures() {
+    find('title').textContent = title;
+    const sides = extent(report);
+    find('subtitle').textContent = [report.liquid?.name, report.shape && volume(report.shape.volume_m3),
+        sides && `${length(sides[0])} × ${length(sides[1])}`].filter(Boolean).join(' · ');
+    const body = find('figures').querySelector('tbody');
+    for (const [name, value] of rows(report)) {
+        const row = body.insertRow();
+        const head = document.createElement('th');
+        head.scope = 'row';
+        head.textContent = name;
+        row.append(head);
+        row.insertCell().textContent = value;
+    }
+    for (const warning of report.warnings ?? []) {
+        const item = document.createElement('li');
+        item.textContent = warning;
+        find('warnings').append(item);
+    }
+    find('figures').open = matchMedia('(min-width: 46.01rem) and (min-height: 40rem)').matches;
+    find('figures').hidden = body.rows.length === 0;
+}
+
+function offerDownload() {
+    const stem = title.replace(/[\u0000-\u001f\u007f"*/:<>?\\|]+/g, '_').replace(/^[.\s]+|[.\s]+$/g, '') || 'droplet';
+    find('download').addEventListener('click', () => {
+        const link = document.createElement('a');
+        link.href = URL.createObjectURL(new Blob([bytes], { type: 'model/gltf-binary' }));
+        link.download = `${stem}.glb`;
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+    });
+}
+
+function offerRefill(stage, droplet, flat) {
+    if (!droplet.range) {
+        return;
+    }
+    const slider = find('fill');
+    const [low, high] = droplet.range;
+    slider.min = low;
+    slider.max = high;
+    slider.value = Math.min(Math.max(1, low), high);
+    const show = () => {
+        const fill = Number(slider.value);
+        const parts = [`${Math.round(100 * fill)}\u2009%`];
+        if (report.shape) {
+            parts.push(volume(fill * report.shape.volume_m3));
+        }
+        if (flat) {
+            parts.push(`${length(stage.heightAt(fill))} high`);
+        }
+        find('amount').textContent = parts.join(' · ');
+        slider.setAttribute('aria-valuetext', parts.join(', '));
+    };
+    slider.addEventListener('input', () => {
+        stage.fill = Number(slider.value);
+        show();
+    });
+    show();
+    find('figures').querySelector('caption').textContent = 'At a fill of 100 %.';
+    find('refill').hidden = false;
+}
+
+async function readPicture(file) {
+    const image = new Image();
+    image.src = URL.createObjectURL(file);
+    try {
+        await image.decode();
+        const shrink = Math.min(1, kLargestPicture / Math.max(image.naturalWidth, image.naturalHeight));
+        const canvas = document.createElement('canvas');
+        canvas.width = Math.max(1, Math.round(shrink * image.naturalWidth));
+        canvas.height = Math.max(1, Math.round(shrink * image.naturalHeight));
+        canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
+        return canvas;
+    } finally {
+        URL.revokeObjectURL(image.src);
+    }
+}
+
+function offerGrounds(stage) {
+    const radios = [];
+    const apply = (marked) => {
+        find('stage').style.setProperty('--mark', stage.ground.mark);
+        find('own').classList.toggle('chosen', marked === undefined);
+        radios.forEach((radio) => { radio.checked = radio.value === marked; });
+    };
+    const choose = (key) => {
+        stage.wear((ground) => ground.choose(key));
+        apply(key);
+    };
+    for (const [key, { name, swatch }] of Object.entries(kGrounds)) {
+        const label = document.createElement('label');
+        label.className = 'swatch';
+        label.title = name;
+        const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'ground', value: key });
+        radio.setAttribute('aria-label', name);
+        radio.addEventListener('change', () => choose(key));
+        const dot = document.createElement('i');
+        dot.style.background = swatch;
+        label.append(radio, dot);
+        find('swatches').append(label);
+        radios.push(radio);
+    }
+    find('picture').addEventListener('change', async (event) => {
+        const [file] = event.target.files;
+        event.target.value = '';  // so that the same file can be chosen again
+        if (!file) {
+            return;
+        }
+        try {
+            const picture = await readPicture(file);
+            stage.wear((ground) => ground.show(picture, stage.renderer.capabilities.getMaxAnisotropy()));
+            apply(undefined);
+            find('trouble').hidden = true;
+        } catch {
+            complain(`${file.name} is no picture that this browser can read.`);
+        }
+    });
+    choose(matchMedia('(prefers-color-scheme: dark)').matches ? 'studio' : 'paper');
+}
+
+function complain(text) {
+    find('trouble').textContent = text;
+    find('trouble').hidden = false;
+}
+
+/** A bar of 1, 2 or 5 times a power of ten, as long as such a one fits into a fifth of the view. */
+function drawScale(stage) {
+    const scale = find('scale');
+    const metres = roundLength(stage.metresPerPixel * Math.min(180, 0.3 * stage.canvas.clientWidth));
+    scale.style.width = `${metres / stage.metresPerPixel}px`;
+    scale.firstElementChild.textContent = length(metres).replace(/(\.\d*?)0+(?=\D)/, '$1').replace(/\.(?=\D)/, '');
+}
+
+async function main() {
+    showFigures();
+    offerDownload();
+    try {
+        const droplet = await loadDroplet(bytes);
+        const flat = (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
+        let frames = 0;
+        const stage = new Stage({
+            canvas: find('view'), droplet, flat, extent: report.onto ? undefined : extent(report),
+            still: matchMedia('(prefers-reduced-motion: reduce)').matches,
+            drawn: () => {
+                drawScale(stage);
+                root.dataset.frames = ++frames;
+                root.dataset.state = 'ready';
+            },
+        });
+        stage.controls.addEventListener('start', () => { stage.touched = true; });
+        offerGrounds(stage);
+        offerRefill(stage, droplet, flat);
+        find('reset').addEventListener('click', () => stage.reset());
+        const panel = find('panel');
+        const measure = () => {
+            const beside = getComputedStyle(panel).position === 'absolute';
+            stage.covered = beside ? innerWidth - panel.getBoundingClientRect().left : 0;
+        };
+        new ResizeObserver(measure).observe(panel);
+        addEventListener('resize', measure);
+        measure();
+    } catch (error) {
+        root.dataset.state = 'failed';
+        complain('This browser does not show the droplet in 3D. Its figures and its file are here all the same.');
+        find('reset').hidden = true;
+        find('grounds').hidden = true;
+        console.error(error);
+    }
+}
+
+main();

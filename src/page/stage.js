@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// The scene, the camera and the hand on it. Frames are drawn when something changed, and only then.
+import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Ground } from './ground.js';
+import { GroundLight } from './light.js';
+import { putIntoRoom } from './studio.js';
+
+const kRatioLimit = 2;  // beyond, phones draw pixels that nobody sees
+const kFieldOfView = 26;
+
+/** 1, 2 or 5 times a power of ten: the largest up to the number. */
+export function roundLength(most) {
+    const power = 10 ** Math.floor(Math.log10(most));
+    return power * ([5, 2, 1].find((digit) => digit * power <= most * 1.000001) ?? 1);
+}
+
+export class Stage {
+    /**
+     * @param canvas   to draw on
+     * @param droplet  of model.js
+     * @param flat     whether the ground is, at height 0
+     * @param extent   the mask's sides [m], or undefined
+     * @param still    no motion but by hand
+     * @param drawn    called after every frame
+     */
+    constructor({ canvas, droplet, flat, extent, still, drawn }) {
+        this.canvas = canvas;
+        this.droplet = droplet;
+        this.drawn = drawn;
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+        this.renderer.toneMapping = NeutralToneMapping;
+        this.scene = new Scene();
+        this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
+        this.#place(flat);
+        this.#light(flat);
+        this.ground = new Ground({
+            height: this.level - 2e-4,
+            step: this.grid_step * this.scale,
+            light: this.ground_light,
+            picture_half: new Vector2(...(extent ?? [2 / this.scale, 2 / this.scale])).multiplyScalar(this.scale / 2),
+        });
+        this.scene.add(this.ground);
+
+        this.controls = new OrbitControls(this.camera, canvas);
+        Object.assign(this.controls, {
+            enableDamping: !still, dampingFactor: 0.09, screenSpacePanning: false, zoomToCursor: false,
+            maxPolarAngle: MathUtils.degToRad(87), rotateSpeed: 0.8,
+        });
+        this.controls.addEventListener('change', () => this.request());
+        canvas.addEventListener('keydown', (event) => this.#key(event));
+        canvas.addEventListener('webglcontextrestored', () => {
+            this.light_is_old = true;
+            this.request();
+        });
+        new ResizeObserver(() => this.resize()).observe(canvas);
+    }
+
+    /** Scales the droplet to a width of about 2 and puts it in the middle. */
+    #place(flat) {
+        const { droplet } = this;
+        const range = droplet.range ?? [1, 1];
+        const box = droplet.box([1]);
+        const all = droplet.box([1, Math.min(range[1], 2)]);
+        const size = Math.max(box.max.x - box.min.x, box.max.z - box.min.z, box.max.y - box.min.y);
+        if (!(size > 0)) {
+            throw new Error('the model has no extent');
+        }
+        this.scale = 2 / size;
+        this.holder = new Group();
+        this.holder.add(droplet.scene);
+        this.holder.scale.setScalar(this.scale);
+        this.scene.add(this.holder);
+        this.box = box;
+        this.box.min.multiplyScalar(this.scale);
+        this.box.max.multiplyScalar(this.scale);
+        all.min.multiplyScalar(this.scale);
+        all.max.multiplyScalar(this.scale);
+        this.fullest = all;
+        this.level = flat ? 0 : this.box.min.y;
+        this.grid_step = roundLength(size / 12);
+    }
+
+    #light(flat) {
+        const { droplet, renderer } = this;
+        this.room = { walls: { value: 1 }, lamps: { value: 1 } };
+        let triangles = 0;
+        for (const mesh of droplet.meshes) {
+            const { material } = mesh;
+            triangles += mesh.geometry.index.count / 3;
+            this.thickness ??= material.thickness;
+            if (Number.isFinite(material.attenuationDistance)) {
+                material.attenuationDistance *= this.scale;  // of the world, while thickness is the mesh's
+            }
+            putIntoRoom(material, this.room, flat && material.transmission > 0 && material.thickness > 0);
+        }
+        const { extensions } = renderer;
+        if (extensions.has('EXT_color_buffer_half_float') || extensions.has('EXT_color_buffer_float')) {
+            const { material } = droplet.meshes[0];
+            const tinted = Number.isFinite(material.attenuationDistance);
+            this.ground_light = new GroundLight(this.fullest, this.level, {
+                opaque: !(material.transmission > 0), ior: material.ior ?? 1.333,
+                tint: tinted ? material.attenuationColor : material.color,
+                tint_depth: tinted ? material.attenuationDistance : undefined,
+            }, triangles);
+        }
+        this.light_is_old = true;
+    }
+
+    set fill(amount) {
+        this.droplet.fill = amount;
+        for (const { material } of this.droplet.meshes) {
+            material.thickness = this.thickness * amount;
+        }
+        this.light_is_old = true;
+        clearTimeout(this.refining);
+        this.refining = setTimeout(() => {
+            this.light_is_coarse = false;
+            this.light_is_old = true;
+            this.request();
+        }, 180);
+        this.light_is_coarse = true;  // while the hand moves
+        this.request();
+    }
+
+    /** The ground, and the room's light that suits it. */
+    wear(choose) {
+        const look = choose(this.ground);
+        this.room.walls.value = look.walls ?? 1;
+        this.request();
+    }
+
+    /** Greatest height above flat ground at that fill [m]. */
+    heightAt(fill) {
+        return this.droplet.box([fill]).max.y;
+    }
+
+    /** What covers the canvas at its right [CSS px]; the droplet is shown in the middle of the rest. */
+    set covered(width) {
+        this.cover = width;
+        this.resize();
+    }
+
+    resize() {
+        const width = this.canvas.clientWidth;
+        const height = this.canvas.clientHeight;
+        if (!width || !height) {
+            return;
+        }
+        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, kRatioLimit));
+        this.renderer.setSize(width, height, false);
+        const cover = this.cover ?? 0;
+        this.camera.aspect = width / height;
+        this.camera.setViewOffset(width, height, cover / 2, 0, width, height);
+        this.camera.updateProjectionMatrix();
+        if (!this.touched) {
+            this.frame();
+        }
+        this.request();
+    }
+
+    /** Shows the droplet whole, from in front and above. */
+    frame() {
+        const { camera, controls } = this;
+        const free = this.canvas.clientWidth - (this.cover ?? 0);
+        const upright = this.canvas.clientHeight > free;
+        const box = this.box;
+        const target = box.getCenter(new Vector3());
+        target.y = this.level + 0.35 * (box.max.y - this.level);
+        const direction = new Vector3().setFromSphericalCoords(1, MathUtils.degToRad(upright ? 40 : 47), MathUtils.degToRad(10));
+        const forward = direction.clone().negate();
+        const right = new Vector3().crossVectors(forward, new Vector3(0, 1, 0)).normalize();
+        const up = new Vector3().crossVectors(right, forward);
+        const tan_up = Math.tan(MathUtils.degToRad(kFieldOfView / 2));
+        const tan_right = tan_up * free / this.canvas.clientHeight;
+        let distance = 0;
+        for (const x of [box.min.x, box.max.x]) {
+            for (const y of [this.level, box.max.y]) {
+                for (const z of [box.min.z, box.max.z]) {
+                    const corner = new Vector3(x, y, z).sub(target);
+                    const nearer = -corner.dot(forward);
+                    distance = Math.max(distance, nearer + Math.abs(corner.dot(right)) / (0.86 * tan_right),
+                        nearer + Math.abs(corner.dot(up)) / (0.8 * tan_up));
+                }
+            }
+        }
+        controls.minDistance = 0.12 * distance;
+        controls.maxDistance = 3 * distance;
+        camera.near = 0.02 * distance;
+        camera.position.copy(target).addScaledVector(direction, distance);
+        camera.updateProjectionMatrix();
+        controls.target.copy(target);
+        controls.update();
+        this.request();
+    }
+
+    reset() {
+        this.touched = false;
+        this.frame();
+    }
+
+    #key(event) {
+        if (event.ctrlKey || event.metaKey || event.altKey) {
+            return;
+        }
+        const { controls } = this;
+        const turn = MathUtils.degToRad(6);
+        const acts = {
+            ArrowLeft: () => controls.rotateLeft(turn),
+            ArrowRight: () => controls.rotateLeft(-turn),
+            ArrowUp: () => controls.rotateUp(turn),
+            ArrowDown: () => controls.rotateUp(-turn),
+            '+': () => controls.dollyIn(1.12),
+            '=': () => controls.dollyIn(1.12),
+            '-': () => controls.dollyOut(1.12),
+            Home: () => this.reset(),
+        };
+        const act = acts[event.key];
+        if (act) {
+            event.preventDefault();
+            this.touched ||= event.key !== 'Home';
+            act();
+            this.request();
+        }
+    }
+
+    /** Metres per CSS pixel at the droplet. */
+    get metresPerPixel() {
+        const distance = this.camera.position.distanceTo(this.controls.target);
+        return 2 * distance * Math.tan(MathUtils.degToRad(kFieldOfView / 2)) / this.canvas.clientHeight / this.scale;
+    }
+
+    request() {
+        this.frame_id ??= requestAnimationFrame(() => this.#draw());
+    }
+
+    #draw() {
+        this.frame_id = undefined;
+        this.controls.update();  // asks for another frame while the hand's motion fades
+        if (this.light_is_old && this.ground_light) {
+            this.ground_light.update(this.renderer, this.holder, this.droplet.meshes, this.light_is_coarse);
+            this.light_is_old = false;
+        }
+        this.renderer.render(this.scene, this.camera);
+        this.drawn();
+    }
+}
