@@ -108,8 +108,10 @@ Paths united(const Paths& contours)
 {
     ClipperLib::Clipper clipper;
     clipper.StrictlySimple(true);
-    clipper.AddPaths(contours, ClipperLib::ptSubject, true);
     Paths result;
+    if (!clipper.AddPaths(contours, ClipperLib::ptSubject, true)) {
+        return result;  // of nothing but points and lines
+    }
     if (!clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) {
         throw Error(ErrorCode::InvalidInput, "the contours cannot be united");
     }
