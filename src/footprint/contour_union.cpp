@@ -128,8 +128,10 @@ void clean(Paths& loops, double merge)
 }
 
 /// Makes loops larger, or smaller if `by` is negative.
-Paths offset(const Paths& loops, double by)
+Paths offset(Paths loops, double by)
 {
+    // Clipper takes the first of the loops that reach lowest for an outer one; a hole may touch its rim there.
+    std::stable_partition(loops.begin(), loops.end(), ClipperLib::Orientation);
     constexpr double kMiter = 4.0;
     ClipperLib::ClipperOffset offset(kMiter);
     offset.AddPaths(loops, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ft2build.h>
+
+#include FT_FREETYPE_H
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/font.h"
+#include "droplet/footprint/mask.h"
+
+namespace droplet::testing {
+
+inline constexpr const char* kSans = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+inline constexpr const char* kSerif = "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf";
+inline constexpr const char* kVariable = "/usr/share/fonts/truetype/inter-vf/Inter.var.ttf";
+
+inline std::vector<std::byte> bytesOf(const char* path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (text.empty()) {
+        throw std::runtime_error(std::string(path) + " cannot be read; scripts/setup test installs it");
+    }
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return {first, first + text.size()};
+}
+
+/// What FreeType's rasteriser makes of a font's glyphs, unhinted.
+class RenderedFont {
+public:
+    RenderedFont(const char* path, unsigned pixels_per_em)
+    {
+        if (FT_Init_FreeType(&library_) != 0 || FT_New_Face(library_, path, 0, &face_) != 0 ||
+            FT_Set_Pixel_Sizes(face_, 0, pixels_per_em) != 0) {
+            throw std::runtime_error(std::string(path) + " cannot be read");
+        }
+    }
+    RenderedFont(const RenderedFont&) = delete;
+    RenderedFont& operator=(const RenderedFont&) = delete;
+    ~RenderedFont() { FT_Done_FreeType(library_); }
+
+    /// The glyph with a dry margin of a pixel; coverage is what lies within the outline by the non-zero rule.
+    [[nodiscard]] Mask operator()(GlyphId glyph) const
+    {
+        if (FT_Load_Glyph(face_, glyph, FT_LOAD_RENDER | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
+            throw std::runtime_error("glyph " + std::to_string(glyph) + " cannot be rendered");
+        }
+        const FT_Bitmap& bitmap = face_->glyph->bitmap;
+        Mask mask;
+        mask.width = static_cast<int>(bitmap.width) + 2;
+        mask.height = static_cast<int>(bitmap.rows) + 2;
+        mask.coverage.assign(static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height), 0);
+        for (int y = 0; y < mask.height - 2; ++y) {
+            for (int x = 0; x < mask.width - 2; ++x) {
+                mask.coverage[static_cast<std::size_t>((y + 1) * mask.width + x + 1)] =
+                    static_cast<std::uint16_t>(257 * bitmap.buffer[y * bitmap.pitch + x]);
+            }
+        }
+        return mask;
+    }
+
+private:
+    FT_Library library_ = nullptr;
+    FT_Face face_ = nullptr;
+};
+
+}  // namespace droplet::testing
