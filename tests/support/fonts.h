@@ -4,7 +4,9 @@
 #include <ft2build.h>
 
 #include FT_FREETYPE_H
+#include FT_OUTLINE_H
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -15,6 +17,7 @@
 
 #include "droplet/footprint/font.h"
 #include "droplet/footprint/mask.h"
+#include "droplet/vector.h"
 
 namespace droplet::testing {
 
@@ -50,7 +53,11 @@ public:
     /// The glyph with a dry margin of a pixel; coverage is what lies within the outline by the non-zero rule.
     [[nodiscard]] Mask operator()(GlyphId glyph) const
     {
-        if (FT_Load_Glyph(face_, glyph, FT_LOAD_RENDER | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
+        // The flag makes the rasteriser look at 16 points of a pixel, where it otherwise adds up what contours cover.
+        bool good = FT_Load_Glyph(face_, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
+        face_->glyph->outline.flags |= FT_OUTLINE_OVERLAP;
+        good = good && FT_Render_Glyph(face_->glyph, FT_RENDER_MODE_NORMAL) == 0;
+        if (!good) {
             throw std::runtime_error("glyph " + std::to_string(glyph) + " cannot be rendered");
         }
         const FT_Bitmap& bitmap = face_->glyph->bitmap;
@@ -67,7 +74,61 @@ public:
         return mask;
     }
 
+    /// What the glyph's curves enclose by Green's formula, exactly, as long as contours do not overlap [em²].
+    [[nodiscard]] double exactArea(GlyphId glyph) const
+    {
+        if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
+            throw std::runtime_error("glyph " + std::to_string(glyph) + " cannot be read");
+        }
+        Green green;
+        const FT_Outline_Funcs pen{
+            [](const FT_Vector* to, void* user) { return static_cast<Green*>(user)->move(at(to)); },
+            [](const FT_Vector* to, void* user) { return static_cast<Green*>(user)->line(at(to)); },
+            [](const FT_Vector* control, const FT_Vector* to, void* user) {
+                return static_cast<Green*>(user)->conic(at(control), at(to));
+            },
+            [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* user) {
+                return static_cast<Green*>(user)->cubic(at(first), at(second), at(to));
+            },
+            0,
+            0};
+        FT_Outline_Decompose(&face_->glyph->outline, &pen, &green);
+        const double em = 64.0 * face_->size->metrics.y_ppem;
+        return std::abs(green.area) / (em * em);
+    }
+
 private:
+    static Vec2 at(const FT_Vector* p) { return {static_cast<double>(p->x), static_cast<double>(p->y)}; }
+
+    /// The integral of x dy − y dx over 2, piece by piece.
+    struct Green {
+        double area = 0.0;
+        Vec2 pen;
+
+        int move(Vec2 to)
+        {
+            pen = to;
+            return 0;
+        }
+        int line(Vec2 to)
+        {
+            area += 0.5 * cross(pen, to);
+            return move(to);
+        }
+        int conic(Vec2 a, Vec2 to)
+        {
+            area += (2.0 * cross(pen, a) + 2.0 * cross(a, to) + cross(pen, to)) / 6.0;
+            return move(to);
+        }
+        int cubic(Vec2 a, Vec2 b, Vec2 to)
+        {
+            area += (6.0 * cross(pen, a) + 3.0 * cross(pen, b) + cross(pen, to) + 3.0 * cross(a, b) +
+                     3.0 * cross(a, to) + 6.0 * cross(b, to)) /
+                    20.0;
+            return move(to);
+        }
+    };
+
     FT_Library library_ = nullptr;
     FT_Face face_ = nullptr;
 };
