@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,22 +9,25 @@
 #include <vector>
 
 #include "droplet/footprint/mask.h"
+#include "footprint/image_header.h"
 
 namespace droplet {
 
-/// A decoded image, reduced while it is decoded to what a mask can be read from.
+/// A decoded image, reduced while it is decoded to what a mask can be read from, and colour where that is asked.
 /// Two bytes a pixel, four with alpha: 512 MiB or 1 GiB at 16384 × 16384.
-/// Invariant: `luma.size() == width * height`; alpha is as long, or empty when the file has none.
+/// Invariant: `luma.size() == width * height`; alpha is as long, or empty when the file has none; colour is as long, or
+/// empty where it was not asked.
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint16_t> luma;   ///< ITU-R BT.601, as stored: no gamma, no colour profile
-    std::vector<std::uint16_t> alpha;  ///< 65535 opaque
-    bool premultiplied = false;        ///< luma is already weighted by alpha
+    std::vector<std::uint16_t> luma;                  ///< ITU-R BT.601, as stored: no gamma, no colour profile
+    std::vector<std::uint16_t> alpha;                 ///< 65535 opaque
+    bool premultiplied = false;                       ///< luma and colour are already weighted by alpha
+    std::vector<std::array<std::uint8_t, 3>> colour;  ///< red, green, blue, as stored
 };
 
-/// An image all black and transparent.
-Image blankImage(int width, int height, bool with_alpha);
+/// An image all black and transparent, of the size in a header, with colour if that is wanted there.
+Image blankImage(const ImageHeader& header, bool with_alpha);
 
 /// A run of decoded pixels and where in an image they go.
 struct PixelRun {
@@ -42,6 +46,9 @@ Image upright(Image image, int orientation);
 /// Decodes an image of any format this library reads, upright. The size in its header is checked first.
 /// @throws Error InvalidInput
 Image decodeImage(std::span<const std::byte> encoded, std::size_t max_pixels);
+
+/// As decodeImage, with colour.
+Image decodeColourImage(std::span<const std::byte> encoded, std::size_t max_pixels);
 
 /// What is seen of an image in front of black: its luma, as much of it as is opaque.
 std::vector<std::uint16_t> lumaOverBlack(Image image);
