@@ -95,7 +95,7 @@ Vec3f Table::at(Vec3f place, float width) const
 {
     // Cool, warmer toward the key light.
     const float warm = smoothstep(-1.1F, 0.8F, (-0.75F * place.x + 0.66F * place.y) / span_);
-    const Vec3f base = mix({0.07F, 0.13F, 0.17F}, {0.20F, 0.33F, 0.37F}, warm);
+    const Vec3f base = mix({0.08F, 0.17F, 0.235F}, {0.24F, 0.41F, 0.47F}, warm);
     float ruling = 0.0F;
     for (const float along : {place.x, place.y}) {
         const float phase = along / pitch_;
@@ -103,7 +103,7 @@ Vec3f Table::at(Vec3f place, float width) const
         const float soft = std::max(0.012F, width / pitch_);
         ruling = std::max(ruling, (1.0F - smoothstep(0.012F, 0.020F + soft, away)));
     }
-    return mix(base, 1.55F * base + grey(0.02F), 0.8F * ruling);
+    return mix(base, 1.45F * base, 0.7F * ruling);
 }
 
 }  // namespace droplet

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 namespace droplet {
 namespace {
@@ -15,8 +16,8 @@ constexpr float kOne = static_cast<float>(1 << 24);  // of the sums: 1e-7 of a c
 
 class Gatherer {
 public:
-    Gatherer(const Scene& scene, const Medium& medium, LightGain& map)
-        : scene_(scene), medium_(medium), map_(map), sums_(3 * map.gains.size())
+    Gatherer(const Scene& scene, const Medium& medium, LightMap& map)
+        : scene_(scene), medium_(medium), map_(map), sums_(3 * map.values.size())
     {
     }
 
@@ -37,9 +38,9 @@ public:
 
     void finish()
     {
-        for (std::size_t i = 0; i < map_.gains.size(); ++i) {
+        for (std::size_t i = 0; i < map_.values.size(); ++i) {
             const auto value = [&](std::size_t c) { return 1.0F + static_cast<float>(sums_[3 * i + c]) / kOne; };
-            map_.gains[i] = {value(0), value(1), value(2)};
+            map_.values[i] = {value(0), value(1), value(2)};
         }
     }
 
@@ -123,7 +124,7 @@ private:
 
     const Scene& scene_;
     const Medium& medium_;
-    LightGain& map_;
+    LightMap& map_;
     std::vector<std::int64_t> sums_;
 };
 
@@ -155,7 +156,7 @@ std::vector<Vec3f> transposed(const std::vector<Vec3f>& values, int columns, int
     return turned;
 }
 
-void blurMap(LightGain& map, float deviation)
+void blurMap(LightMap& map, float deviation)
 {
     std::vector<float> weights;
     float total = 0.0F;
@@ -167,45 +168,43 @@ void blurMap(LightGain& map, float deviation)
     for (float& weight : weights) {
         weight /= total;
     }
-    blurRows(map.gains, map.columns, map.rows, weights);
-    std::vector<Vec3f> turned = transposed(map.gains, map.columns, map.rows);
+    blurRows(map.values, map.columns, map.rows, weights);
+    std::vector<Vec3f> turned = transposed(map.values, map.columns, map.rows);
     blurRows(turned, map.rows, map.columns, weights);
-    map.gains = transposed(turned, map.rows, map.columns);
+    map.values = transposed(turned, map.rows, map.columns);
 }
 
 }  // namespace
 
-Vec3f LightGain::at(Vec3f place) const
+Vec3f LightMap::at(Vec3f place) const
 {
     const float x = (place.x - low.x) / cell - 0.5F;
     const float y = (place.y - low.y) / cell - 0.5F;
     const auto last_x = static_cast<float>(columns - 1);
     const auto last_y = static_cast<float>(rows - 1);
     if (!(x > 0.0F && y > 0.0F && x < last_x && y < last_y)) {
-        return grey(1.0F);
+        return open;
     }
     const auto column = static_cast<std::size_t>(x);
     const auto row = static_cast<std::size_t>(y);
     const auto width = static_cast<std::size_t>(columns);
     const float fx = x - static_cast<float>(column);
     const float fy = y - static_cast<float>(row);
-    const Vec3f* corner = gains.data() + row * width + column;
-    const Vec3f inside = mix(mix(corner[0], corner[1], fx), mix(corner[width], corner[width + 1], fx), fy);
-    const float margin = std::min({x, y, last_x - x, last_y - y}) / (0.08F * std::max(last_x, last_y));
-    return margin >= 1.0F ? inside : mix(grey(1.0F), inside, smoothstep(0.0F, 1.0F, margin));
+    const Vec3f* corner = values.data() + row * width + column;
+    return mix(mix(corner[0], corner[1], fx), mix(corner[width], corner[width + 1], fx), fy);
 }
 
-LightGain lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur)
+LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur)
 {
     const Vec3f size = scene.high() - scene.low();
     const float span = std::max(size.x, size.y);
     const float margin = std::max(0.15F * span, 1.5F * size.z);
-    LightGain map;
+    LightMap map;
     map.cell = (span + 2.0F * margin) / static_cast<float>(cells);
     map.low = {scene.low().x - margin, scene.low().y - margin, 0.0F};
     map.columns = static_cast<int>(std::ceil((size.x + 2.0F * margin) / map.cell));
     map.rows = static_cast<int>(std::ceil((size.y + 2.0F * margin) / map.cell));
-    map.gains.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+    map.values.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
 
     Gatherer gatherer(scene, medium, map);
     for (std::size_t b = 0; b < light.beams.size(); ++b) {
@@ -233,6 +232,44 @@ LightGain lightGain(const Scene& scene, const Medium& medium, const Light& light
         blurMap(map, blur);
     }
     return map;
+}
+
+LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells)
+{
+    constexpr int kCoarser = 4;
+    constexpr float kGrain = 1.3F;    // [cells]
+    constexpr float kMargin = 0.08F;  // of the map, in which it turns into open light
+    LightMap sum;
+    for (const Light& light : lights) {
+        const LightMap gain = lightGain(scene, medium, light, light.soft ? cells / kCoarser : cells, kGrain);
+        const Vec3f radiance = std::numbers::inv_pi_v<float> * light.irradiance;
+        if (sum.values.empty()) {
+            sum = gain;
+            sum.values.assign(gain.values.size(), Vec3f{});
+            sum.open = {};
+        }
+        sum.open = sum.open + radiance;
+        tbb::parallel_for(0, sum.rows, [&](int row) {
+            for (int column = 0; column < sum.columns; ++column) {
+                const Vec3f centre = sum.low + Vec3f{(static_cast<float>(column) + 0.5F) * sum.cell,
+                                                     (static_cast<float>(row) + 0.5F) * sum.cell, 0.0F};
+                Vec3f& value = sum.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(sum.columns) +
+                                          static_cast<std::size_t>(column)];
+                value = value + radiance * gain.at(centre);
+            }
+        });
+    }
+    const auto inside = [](int at, int count) { return static_cast<float>(std::min(at, count - 1 - at)); };
+    const float margin = kMargin * static_cast<float>(std::max(sum.columns, sum.rows));
+    for (int row = 0; row < sum.rows; ++row) {
+        for (int column = 0; column < sum.columns; ++column) {
+            const float away = std::min(inside(row, sum.rows), inside(column, sum.columns)) / margin;
+            Vec3f& value = sum.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(sum.columns) +
+                                      static_cast<std::size_t>(column)];
+            value = mix(sum.open, value, smoothstep(0.0F, 1.0F, away));
+        }
+    }
+    return sum;
 }
 
 }  // namespace droplet

@@ -24,15 +24,16 @@ inline Vec3f passed(const Medium& medium, float distance)
     return largest(depth) <= 0.0F ? grey(1.0F) : Vec3f{std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)};
 }
 
-/// How much of a light reaches the plane around and below a droplet, 1 being as much as without it.
-struct LightGain {
+/// How much of a light reaches the plane around and below a droplet, 1 being as much as without it; or light itself.
+struct LightMap {
     int columns = 0;
     int rows = 0;
     float cell = 0.0F;
-    Vec3f low;                 ///< corner of the first cell
-    std::vector<Vec3f> gains;  ///< row by row
+    Vec3f low;                        ///< corner of the first cell
+    std::vector<Vec3f> values;        ///< row by row
+    Vec3f open = {1.0F, 1.0F, 1.0F};  ///< beyond the map, and reached within a margin of it
 
-    /// Between the cells' centres linearly; 1 beyond, reached within a few cells.
+    /// Between the cells' centres linearly.
     [[nodiscard]] Vec3f at(Vec3f place) const;
 };
 
@@ -45,6 +46,10 @@ struct LightGain {
 /// @param light   beams
 /// @param cells   along the map's longer side; ≥ 8
 /// @param blur    standard deviation of a Gaussian that takes away the grain [cells]; 0 for none
-LightGain lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur);
+LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur);
+
+/// All the lights' irradiance on the plane, divided by π: soft lights on a coarse map, others on one as fine as
+/// `cells` says.
+LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells);
 
 }  // namespace droplet

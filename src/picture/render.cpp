@@ -26,14 +26,14 @@ namespace {
 constexpr int kMostPixels = 8192;
 constexpr int kLeastSamples = 4;
 constexpr int kMostSamples = 256;
+constexpr float kWhite = 0.85F;  // how white ground in the open comes out, before the filmic curve
 constexpr float kPi = 3.14159265F;
 
 // Beyond these a ray ends in the room's light.
 constexpr int kMostMeetings = 7;
 constexpr float kLeastWeight = 0.004F;  // a level of 255
 
-constexpr int kLightCells = 560;      // of lamps' light along the longer side
-constexpr int kSoftLightCells = 140;  // of the room's
+constexpr int kLightCells = 512;  // of the light on the plane, along its longer side
 
 [[noreturn]] void refuse(const std::string& text)
 {
@@ -44,7 +44,7 @@ constexpr int kSoftLightCells = 140;  // of the room's
 Vec3f filmic(Vec3f a)
 {
     const auto curve = [](float light) {
-        const float x = 0.95F * std::max(light, 0.0F);
+        const float x = std::max(light, 0.0F);
         return std::min(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 1.0F);
     };
     return {curve(a.x), curve(a.y), curve(a.z)};
@@ -84,12 +84,10 @@ public:
         table_.emplace(std::max(size.x, size.y), size.x * size.y);
         span_ = std::max(size.x, size.y);
         if (scene_.onPlane() && !studio_.uniform()) {
-            for (const Light& light : studio_.lights()) {
-                gains_.push_back(light.soft ? lightGain(scene_, medium_, light, kSoftLightCells, 1.5F)
-                                            : lightGain(scene_, medium_, light, kLightCells, 1.3F));
-            }
+            light_ = lightOnPlane(scene_, medium_, studio_.lights(), kLightCells);
         }
         level_ = studio_.level();
+        exposure_ = kWhite * kPi / level_.y;
         const double n = medium_.clear ? options.look.ior : 1.0;
         returned_ = static_cast<float>(1.0 - (1.0 - diffuseReflectance(n)) / (n * n));
         squeezed_ = static_cast<float>(1.0 / (n * n));
@@ -103,7 +101,7 @@ public:
         if (studio_.uniform() || options_.paint) {
             return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
         }
-        return filmic(light);
+        return filmic(exposure_ * light);
     }
 
 private:
@@ -128,7 +126,7 @@ private:
     {
         const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
         if (options_.paint) {
-            return painted(meeting, normal);
+            return painted(ray, meeting, normal, way);
         }
         if (!medium_.clear) {
             return opaque(ray, meeting, normal, way);
@@ -175,14 +173,37 @@ private:
         return mirror_share * gloss + (grey(1.0F) - mirror_share) * matter;
     }
 
-    [[nodiscard]] Vec3f painted(const Meeting& meeting, Vec3f normal) const
+    [[nodiscard]] Vec3f painted(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
     {
-        const Vec3f colour = paintAt(*options_.paint, scene_.triangle(meeting), meeting.u, meeting.v);
+        constexpr float kLine = 1.6F;  // [px]
+        const Triangle& triangle = scene_.triangle(meeting);
+        // The values' gradient on the facet, by how much of it the pixel sees.
+        const float pixel = kLine * camera_.pixel() * (way.distance + meeting.distance);
+        const double slope = static_cast<double>(pixel) * slopeOn(triangle, ray.direction, meeting.facet);
+        const Vec3f colour = paintAt(*options_.paint, triangle, {meeting.u, meeting.v, slope});
         if (studio_.uniform()) {
             return colour;
         }
         const float light = studio_.diffuse(normal).y / (level_.y / kPi);
         return std::clamp(0.45F + 0.55F * light, 0.0F, 1.15F) * colour;
+    }
+
+    // How fast paint's values change across the picture, per length at right angles to the ray.
+    [[nodiscard]] double slopeOn(const Triangle& triangle, Vec3f direction, Vec3f facet) const
+    {
+        const Vec3f a = scene_.vertex(triangle[0]);
+        const Vec3f p = scene_.vertex(triangle[1]) - a;
+        const Vec3f q = scene_.vertex(triangle[2]) - a;
+        const std::vector<double>& values = options_.paint->values;
+        const auto dp = static_cast<float>(values[triangle[1]] - values[triangle[0]]);
+        const auto dq = static_cast<float>(values[triangle[2]] - values[triangle[0]]);
+        const Vec3f across = cross(p, q);
+        const Vec3f gradient = (1.0F / std::max(dot(across, across), 1e-30F)) * cross(dp * q - dq * p, across);
+        // A step across the picture is longer on a slanted facet, along the ray's trace on it.
+        const float slant = std::max(std::abs(dot(direction, facet)), 0.15F);
+        const Vec3f trace = direction - dot(direction, facet) * facet;
+        const float along = dot(gradient, unit(trace)) * (1.0F / slant - 1.0F);
+        return std::sqrt(static_cast<double>(dot(gradient, gradient) + along * along));
     }
 
     [[nodiscard]] Vec3f onGround(const RayF& ray, const Meeting& meeting, const Way& way) const
@@ -195,14 +216,7 @@ private:
         if (studio_.uniform()) {
             return wet ? matter * wetness(matter, (1.0F - returned_)) : matter;
         }
-        Vec3f light;
-        if (gains_.empty()) {
-            light = studio_.diffuse(meeting.normal);
-        } else {
-            for (std::size_t k = 0; k < gains_.size(); ++k) {
-                light = light + (1.0F / kPi) * studio_.lights()[k].irradiance * gains_[k].at(meeting.place);
-            }
-        }
+        const Vec3f light = light_ ? light_->at(meeting.place) : studio_.diffuse(meeting.normal);
         Vec3f seen = matter * light;
         if (options_.paint) {
             seen = (kPi / level_.y) * 0.82F * Vec3f{light.y, light.y, light.y};
@@ -229,7 +243,7 @@ private:
     {
         const Vec3f flat = turn_({0.12F, -0.10F, 0.0F});
         const Vec3f offset = (1.0F / span_) * Vec3f{place.x, place.y, 0.0F} + flat;
-        const float pool = 1.0F / (1.0F + 0.8F * std::pow(dot(offset, offset), 1.2F));
+        const float pool = 1.0F / (1.0F + 0.9F * dot(offset, offset));
         const float haze = smoothstep(1.5F, 7.0F, std::sqrt(dot(offset, offset)));
         return mix(pool * seen, {0.030F, 0.046F, 0.058F}, haze);
     }
@@ -253,8 +267,9 @@ private:
     Camera camera_;
     std::optional<GroundPicture> picture_;
     std::optional<Table> table_;
-    std::vector<LightGain> gains_;
+    std::optional<LightMap> light_;  // on the plane
     Vec3f level_;
+    float exposure_ = 1.0F;
     float span_ = 1.0F;
     float returned_ = 0.0F;  // share of the light scattered below the surface that it sends back
     float squeezed_ = 1.0F;  // radiance outside over that inside
@@ -294,6 +309,12 @@ Vec3f onScreen(Vec3f light)
     return {toDisplay(light.x), toDisplay(light.y), toDisplay(light.z)};
 }
 
+// Near enough to tell what is visible.
+Vec3f roughly(Vec3f light)
+{
+    return {std::sqrt(light.x), std::sqrt(light.y), std::sqrt(light.z)};
+}
+
 float difference(Vec3f a, Vec3f b)
 {
     return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
@@ -320,7 +341,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options)
                 low = {std::min(low.x, light.x), std::min(low.y, light.y), std::min(low.z, light.z)};
                 high = {std::max(high.x, light.x), std::max(high.y, light.y), std::max(high.z, light.z)};
             }
-            pixel.spread = difference(onScreen(low), onScreen(high));
+            pixel.spread = difference(roughly(low), roughly(high));
         }
     });
     std::vector<Vec3f> seen(pixels.size());
@@ -334,7 +355,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options)
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t at = y * width + x;
             const auto apart = [&](bool there, std::size_t other) {
-                return there && difference(seen[at], seen[other]) > 2.0F * kVisible;
+                return there && difference(seen[at], seen[other]) > 5.0F * kVisible;
             };
             Vec3f shown = seen[at];
             if (pixels[at].spread > kVisible || apart(x > 0, at - 1) || apart(x + 1 < width, at + 1) ||

@@ -240,6 +240,24 @@ Meeting Scene::meet(void* scene, const RayF& ray) const
     return meeting;
 }
 
+bool Scene::passesBox(const RayF& ray) const
+{
+    float from = 0.0F;
+    float to = std::numeric_limits<float>::infinity();
+    const auto clip = [&](float origin, float direction, float low, float high) {
+        if (direction != 0.0F) {
+            const float a = (low - kNear - origin) / direction;
+            const float b = (high + kNear - origin) / direction;
+            from = std::max(from, std::min(a, b));
+            to = std::min(to, std::max(a, b));
+        }
+    };
+    clip(ray.origin.x, ray.direction.x, low_.x, high_.x);
+    clip(ray.origin.y, ray.direction.y, low_.y, high_.y);
+    clip(ray.origin.z, ray.direction.z, low_.z, high_.z);
+    return from > to;
+}
+
 Meeting Scene::nearerOfPlane(const RayF& ray, Meeting meeting) const
 {
     if (!on_plane_ || ray.direction.z >= 0.0F) {
@@ -261,6 +279,9 @@ Meeting Scene::nearerOfPlane(const RayF& ray, Meeting meeting) const
 
 Meeting Scene::fromAir(const RayF& ray) const
 {
+    if (on_plane_ && passesBox(ray)) {
+        return nearerOfPlane(ray, {});
+    }
     return nearerOfPlane(ray, meet(embree_->air, ray));
 }
 

@@ -61,15 +61,17 @@ public:
     /// Smallest box around the liquid.
     [[nodiscard]] Vec3f low() const { return low_; }
     [[nodiscard]] Vec3f high() const { return high_; }
-    /// Everything that a picture should show, liquid and stand.
+    /// Everything that a picture should show: the surface's vertices, then the stand's.
     [[nodiscard]] const std::vector<Vec3f>& shown() const { return shown_; }
     [[nodiscard]] const Triangle& triangle(const Meeting& meeting) const { return triangles_[meeting.triangle]; }
+    [[nodiscard]] Vec3f vertex(std::uint32_t index) const { return shown_[index]; }  ///< of the surface
     [[nodiscard]] Vec2 uvOnPlane(Vec3f place) const;
 
 private:
     struct Embree;
 
     [[nodiscard]] Meeting meet(void* scene, const RayF& ray) const;
+    [[nodiscard]] bool passesBox(const RayF& ray) const;
     [[nodiscard]] Meeting nearerOfPlane(const RayF& ray, Meeting meeting) const;
 
     double scale_ = 1.0;

@@ -112,8 +112,8 @@ Studio::Studio(Lighting lighting, Turn turn) : uniform_(lighting == Lighting::Un
             box.radiance = place.radiance;
             boxes_.push_back(box);
         }
-        lights_.push_back(lightOf(boxes_[0], 5, 4));
-        lights_.push_back(lightOf(boxes_[1], 2, 6));
+        lights_.push_back(lightOf(boxes_[0], 4, 4));
+        lights_.push_back(lightOf(boxes_[1], 1, 5));
     }
     // The room as beams of equal weight, evenly over the cosine of their elevation's square: Lambert's law.
     constexpr int kRoomBeams = 48;
