@@ -58,7 +58,7 @@ Turn turnedBack(double azimuth)
     return {static_cast<float>(std::cos(azimuth)), static_cast<float>(-std::sin(azimuth))};
 }
 
-Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options)
+Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside)
     : width_(static_cast<float>(options.width)), height_(static_cast<float>(options.height))
 {
     // A narrow picture keeps the angle across.
@@ -77,6 +77,7 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options)
     const std::vector<Vec3f>& framed = options.fits_any_turn ? rings : points;
     Vec3f target;
     float distance = 12.0F;
+    const float room = width_ - static_cast<float>(aside);
     constexpr int kRounds = 12;  // each leaves a tenth of the error
     for (int round = 0; round < kRounds; ++round) {
         eye_ = target + distance * back_;
@@ -92,9 +93,9 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options)
             high_y = std::max(high_y, at.y);
         }
         const float step = distance / focal_;
-        target = target + static_cast<float>(0.5 * (low_x + high_x - width_)) * step * right_ -
+        target = target + static_cast<float>(0.5 * (low_x + high_x - room)) * step * right_ -
                  static_cast<float>(0.5 * (low_y + high_y - height_)) * step * up_;
-        const double filled = std::max((high_x - low_x) / width_, (high_y - low_y) / height_);
+        const double filled = std::max((high_x - low_x) / room, (high_y - low_y) / height_);
         // Never so near that a point comes to lie behind the eye.
         distance = std::max(distance * static_cast<float>(filled) / kFilled, 1.5F);
     }

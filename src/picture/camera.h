@@ -28,7 +28,8 @@ class Camera {
 public:
     /// @param points   what to frame, not empty
     /// @param options  size, view, azimuth
-    Camera(const std::vector<Vec3f>& points, const RenderOptions& options);
+    /// @param aside    width at the right that is kept free [px]
+    Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside = 0);
 
     /// The ray through a point of the picture [px], y down.
     [[nodiscard]] RayF ray(float x, float y) const;

@@ -95,7 +95,7 @@ Vec3f Table::at(Vec3f place, float width) const
 {
     // Cool, warmer toward the key light.
     const float warm = smoothstep(-1.1F, 0.8F, (-0.75F * place.x + 0.66F * place.y) / span_);
-    const Vec3f base = mix({0.08F, 0.17F, 0.235F}, {0.24F, 0.41F, 0.47F}, warm);
+    const Vec3f base = mix({0.06F, 0.135F, 0.19F}, {0.20F, 0.35F, 0.41F}, warm);
     float ruling = 0.0F;
     for (const float along : {place.x, place.y}) {
         const float phase = along / pitch_;

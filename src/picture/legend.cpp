@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "picture/ground.h"
 #include "picture/lettering.h"
@@ -37,6 +38,37 @@ std::string number(double value, double step)
     std::snprintf(text.data(), text.size(), "%.*f", digits, value == 0.0 ? 0.0 : value);
     return text.data();
 }
+
+constexpr double kBar = 1.6;   // width of the colours, in letters' size
+constexpr double kTick = 0.9;  // from there to the numbers
+
+double letterSize(int picture_height)
+{
+    return std::max(7.0, 0.0135 * picture_height);
+}
+
+/// The numbers beside the colours.
+struct Legend {
+    double step = 1.0;
+    std::vector<double> ticks;
+    double inside = 0.0;  // width of all [px]
+
+    Legend(const Paint& paint, int picture_height)
+    {
+        const double low = paint.low / paint.unit;
+        const double high = paint.high / paint.unit;
+        step = roundStep(high - low, 5.0);
+        const double size = letterSize(picture_height);
+        double widest = 0.0;
+        const auto first = std::llround(std::ceil(low / step - 1e-6));
+        const auto last = std::llround(std::floor(high / step + 1e-6));
+        for (long long k = first; k <= last; ++k) {
+            ticks.push_back(static_cast<double>(k) * step);
+            widest = std::max(widest, textWidth(number(ticks.back(), step), size));
+        }
+        inside = std::max((kBar + kTick) * size + widest, textWidth(paint.caption, size));
+    }
+};
 
 void fill(Picture& picture, int x, int y, std::array<double, 3> colour, double cover)
 {
@@ -75,38 +107,31 @@ Vec3f paintAt(const Paint& paint, const Triangle& triangle, const PaintPoint& po
     return mix(kPlain, colour, static_cast<float>(value(paint.share)));
 }
 
-void drawLegend(Picture& picture, const Paint& paint)
+int legendWidth(const Paint& paint, int width, int height)
 {
     constexpr int kLeastWidth = 320;
     constexpr int kLeastHeight = 240;
-    if (picture.width < kLeastWidth || picture.height < kLeastHeight) {
+    if (width < kLeastWidth || height < kLeastHeight) {
+        return 0;
+    }
+    return static_cast<int>(std::ceil(Legend(paint, height).inside + 4.0 * letterSize(height)));
+}
+
+void drawLegend(Picture& picture, const Paint& paint)
+{
+    if (legendWidth(paint, picture.width, picture.height) == 0) {
         return;
     }
-    const double size = std::max(7.0, 0.0135 * picture.height);
+    const Legend legend(paint, picture.height);
+    const double size = letterSize(picture.height);
     const Pen pen{size, 0.14 * size, {38, 42, 48}};
-    const double span = (paint.high - paint.low) / paint.unit;
-    const double step = roundStep(span, 5.0);
-    const double first = step * std::ceil(paint.low / paint.unit / step - 1e-9);
-
-    double widest = 0.0;
-    for (double tick = first; tick <= paint.high / paint.unit + 1e-9 * span; tick += step) {
-        widest = std::max(widest, textWidth(number(tick, step), size));
-    }
-    const double bar_width = 1.6 * size;
-    const double inside = std::max(bar_width + 1.2 * size + widest, textWidth(paint.caption, size));
-    const double left = picture.width - inside - 3.5 * size;
-    const double top = 2.5 * size;
-    const double bar_top = top + 3.2 * size;
-    const double bar_height = 0.36 * picture.height;
+    const double left = picture.width - legend.inside - 2.0 * size;
+    const double bar_height = 0.5 * picture.height;
+    const double bar_top = 0.5 * (picture.height - bar_height);
     const double bar_bottom = bar_top + bar_height;
+    const double bar_width = kBar * size;
 
-    const double pad = 1.4 * size;
-    for (int y = static_cast<int>(top - pad); y < static_cast<int>(bar_bottom + pad); ++y) {
-        for (int x = static_cast<int>(left - pad); x < static_cast<int>(left + inside + pad); ++x) {
-            fill(picture, x, y, {0.98, 0.98, 0.975}, 0.85);
-        }
-    }
-    drawText(picture, paint.caption, {left, top + 1.2 * size}, pen);
+    drawText(picture, paint.caption, {left, bar_top - 1.8 * size}, pen);
     for (int y = static_cast<int>(bar_top); y < static_cast<int>(bar_bottom); ++y) {
         const double share = (bar_bottom - y - 0.5) / bar_height;
         const Vec3 colour = colourOf(paint, paint.low + share * (paint.high - paint.low));
@@ -114,12 +139,12 @@ void drawLegend(Picture& picture, const Paint& paint)
             fill(picture, x, y, {colour.x, colour.y, colour.z}, 1.0);
         }
     }
-    for (double tick = first; tick <= paint.high / paint.unit + 1e-9 * span; tick += step) {
+    for (const double tick : legend.ticks) {
         const double y = bar_bottom - bar_height * (tick * paint.unit - paint.low) / (paint.high - paint.low);
         for (int x = static_cast<int>(left + bar_width); x < static_cast<int>(left + bar_width + 0.45 * size); ++x) {
-            fill(picture, x, static_cast<int>(std::min(y, bar_bottom - 1.0)), {0.15, 0.165, 0.19}, 0.9);
+            fill(picture, x, static_cast<int>(std::clamp(y, bar_top, bar_bottom - 1.0)), {0.15, 0.165, 0.19}, 0.9);
         }
-        drawText(picture, number(tick, step), {left + bar_width + 0.9 * size, y + 0.5 * size}, pen);
+        drawText(picture, number(tick, legend.step), {left + bar_width + kTick * size, y + 0.5 * size}, pen);
     }
 }
 

@@ -18,7 +18,10 @@ struct PaintPoint {
 /// The colour of paint, linear, within a triangle.
 Vec3f paintAt(const Paint& paint, const Triangle& triangle, const PaintPoint& point);
 
-/// Draws the colours with their numbers in the upper right corner; nothing in a picture smaller than 320 by 240.
+/// How much of a picture of that size a legend takes at its right edge; 0 in one smaller than 320 by 240 [px].
+int legendWidth(const Paint& paint, int width, int height);
+
+/// Draws the colours with their numbers at the right edge, where there is room for them.
 void drawLegend(Picture& picture, const Paint& paint);
 
 }  // namespace droplet

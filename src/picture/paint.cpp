@@ -154,7 +154,7 @@ Paint heightPaint(const Surface& surface)
     paint.line_spacing = step;
     const bool millimetres = span >= 1e-3;
     paint.unit = millimetres ? kMillimetre : 1e-6;
-    paint.caption = millimetres ? "height [mm]" : "height [um]";
+    paint.caption = millimetres ? "height [mm]" : "height [\u00b5m]";
     return paint;
 }
 
@@ -197,7 +197,7 @@ Paint contactAnglePaint(const Surface& surface)
     paint.low = middle - std::max(half, step);
     paint.high = middle + std::max(half, step);
     paint.unit = kDegree;
-    paint.caption = "contact angle [deg]";
+    paint.caption = "contact angle [\u00b0]";
     return paint;
 }
 

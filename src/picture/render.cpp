@@ -72,7 +72,8 @@ public:
           scene_(surface, options.stand ? &*options.stand : nullptr, options.extent),
           studio_(options.lighting, turn_),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(scene_.shown(), options)
+          camera_(scene_.shown(), options,
+                  options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
             medium_.clear = false;
@@ -243,9 +244,9 @@ private:
     {
         const Vec3f flat = turn_({0.12F, -0.10F, 0.0F});
         const Vec3f offset = (1.0F / span_) * Vec3f{place.x, place.y, 0.0F} + flat;
-        const float pool = 1.0F / (1.0F + 0.9F * dot(offset, offset));
+        const float pool = 1.0F / (1.0F + 1.2F * dot(offset, offset));
         const float haze = smoothstep(1.5F, 7.0F, std::sqrt(dot(offset, offset)));
-        return mix(pool * seen, {0.030F, 0.046F, 0.058F}, haze);
+        return mix(pool * seen, kDistance, haze);
     }
 
     [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const

@@ -176,7 +176,7 @@ Vec3f Studio::backdrop(Vec3f direction) const
     if (uniform_) {
         return grey(1.0F);
     }
-    return mix({0.030F, 0.046F, 0.058F}, {0.16F, 0.21F, 0.25F}, smoothstep(-0.6F, 0.5F, direction.z));
+    return mix(kDistance, {0.20F, 0.27F, 0.32F}, smoothstep(0.0F, 0.6F, direction.z));
 }
 
 Vec3f Studio::diffuse(Vec3f normal) const

@@ -10,6 +10,9 @@
 
 namespace droplet {
 
+/// What is seen at the horizon.
+inline constexpr Vec3f kDistance = {0.050F, 0.080F, 0.100F};
+
 /// A glowing rectangle far away, with round corners, its middle brighter than its edge.
 struct SoftBox {
     Vec3f centre;  ///< direction toward it, unit
