@@ -32,6 +32,15 @@ std::uint16_t luma(const Sample* rgb)
                                       1000U);
 }
 
+template <std::size_t kChannels, class Sample>
+std::array<std::uint8_t, 3> colour(const Sample* pixel)
+{
+    const auto byte = [](Sample sample) { return static_cast<std::uint8_t>((level(sample) + 128U) / 257U); };
+    return kChannels < 3
+               ? std::array{byte(pixel[0]), byte(pixel[0]), byte(pixel[0])}
+               : std::array{byte(pixel[0]), byte(pixel[kChannels > 2 ? 1 : 0]), byte(pixel[kChannels > 2 ? 2 : 0])};
+}
+
 /// Puts one level a pixel where a run goes. Runs without gaps, which nearly all are, have a loop of their own:
 /// compilers make vector instructions of it.
 template <class LevelOf>
@@ -70,6 +79,11 @@ void putPixels(Image& image, const PixelRun& run, std::span<const Sample> sample
             put(image.luma.data(), [](const Sample* pixel) { return level(pixel[0]); });
         } else {
             put(image.luma.data(), luma<Sample>);
+        }
+        if (!image.colour.empty()) {
+            for (std::size_t i = 0; i < count; ++i) {
+                image.colour[run.first + (first + i) * run.step] = colour<kChannels>(from + i * kChannels);
+            }
         }
         if constexpr (kChannels % 2 == 0) {
             put(image.alpha.data(), [](const Sample* pixel) { return level(pixel[kChannels - 1]); });
@@ -151,15 +165,18 @@ Image decodeAsStored(std::span<const std::byte> encoded, const ImageHeader& head
 
 }  // namespace
 
-Image blankImage(int width, int height, bool with_alpha)
+Image blankImage(const ImageHeader& header, bool with_alpha)
 {
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const auto pixels = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
     Image image;
-    image.width = width;
-    image.height = height;
+    image.width = header.width;
+    image.height = header.height;
     image.luma.resize(pixels);
     if (with_alpha) {
         image.alpha.resize(pixels);
+    }
+    if (header.keeps_colour) {
+        image.colour.resize(pixels);
     }
     return image;
 }
@@ -195,6 +212,9 @@ Image upright(Image image, int orientation)
     if (!image.alpha.empty()) {
         turnPlane(image.alpha, turn, image.width, image.height);
     }
+    if (!image.colour.empty()) {
+        turnPlane(image.colour, turn, image.width, image.height);
+    }
     return image;
 }
 
@@ -214,7 +234,8 @@ Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& optio
     if (imageFormat(encoded) == ImageFormat::Svg) {
         return decodeSvg(encoded, options);
     }
-    const ImageHeader header = readImageHeader(encoded, options.max_pixels);
+    ImageHeader header = readImageHeader(encoded, options.max_pixels);
+    header.keeps_colour = options.keeps_colour;
     return upright(decodeAsStored(encoded, header), header.orientation);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,25 +9,28 @@
 #include <vector>
 
 #include "droplet/footprint/mask.h"
+#include "footprint/image_header.h"
 
 namespace droplet {
 
-/// A decoded image, reduced while it is decoded to what a mask can be read from.
+/// A decoded image, reduced while it is decoded to what a mask can be read from, and colour where that is asked.
 /// Two bytes a pixel, four with alpha: 512 MiB or 1 GiB at 16384 × 16384.
-/// Invariant: `luma.size() == width * height`; alpha is as long, or empty when the file has none.
+/// Invariant: `luma.size() == width * height`; alpha is as long, or empty when the file has none; colour is as long, or
+/// empty where it was not asked.
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint16_t> luma;   ///< ITU-R BT.601, as stored: no gamma, no colour profile
-    std::vector<std::uint16_t> alpha;  ///< 65535 opaque
-    bool premultiplied = false;        ///< luma is already weighted by alpha
+    std::vector<std::uint16_t> luma;                  ///< ITU-R BT.601, as stored: no gamma, no colour profile
+    std::vector<std::uint16_t> alpha;                 ///< 65535 opaque
+    bool premultiplied = false;                       ///< luma and colour are already weighted by alpha
+    std::vector<std::array<std::uint8_t, 3>> colour;  ///< red, green, blue, as stored
 
     std::optional<double> drawn_scale;     ///< as in Mask
     std::optional<double> physical_width;  ///< as in Mask [m]
 };
 
-/// An image all black and transparent.
-Image blankImage(int width, int height, bool with_alpha);
+/// An image all black and transparent, of the size in a header, with colour if that is wanted there.
+Image blankImage(const ImageHeader& header, bool with_alpha);
 
 /// A run of decoded pixels and where in an image they go.
 struct PixelRun {
@@ -46,6 +50,7 @@ Image upright(Image image, int orientation);
 struct DecodeOptions {
     std::size_t max_pixels = std::size_t{1} << 28;  ///< as in MaskOptions
     int vector_long_side = 2048;                    ///< as in MaskOptions [px]
+    bool keeps_colour = false;                      ///< beside luma
 };
 
 /// Decodes an image of any format this library reads, upright. The size in its header is checked first.

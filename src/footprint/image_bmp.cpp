@@ -204,7 +204,7 @@ Image decodeBmp(std::span<const std::byte> encoded, const ImageHeader& header)
     const bool direct = bitmap.bits == 16 || bitmap.bits == 32;
     const bool has_alpha = direct && bitmap.fields[3].mask != 0;
     const int channels = has_alpha ? 4 : 3;
-    Image image = blankImage(header.width, header.height, has_alpha);
+    Image image = blankImage(header, has_alpha);
     std::vector<std::uint8_t> row(width * 3);
     std::vector<std::uint16_t> deep_row(direct ? width * static_cast<std::size_t>(channels) : 0);
     for (std::size_t stored = 0; stored < height; ++stored) {

@@ -16,9 +16,10 @@ const char* name(ImageFormat format);
 /// What a file says of itself, read without a codec and without memory.
 struct ImageHeader {
     ImageFormat format = ImageFormat::Png;
-    int width = 0;        ///< [px] ≥ 1, as stored
-    int height = 0;       ///< [px] ≥ 1
-    int orientation = 1;  ///< 1 … 8, from EXIF or TIFF; 1 is upright
+    int width = 0;              ///< [px] ≥ 1, as stored
+    int height = 0;             ///< [px] ≥ 1
+    int orientation = 1;        ///< 1 … 8, from EXIF or TIFF; 1 is upright
+    bool keeps_colour = false;  ///< wanted of the decoder, beside luma
 };
 
 /// The format that the first bytes of a file announce; 16 bytes are enough, but for SVG, which may begin with comments

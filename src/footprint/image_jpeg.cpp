@@ -85,7 +85,7 @@ void guarded(JpegReader& reader, Calls calls)
     calls();
 }
 
-void readHeader(JpegReader& reader, std::span<const std::byte> encoded)
+void readHeader(JpegReader& reader, std::span<const std::byte> encoded, bool keeps_colour)
 {
     jpeg_create_decompress(&reader.info);
     reader.info.progress = &reader.progress;
@@ -94,7 +94,7 @@ void readHeader(JpegReader& reader, std::span<const std::byte> encoded)
     jpeg_read_header(&reader.info, TRUE);
     // Y of YCbCr is BT.601's luma as it stands.
     const bool inks = reader.info.jpeg_color_space == JCS_CMYK || reader.info.jpeg_color_space == JCS_YCCK;
-    reader.info.out_color_space = inks ? JCS_CMYK : JCS_GRAYSCALE;
+    reader.info.out_color_space = inks ? JCS_CMYK : keeps_colour ? JCS_RGB : JCS_GRAYSCALE;
     jpeg_start_decompress(&reader.info);
 }
 
@@ -121,7 +121,7 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header)
     reader.errors.emit_message = onMessage;
     reader.progress.progress_monitor = onProgress;
     reader.info.client_data = &reader;
-    guarded(reader, [&] { readHeader(reader, encoded); });
+    guarded(reader, [&] { readHeader(reader, encoded, header.keeps_colour); });
 
     jpeg_decompress_struct& info = reader.info;
     if (info.output_width != static_cast<JDIMENSION>(header.width) ||
@@ -129,8 +129,9 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header)
         throwDamaged(ImageFormat::Jpeg, "it names two sizes");
     }
     const bool inks = info.out_color_space == JCS_CMYK;
+    const int channels = info.out_color_space == JCS_GRAYSCALE ? 1 : 3;
     const std::size_t width = info.output_width;
-    Image image = blankImage(header.width, header.height, false);
+    Image image = blankImage(header, false);
     reader.row.resize(width * static_cast<std::size_t>(info.output_components));
     guarded(reader, [&] {
         JSAMPROW row = reader.row.data();
@@ -139,8 +140,8 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header)
             if (inks) {
                 inksToRgb(reader.row, info.saw_Adobe_marker != 0);
             }
-            putPixels(image, {y * width, 1, inks ? 3 : 1},
-                      std::span<const std::uint8_t>(reader.row.data(), inks ? 3 * width : width));
+            putPixels(image, {y * width, 1, channels},
+                      std::span<const std::uint8_t>(reader.row.data(), static_cast<std::size_t>(channels) * width));
         }
         jpeg_finish_decompress(&info);  // reads on to the end mark, and so finds a missing one
     });

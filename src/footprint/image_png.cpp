@@ -133,7 +133,7 @@ Image decodePng(std::span<const std::byte> encoded, const ImageHeader& header)
         throwDamaged(ImageFormat::Png, "it names two sizes");
     }
     const int channels = png_get_channels(reader.png, reader.info);
-    Image image = blankImage(header.width, header.height, channels % 2 == 0);
+    Image image = blankImage(header, channels % 2 == 0);
     reader.row.resize(png_get_rowbytes(reader.png, reader.info) / 2 + 1);
     guarded(reader, [&] {
         readRows(reader, image, channels);

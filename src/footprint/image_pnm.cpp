@@ -74,7 +74,7 @@ Image decodePnm(std::span<const std::byte> encoded, const ImageHeader& header)
         throwDamaged(ImageFormat::Pnm, "it ends too early");
     }
 
-    Image image = blankImage(header.width, header.height, false);
+    Image image = blankImage(header, false);
     std::vector<std::uint16_t> row(row_samples);
     PlainReader reader(view, pnm.payload);
     for (std::size_t y = 0; y < height; ++y) {

@@ -309,7 +309,11 @@ Image draw(std::span<const std::byte> text, const DecodeOptions& options)
     }
     const std::vector<std::uint32_t> pixels = document.draw(page, raster.scale, raster.width, raster.height);
 
-    Image image = blankImage(raster.width, raster.height, true);
+    Image image = blankImage({.format = ImageFormat::Svg,
+                              .width = raster.width,
+                              .height = raster.height,
+                              .keeps_colour = options.keeps_colour},
+                             true);
     image.premultiplied = true;
     image.drawn_scale = raster.scale;
     image.physical_width = page.physical_width;

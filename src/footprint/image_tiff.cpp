@@ -498,7 +498,7 @@ Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header)
     } else {
         planes.samples = {0};
     }
-    Image image = blankImage(header.width, header.height, layout.has_alpha);
+    Image image = blankImage(header, layout.has_alpha);
     image.premultiplied = layout.premultiplied;
     RowReader reader(layout, image);
     readPixels(planes, reader, header);

@@ -40,7 +40,7 @@ Image decodeWebp(std::span<const std::byte> encoded, const ImageHeader& header)
                          ? "it ends too early"
                          : "its pixels cannot be decoded (status " + std::to_string(static_cast<int>(status)) + ")");
     }
-    Image image = blankImage(header.width, header.height, has_alpha);
+    Image image = blankImage(header, has_alpha);
     putPixels(image, {0, 1, channels}, std::span<const std::uint8_t>(pixels));
     return image;
 }

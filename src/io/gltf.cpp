@@ -43,38 +43,6 @@ std::uint64_t vertexBytes(const Surface& surface)
     return ((surface.contact_angle.empty() ? 8U : 9U) + (surface.refill ? 6U : 0U)) * sizeof(float);
 }
 
-struct Look {
-    Material material;
-    const char* name;
-    std::array<double, 3> colour;  // of metal and opaque matter; of liquid: of white light through the mean height
-    double metallic;
-    double roughness;
-    double transmission;
-    double ior;
-    bool tinted;  // colour deepens with the way through the liquid
-};
-
-// Water's ior at 589 nm, 20 °C; ink is water with dye. Honey: Wedmore's table at 18 % water. Mercury: reflectance
-// in visible light of about 0.78. The other colours are chosen by eye.
-constexpr std::array<Look, 5> kLooks = {{
-    {Material::Water, "water", {1.0, 1.0, 1.0}, 0.0, 0.0, 1.0, 1.333, false},
-    {Material::Ink, "ink", {0.03, 0.06, 0.35}, 0.0, 0.0, 1.0, 1.333, true},
-    {Material::Mercury, "mercury", {0.78, 0.78, 0.78}, 1.0, 0.02, 0.0, 1.5, false},
-    {Material::Honey, "honey", {0.9, 0.5, 0.1}, 0.0, 0.0, 1.0, 1.489, true},
-    {Material::Plain, "plain", {0.8, 0.8, 0.8}, 0.0, 0.5, 0.0, 1.5, false},
-}};
-
-const Look& lookOf(Material material)
-{
-    for (const Look& look : kLooks) {
-        if (look.material == material) {
-            return look;
-        }
-    }
-    throw Error(ErrorCode::InvalidArgument, "options.material = " + std::to_string(static_cast<int>(material)) +
-                                                " must be one of the " + std::to_string(kLooks.size()) + " materials");
-}
-
 bool wideIndices(const Surface& surface)
 {
     return surface.positions.size() >= kVerticesBeyond16Bit;
@@ -109,9 +77,9 @@ void checkFloats(const Surface& surface)
     }
 }
 
-tinygltf::Value::Array colourValue(const std::array<double, 3>& colour)
+tinygltf::Value::Array colourValue(Vec3 colour)
 {
-    return {tinygltf::Value(colour[0]), tinygltf::Value(colour[1]), tinygltf::Value(colour[2])};
+    return {tinygltf::Value(colour.x), tinygltf::Value(colour.y), tinygltf::Value(colour.z)};
 }
 
 tinygltf::Material makeMaterial(const Look& look, const Surface& surface, bool closed)
@@ -123,7 +91,7 @@ tinygltf::Material makeMaterial(const Look& look, const Surface& surface, bool c
     // A thickness of 0 means thin-walled, and the distance of attenuation must be positive.
     const bool has_volume = look.transmission > 0.0 && closed && surface.mean_height > 0.0;
     if (!has_volume || !look.tinted) {
-        material.pbrMetallicRoughness.baseColorFactor = {look.colour[0], look.colour[1], look.colour[2], 1.0};
+        material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, 1.0};
     }
     if (look.transmission > 0.0) {
         material.extensions["KHR_materials_transmission"] =
@@ -376,18 +344,6 @@ void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream&
 }
 
 }  // namespace
-
-Material materialNamed(std::string_view name)
-{
-    std::string known;
-    for (const Look& look : kLooks) {
-        if (name == look.name) {
-            return look.material;
-        }
-        known += std::string(" ") + look.name;
-    }
-    throw Error(ErrorCode::InvalidArgument, "material \"" + std::string(name) + "\" is unknown; known are" + known);
-}
 
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {

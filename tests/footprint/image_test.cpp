@@ -37,7 +37,7 @@ TYPED_TEST(ImageOf, RunsArePutLikeTheirPixels)
     for (const int channels : {1, 2, 3, 4}) {
         for (const std::size_t pixels : {1U, 2U, 63U, 64U, 65U, 128U, 130U}) {
             for (const std::size_t step : {1U, 2U}) {
-                const Image blank = blankImage(300, 1, channels % 2 == 0);
+                const Image blank = blankImage({ImageFormat::Png, 300, 1}, channels % 2 == 0);
                 const PixelRun run{3, step, channels};
                 const std::size_t count = pixels * static_cast<std::size_t>(channels);
                 for (std::size_t odd = 0; odd < count; ++odd) {

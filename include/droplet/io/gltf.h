@@ -3,18 +3,11 @@
 
 #include <cstdint>
 #include <iosfwd>
-#include <string_view>
 
+#include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
-
-/// How a droplet looks in a viewer.
-enum class Material { Water, Ink, Mercury, Honey, Plain };
-
-/// The material of that name: water, ink, mercury, honey, plain.
-/// @throws Error InvalidArgument
-Material materialNamed(std::string_view name);
 
 /// What a glTF file holds beside the surface.
 struct GltfOptions {

@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// T. Whitted, "An Improved Illumination Model for Shaded Display" (1980): rays branch at every surface, none is left to
+// chance. What scatters below liquid is darker than dry: J. Lekner, M. C. Dorf, "Why some things are darker when wet"
+// (1988). Samples within a pixel: I. M. Sobol', "On the distribution of points in a cube" (1967).
+#include "droplet/picture/render.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "picture/camera.h"
+#include "picture/ground.h"
+#include "picture/legend.h"
+#include "picture/light_map.h"
+#include "picture/optics.h"
+#include "picture/scene.h"
+#include "picture/studio.h"
+
+namespace droplet {
+namespace {
+
+constexpr int kMostPixels = 8192;
+constexpr int kLeastSamples = 4;
+constexpr int kMostSamples = 256;
+constexpr float kWhite = 0.85F;  // how white ground in the open comes out, before the filmic curve
+constexpr float kPi = 3.14159265F;
+
+// Beyond these a ray ends in the room's light.
+constexpr int kMostMeetings = 7;
+constexpr float kLeastWeight = 0.004F;  // a level of 255
+
+constexpr int kLightCells = 512;  // of the light on the plane, along its longer side
+
+[[noreturn]] void refuse(const std::string& text)
+{
+    throw Error(ErrorCode::InvalidArgument, "options." + text);
+}
+
+/// A filmic curve (J. Hable's form, fitted by K. Narkowicz).
+Vec3f filmic(Vec3f a)
+{
+    const auto curve = [](float light) {
+        const float x = std::max(light, 0.0F);
+        return std::min(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 1.0F);
+    };
+    return {curve(a.x), curve(a.y), curve(a.z)};
+}
+
+Medium mediumOf(const Look& look, double mean_height, double scale)
+{
+    Medium medium;
+    medium.clear = look.transmission > 0.0;
+    medium.ior = static_cast<float>(look.ior);
+    if (look.tinted && mean_height > 0.0) {
+        const auto per_length = [&](double share) {
+            return static_cast<float>(-std::log(std::max(share, 1e-6)) / mean_height * scale);
+        };
+        medium.absorption = {per_length(look.colour.x), per_length(look.colour.y), per_length(look.colour.z)};
+    }
+    return medium;
+}
+
+class Tracer {
+public:
+    Tracer(const Surface& surface, const RenderOptions& options)
+        : options_(options),
+          turn_(turnedBack(options.azimuth)),
+          scene_(surface, options.stand ? &*options.stand : nullptr, options.extent),
+          studio_(options.lighting, turn_),
+          medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
+          camera_(scene_.shown(), options,
+                  options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
+    {
+        if (options.paint) {
+            medium_.clear = false;
+        }
+        if (options.ground) {
+            picture_.emplace(*options.ground);
+        }
+        const Vec3f size = scene_.high() - scene_.low();
+        table_.emplace(std::max(size.x, size.y), size.x * size.y);
+        span_ = std::max(size.x, size.y);
+        if (scene_.onPlane() && !studio_.uniform()) {
+            light_ = lightOnPlane(scene_, medium_, studio_.lights(), kLightCells);
+        }
+        level_ = studio_.level();
+        exposure_ = kWhite * kPi / level_.y;
+        const double n = medium_.clear ? options.look.ior : 1.0;
+        returned_ = static_cast<float>(1.0 - (1.0 - diffuseReflectance(n)) / (n * n));
+        squeezed_ = static_cast<float>(1.0 / (n * n));
+    }
+
+    // Linear light for a screen, 0 … 1, through a point of the picture.
+    [[nodiscard]] Vec3f shown(float x, float y) const
+    {
+        const RayF ray = camera_.ray(x, y);
+        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F});
+        if (studio_.uniform() || options_.paint) {
+            return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
+        }
+        return filmic(exposure_ * light);
+    }
+
+private:
+    struct Way {
+        float weight;    // of the ray in the pixel
+        bool inside;     // the liquid
+        int meetings;    // so far
+        float distance;  // so far
+    };
+
+    [[nodiscard]] Vec3f trace(const RayF& ray, const Way& way) const
+    {
+        const Meeting meeting = way.inside ? scene_.fromLiquid(ray) : scene_.fromAir(ray);
+        if (meeting.what == Meeting::What::Nothing) {
+            return way.meetings == 0 ? studio_.backdrop(ray.direction) : studio_.radiance(ray.direction);
+        }
+        Vec3f light = meeting.what == Meeting::What::Ground ? onGround(ray, meeting, way) : onLiquid(ray, meeting, way);
+        return way.inside ? passed(medium_, meeting.distance) * light : light;
+    }
+
+    [[nodiscard]] Vec3f onLiquid(const RayF& ray, const Meeting& meeting, const Way& way) const
+    {
+        const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
+        if (options_.paint) {
+            return painted(ray, meeting, normal, way);
+        }
+        if (!medium_.clear) {
+            return opaque(ray, meeting, normal, way);
+        }
+        const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
+        const Vec3f mirror = mirrored(ray.direction, normal);
+        Vec3f light = there.reflected * onward(meeting, mirror, way, there.reflected, way.inside);
+        if (there.reflected < 1.0F) {
+            light = light + (1.0F - there.reflected) *
+                                onward(meeting, there.transmitted, way, 1.0F - there.reflected, !way.inside);
+        }
+        return light;
+    }
+
+    [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
+    {
+        const Way next{share * way.weight, inside, way.meetings + 1, way.distance + meeting.distance};
+        // Directions by smooth normals may point through the facet; they are bent to graze it.
+        const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
+        if (side < 1e-3F) {
+            direction = unit(direction + (inside ? side - 1e-3F : 1e-3F - side) * meeting.facet);
+        }
+        if (next.meetings > kMostMeetings || next.weight < kLeastWeight) {
+            return studio_.radiance(direction);
+        }
+        return trace({meeting.place, direction}, next);
+    }
+
+    [[nodiscard]] Vec3f opaque(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
+    {
+        const Look& look = options_.look;
+        const Vec3f colour = toFloats(look.colour);
+        const auto metal = static_cast<float>(look.metallic);
+        const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
+        const float grazing = std::pow(1.0F - cosine, 5.0F);
+        const auto ratio = static_cast<float>((look.ior - 1.0) / (look.ior + 1.0));
+        const Vec3f upright = mix(grey(ratio * ratio), colour, metal);
+        const Vec3f mirror_share = mix(upright, grey(1.0F), grazing);
+        const Vec3f mirror = mirrored(ray.direction, normal);
+        // What is rough mirrors a blurred room.
+        const Vec3f gloss =
+            look.roughness < 0.1 ? onward(meeting, mirror, way, largest(mirror_share), false) : studio_.diffuse(mirror);
+        const Vec3f matter = (1.0F - metal) * colour * studio_.diffuse(normal);
+        return mirror_share * gloss + (grey(1.0F) - mirror_share) * matter;
+    }
+
+    [[nodiscard]] Vec3f painted(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
+    {
+        constexpr float kLine = 1.6F;  // [px]
+        const Triangle& triangle = scene_.triangle(meeting);
+        // The values' gradient on the facet, by how much of it the pixel sees.
+        const float pixel = kLine * camera_.pixel() * (way.distance + meeting.distance);
+        const double slope = static_cast<double>(pixel) * slopeOn(triangle, ray.direction, meeting.facet);
+        const Vec3f colour = paintAt(*options_.paint, triangle, {meeting.u, meeting.v, slope});
+        if (studio_.uniform()) {
+            return colour;
+        }
+        const float light = studio_.diffuse(normal).y / (level_.y / kPi);
+        return std::clamp(0.45F + 0.55F * light, 0.0F, 1.15F) * colour;
+    }
+
+    // How fast paint's values change across the picture, per length at right angles to the ray.
+    [[nodiscard]] double slopeOn(const Triangle& triangle, Vec3f direction, Vec3f facet) const
+    {
+        const Vec3f a = scene_.vertex(triangle[0]);
+        const Vec3f p = scene_.vertex(triangle[1]) - a;
+        const Vec3f q = scene_.vertex(triangle[2]) - a;
+        const std::vector<double>& values = options_.paint->values;
+        const auto dp = static_cast<float>(values[triangle[1]] - values[triangle[0]]);
+        const auto dq = static_cast<float>(values[triangle[2]] - values[triangle[0]]);
+        const Vec3f across = cross(p, q);
+        const Vec3f gradient = (1.0F / std::max(dot(across, across), 1e-30F)) * cross(dp * q - dq * p, across);
+        // A step across the picture is longer on a slanted facet, along the ray's trace on it.
+        const float slant = std::max(std::abs(dot(direction, facet)), 0.15F);
+        const Vec3f trace = direction - dot(direction, facet) * facet;
+        const float along = dot(gradient, unit(trace)) * (1.0F / slant - 1.0F);
+        return std::sqrt(static_cast<double>(dot(gradient, gradient) + along * along));
+    }
+
+    [[nodiscard]] Vec3f onGround(const RayF& ray, const Meeting& meeting, const Way& way) const
+    {
+        const float distance = way.distance + meeting.distance;
+        const float slant = std::max(0.2F, std::abs(dot(ray.direction, meeting.normal)));
+        const float width = camera_.pixel() * distance / slant;
+        const Vec3f matter = albedo(meeting, width);
+        const bool wet = way.inside;
+        if (studio_.uniform()) {
+            return wet ? matter * wetness(matter, (1.0F - returned_)) : matter;
+        }
+        const Vec3f light = light_ ? light_->at(meeting.place) : studio_.diffuse(meeting.normal);
+        Vec3f seen = matter * light;
+        if (options_.paint) {
+            seen = (kPi / level_.y) * 0.82F * Vec3f{light.y, light.y, light.y};
+            seen = mix(seen, grey(0.82F), 0.35F);
+        }
+        if (wet) {
+            seen = seen * wetness(matter, squeezed_);
+        }
+        if (scene_.onPlane() && !options_.paint) {
+            seen = faded(seen, meeting.place);
+        }
+        return seen;
+    }
+
+    // Light that scatters below a liquid's surface is in part sent back there, again and again.
+    [[nodiscard]] Vec3f wetness(Vec3f matter, float first) const
+    {
+        return {first / (1.0F - returned_ * matter.x), first / (1.0F - returned_ * matter.y),
+                first / (1.0F - returned_ * matter.z)};
+    }
+
+    // A pool of light on the table, and darkness far away.
+    [[nodiscard]] Vec3f faded(Vec3f seen, Vec3f place) const
+    {
+        const Vec3f flat = turn_({0.12F, -0.10F, 0.0F});
+        const Vec3f offset = (1.0F / span_) * Vec3f{place.x, place.y, 0.0F} + flat;
+        const float pool = 1.0F / (1.0F + 1.2F * dot(offset, offset));
+        const float haze = smoothstep(1.5F, 7.0F, std::sqrt(dot(offset, offset)));
+        return mix(pool * seen, kDistance, haze);
+    }
+
+    [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const
+    {
+        if (picture_) {
+            return picture_->at(meeting.uv, width * scene_.scale() / std::max(options_.extent.x, options_.extent.y));
+        }
+        if (studio_.uniform()) {
+            return grey(1.0F);
+        }
+        return scene_.onPlane() ? table_->at(meeting.place, width) : grey(0.5F);
+    }
+
+    const RenderOptions& options_;
+    Turn turn_;
+    Scene scene_;
+    Studio studio_;
+    Medium medium_;
+    Camera camera_;
+    std::optional<GroundPicture> picture_;
+    std::optional<Table> table_;
+    std::optional<LightMap> light_;  // on the plane
+    Vec3f level_;
+    float exposure_ = 1.0F;
+    float span_ = 1.0F;
+    float returned_ = 0.0F;  // share of the light scattered below the surface that it sends back
+    float squeezed_ = 1.0F;  // radiance outside over that inside
+};
+
+/// Where in a pixel its samples lie: the first 4, 16, 64 … are one in every part of a grid.
+std::vector<std::array<float, 2>> samplesInPixel(int count)
+{
+    std::vector<std::array<float, 2>> samples;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+        std::uint32_t first = 0;
+        std::uint32_t second = 0;
+        std::uint32_t direction = 1U << 31;
+        for (std::uint32_t k = 0, bits = i; bits != 0; ++k, bits >>= 1) {
+            if ((bits & 1U) != 0) {
+                first ^= 1U << (31 - k);
+                second ^= direction;
+            }
+            direction ^= direction >> 1;
+        }
+        const auto within = [](std::uint32_t bits) {
+            return (static_cast<float>(bits >> 8) + 0.5F) / static_cast<float>(1 << 24);
+        };
+        samples.push_back({within(first), within(second)});
+    }
+    return samples;
+}
+
+/// What a pixel's samples have shown so far.
+struct Pixel {
+    Vec3f sum;
+    float spread = 0.0F;
+};
+
+Vec3f onScreen(Vec3f light)
+{
+    return {toDisplay(light.x), toDisplay(light.y), toDisplay(light.z)};
+}
+
+// Near enough to tell what is visible.
+Vec3f roughly(Vec3f light)
+{
+    return {std::sqrt(light.x), std::sqrt(light.y), std::sqrt(light.z)};
+}
+
+float difference(Vec3f a, Vec3f b)
+{
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+}
+
+Picture trace(const Tracer& tracer, const RenderOptions& options)
+{
+    constexpr float kVisible = 5.0F / 255.0F;
+    const auto width = static_cast<std::size_t>(options.width);
+    const auto height = static_cast<std::size_t>(options.height);
+    const auto samples = samplesInPixel(options.samples);
+    std::vector<Pixel> pixels(width * height);
+    const auto sample = [&](std::size_t x, std::size_t y, std::size_t s) {
+        return tracer.shown(static_cast<float>(x) + samples[s][0], static_cast<float>(y) + samples[s][1]);
+    };
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            Pixel& pixel = pixels[y * width + x];
+            Vec3f low = grey(2.0F);
+            Vec3f high = grey(-1.0F);
+            for (std::size_t s = 0; s < kLeastSamples; ++s) {
+                const Vec3f light = sample(x, y, s);
+                pixel.sum = pixel.sum + light;
+                low = {std::min(low.x, light.x), std::min(low.y, light.y), std::min(low.z, light.z)};
+                high = {std::max(high.x, light.x), std::max(high.y, light.y), std::max(high.z, light.z)};
+            }
+            pixel.spread = difference(roughly(low), roughly(high));
+        }
+    });
+    std::vector<Vec3f> seen(pixels.size());
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            seen[y * width + x] = onScreen((1.0F / kLeastSamples) * pixels[y * width + x].sum);
+        }
+    });
+    Picture picture{options.width, options.height, std::vector<std::uint8_t>(3 * width * height)};
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t at = y * width + x;
+            const auto apart = [&](bool there, std::size_t other) {
+                return there && difference(seen[at], seen[other]) > 5.0F * kVisible;
+            };
+            Vec3f shown = seen[at];
+            if (pixels[at].spread > kVisible || apart(x > 0, at - 1) || apart(x + 1 < width, at + 1) ||
+                apart(y > 0, at - width) || apart(y + 1 < height, at + width)) {
+                Vec3f sum = pixels[at].sum;
+                for (std::size_t s = kLeastSamples; s < samples.size(); ++s) {
+                    sum = sum + sample(x, y, s);
+                }
+                shown = onScreen((1.0F / static_cast<float>(samples.size())) * sum);
+            }
+            const auto byte = [](float level) {
+                return static_cast<std::uint8_t>(std::lrint(255.0F * std::clamp(level, 0.0F, 1.0F)));
+            };
+            picture.rgb[3 * at] = byte(shown.x);
+            picture.rgb[3 * at + 1] = byte(shown.y);
+            picture.rgb[3 * at + 2] = byte(shown.z);
+        }
+    });
+    return picture;
+}
+
+}  // namespace
+
+View viewNamed(std::string_view name)
+{
+    if (name == "three-quarter") {
+        return View::ThreeQuarter;
+    }
+    if (name == "top") {
+        return View::Top;
+    }
+    if (name == "side") {
+        return View::Side;
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                "view \"" + std::string(name) + "\" is unknown; known are three-quarter top side");
+}
+
+void RenderOptions::validate() const
+{
+    const auto size = [](const char* name, int value) {
+        if (value < 1 || value > kMostPixels) {
+            refuse(std::string(name) + " = " + std::to_string(value) + " must be from 1 to " +
+                   std::to_string(kMostPixels) + " pixels");
+        }
+    };
+    size("width", width);
+    size("height", height);
+    if (samples < kLeastSamples || samples > kMostSamples) {
+        refuse("samples = " + std::to_string(samples) + " must be from " + std::to_string(kLeastSamples) + " to " +
+               std::to_string(kMostSamples));
+    }
+    if (!std::isfinite(azimuth)) {
+        refuse("azimuth = " + std::to_string(azimuth) + " must be finite");
+    }
+    if (!(look.ior >= 1.0 && look.ior <= 4.0)) {
+        refuse("look.ior = " + std::to_string(look.ior) + " must be from 1 to 4");
+    }
+    const auto within = [](double a) { return a >= 0.0 && std::isfinite(a); };
+    if (!within(extent.x) || !within(extent.y)) {
+        refuse("extent must be finite and not negative");
+    }
+    if (ground) {
+        ground->validate();
+        if (!stand && !(extent.x > 0.0 && extent.y > 0.0)) {
+            refuse("extent = " + std::to_string(extent.x) + " by " + std::to_string(extent.y) +
+                   " must be above 0 where a picture is the ground");
+        }
+    }
+    if (stand) {
+        stand->validate();
+    }
+}
+
+Picture render(const Surface& surface, const RenderOptions& options)
+{
+    options.validate();
+    surface.validate();
+    if (options.paint) {
+        options.paint->validate(surface.positions.size());
+    }
+    const Tracer tracer(surface, options);
+    Picture picture = trace(tracer, options);
+    if (options.paint) {
+        drawLegend(picture, *options.paint);
+    }
+    return picture;
+}
+
+TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
+{
+    if (!(extent.x > 0.0 && extent.y > 0.0) || ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must not be flat, and extent above 0");
+    }
+    // A quarter of the image on every side.
+    constexpr int kCells = 240;
+    constexpr double kBeyond = 1.5;
+    TexturedMesh mesh;
+    std::vector<std::optional<std::uint32_t>> vertices;
+    for (int j = 0; j <= kCells; ++j) {
+        for (int i = 0; i <= kCells; ++i) {
+            const Vec2 p{kBeyond * extent.x * (static_cast<double>(i) / kCells - 0.5),
+                         kBeyond * extent.y * (static_cast<double>(j) / kCells - 0.5)};
+            vertices.emplace_back();
+            GroundPoint point;
+            try {
+                point = ground.at(p);
+            } catch (const Error&) {
+                continue;  // there is none
+            }
+            const double slope = std::sqrt(1.0 + dot(point.gradient, point.gradient));
+            vertices.back() = static_cast<std::uint32_t>(mesh.positions.size());
+            mesh.positions.push_back({p.x, p.y, point.height});
+            mesh.normals.push_back({-point.gradient.x / slope, -point.gradient.y / slope, 1.0 / slope});
+            mesh.uvs.push_back({0.5 + p.x / extent.x, 0.5 - p.y / extent.y});
+        }
+    }
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; ++i) {
+            const auto at = static_cast<std::size_t>(j * (kCells + 1) + i);
+            const auto a = vertices[at];
+            const auto b = vertices[at + 1];
+            const auto c = vertices[at + kCells + 2];
+            const auto d = vertices[at + kCells + 1];
+            if (a && b && c && d) {
+                mesh.triangles.push_back({*a, *b, *c});
+                mesh.triangles.push_back({*a, *c, *d});
+            }
+        }
+    }
+    if (mesh.triangles.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "ground is nowhere below the image");
+    }
+    return mesh;
+}
+
+}  // namespace droplet

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// I. Wald, S. Woop, C. Benthin, G. S. Johnson, M. Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing"
+// (2014).
+#include "picture/scene.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <numeric>
+
+namespace droplet {
+namespace {
+
+// Scenes are about 1 in size; floats there are good to 1e-7, and robust intersections miss nothing farther than this.
+constexpr float kNear = 2e-5F;
+
+/// For every triangle whether it belongs to the base.
+std::vector<bool> baseTriangles(const Surface& surface)
+{
+    std::vector<std::uint32_t> parent(surface.positions.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) {
+            parent[v] = parent[parent[v]];
+            v = parent[v];
+        }
+        return v;
+    };
+    for (const Triangle& t : surface.triangles) {
+        parent[root(t[1])] = root(t[0]);
+        parent[root(t[2])] = root(t[0]);
+    }
+    std::vector<bool> copied(surface.positions.size());
+    for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+        if (surface.weld[v] != v) {
+            copied[root(v)] = true;
+        }
+    }
+    std::vector<bool> base(surface.triangles.size());
+    for (std::size_t t = 0; t < base.size(); ++t) {
+        const Triangle& triangle = surface.triangles[t];
+        const bool in_plane = surface.positions[triangle[0]].z == 0.0 && surface.positions[triangle[1]].z == 0.0 &&
+                              surface.positions[triangle[2]].z == 0.0;
+        base[t] = in_plane || copied[root(triangle[0])];
+    }
+    return base;
+}
+
+struct Buffers {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;
+    std::vector<Vec2> uvs;
+    std::vector<Triangle> triangles;
+};
+
+enum Part : unsigned { kLiquid = 0, kBase = 1, kStand = 2 };
+
+}  // namespace
+
+struct Scene::Embree {
+    RTCDevice device = nullptr;
+    RTCScene air = nullptr;
+    RTCScene liquid = nullptr;
+    RTCScene dry = nullptr;
+    std::array<Buffers, 3> parts;
+
+    Embree()
+    {
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) {
+            throw std::bad_alloc();
+        }
+    }
+    Embree(const Embree&) = delete;
+    Embree& operator=(const Embree&) = delete;
+    ~Embree()
+    {
+        for (RTCScene scene : {air, liquid, dry}) {
+            if (scene != nullptr) {
+                rtcReleaseScene(scene);
+            }
+        }
+        rtcReleaseDevice(device);
+    }
+
+    // One thread builds: the order of triangles in the tree, which decides on shared edges, must not depend on chance.
+    RTCScene build(std::initializer_list<Part> wanted)
+    {
+        RTCScene scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        for (const Part part : wanted) {
+            Buffers& buffers = parts[part];
+            if (buffers.triangles.empty()) {
+                continue;
+            }
+            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            auto* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                     sizeof(Vec3f), buffers.positions.size());
+            auto* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                    sizeof(Triangle), buffers.triangles.size());
+            if (vertices == nullptr || indices == nullptr) {
+                throw std::bad_alloc();
+            }
+            std::memcpy(vertices, buffers.positions.data(), sizeof(Vec3f) * buffers.positions.size());
+            std::memcpy(indices, buffers.triangles.data(), sizeof(Triangle) * buffers.triangles.size());
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometryByID(scene, geometry, part);
+            rtcReleaseGeometry(geometry);
+        }
+        tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
+        return scene;
+    }
+};
+
+Scene::Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent) : embree_(std::make_unique<Embree>())
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 low{kInfinity, kInfinity, kInfinity};
+    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
+    const auto enclose = [&](const std::vector<Vec3>& points) {
+        for (const Vec3& p : points) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    };
+    enclose(surface.positions);
+    const Vec3 liquid_low = low;
+    const Vec3 liquid_high = high;
+    if (stand != nullptr) {
+        enclose(stand->positions);
+    }
+    scale_ = std::max(0.5 * length(high - low), 1e-30);
+    middle_ = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.0};
+    extent_ = extent.x > 0.0 && extent.y > 0.0 ? extent : Vec2{high.x - low.x, high.y - low.y};
+    low_ = toScene(liquid_low);
+    high_ = toScene(liquid_high);
+
+    const std::vector<bool> base = baseTriangles(surface);
+    on_plane_ = stand == nullptr;
+    for (std::size_t t = 0; t < base.size() && on_plane_; ++t) {
+        for (const std::uint32_t v : surface.triangles[t]) {
+            on_plane_ = on_plane_ && (!base[t] || surface.positions[v].z == 0.0);
+        }
+    }
+    const auto fill = [&](Buffers& buffers, const auto& mesh) {
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            buffers.positions.push_back(toScene(mesh.positions[v]));
+            buffers.normals.push_back(toFloats(mesh.normals[v]));
+        }
+        buffers.uvs = mesh.uvs;
+    };
+    Buffers& liquid = embree_->parts[kLiquid];
+    fill(liquid, surface);
+    for (std::size_t t = 0; t < base.size(); ++t) {
+        if (!base[t]) {
+            liquid.triangles.push_back(surface.triangles[t]);
+        } else if (!on_plane_) {
+            embree_->parts[kBase].triangles.push_back(surface.triangles[t]);
+        }
+    }
+    triangles_ = liquid.triangles;
+    shown_ = liquid.positions;
+    const bool has_base = !embree_->parts[kBase].triangles.empty();
+    if (has_base) {
+        Buffers& below = embree_->parts[kBase];
+        below.positions = liquid.positions;
+        below.normals = liquid.normals;
+        below.uvs = liquid.uvs;
+    }
+    if (stand != nullptr) {
+        fill(embree_->parts[kStand], *stand);
+        embree_->parts[kStand].triangles = stand->triangles;
+        shown_.insert(shown_.end(), embree_->parts[kStand].positions.begin(), embree_->parts[kStand].positions.end());
+    }
+    // Where there is a stand it is what is seen through the air, and the base through the liquid: one touches the
+    // other.
+    embree_->air = stand != nullptr ? embree_->build({kLiquid, kStand}) : embree_->build({kLiquid, kBase});
+    embree_->liquid = has_base ? embree_->build({kLiquid, kBase}) : embree_->build({kLiquid, kStand});
+    embree_->dry = stand != nullptr ? embree_->build({kStand}) : embree_->build({kBase});
+}
+
+Scene::~Scene() = default;
+
+Vec3f Scene::toScene(Vec3 p) const
+{
+    return toFloats((1.0 / scale_) * (p - middle_));
+}
+
+Vec2 Scene::uvOnPlane(Vec3f place) const
+{
+    return {0.5 + (scale_ * static_cast<double>(place.x) + middle_.x) / extent_.x,
+            0.5 - (scale_ * static_cast<double>(place.y) + middle_.y) / extent_.y};
+}
+
+Meeting Scene::meet(void* scene, const RayF& ray) const
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit hit{};
+    hit.ray.org_x = ray.origin.x;
+    hit.ray.org_y = ray.origin.y;
+    hit.ray.org_z = ray.origin.z;
+    hit.ray.dir_x = ray.direction.x;
+    hit.ray.dir_y = ray.direction.y;
+    hit.ray.dir_z = ray.direction.z;
+    hit.ray.tnear = kNear;
+    hit.ray.tfar = std::numeric_limits<float>::infinity();
+    hit.ray.mask = ~0U;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(static_cast<RTCScene>(scene), &context, &hit);
+    Meeting meeting;
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        return meeting;
+    }
+    const Buffers& part = embree_->parts[hit.hit.geomID];
+    const Triangle& t = part.triangles[hit.hit.primID];
+    meeting.what = hit.hit.geomID == kLiquid ? Meeting::What::Liquid : Meeting::What::Ground;
+    meeting.distance = hit.ray.tfar;
+    meeting.triangle = hit.hit.primID;
+    meeting.u = hit.hit.u;
+    meeting.v = hit.hit.v;
+    const float w = 1.0F - meeting.u - meeting.v;
+    meeting.place = w * part.positions[t[0]] + meeting.u * part.positions[t[1]] + meeting.v * part.positions[t[2]];
+    meeting.facet =
+        unit(cross(part.positions[t[1]] - part.positions[t[0]], part.positions[t[2]] - part.positions[t[0]]));
+    meeting.normal = unit(w * part.normals[t[0]] + meeting.u * part.normals[t[1]] + meeting.v * part.normals[t[2]]);
+    if (hit.hit.geomID != kLiquid) {
+        meeting.uv = static_cast<double>(w) * part.uvs[t[0]] + static_cast<double>(meeting.u) * part.uvs[t[1]] +
+                     static_cast<double>(meeting.v) * part.uvs[t[2]];
+        // A base looks down, out of the liquid; ground looks up.
+        if (hit.hit.geomID == kBase) {
+            meeting.normal = -1.0F * meeting.normal;
+            meeting.facet = -1.0F * meeting.facet;
+        }
+    }
+    return meeting;
+}
+
+bool Scene::passesBox(const RayF& ray) const
+{
+    float from = 0.0F;
+    float to = std::numeric_limits<float>::infinity();
+    const auto clip = [&](float origin, float direction, float low, float high) {
+        if (direction != 0.0F) {
+            const float a = (low - kNear - origin) / direction;
+            const float b = (high + kNear - origin) / direction;
+            from = std::max(from, std::min(a, b));
+            to = std::min(to, std::max(a, b));
+        }
+    };
+    clip(ray.origin.x, ray.direction.x, low_.x, high_.x);
+    clip(ray.origin.y, ray.direction.y, low_.y, high_.y);
+    clip(ray.origin.z, ray.direction.z, low_.z, high_.z);
+    return from > to;
+}
+
+Meeting Scene::nearerOfPlane(const RayF& ray, Meeting meeting) const
+{
+    if (!on_plane_ || ray.direction.z >= 0.0F) {
+        return meeting;
+    }
+    const float distance = std::max(0.0F, -ray.origin.z / ray.direction.z);
+    if (meeting.what != Meeting::What::Nothing && meeting.distance <= distance) {
+        return meeting;
+    }
+    Meeting plane;
+    plane.what = Meeting::What::Ground;
+    plane.distance = distance;
+    plane.place = ray.origin + distance * ray.direction;
+    plane.place.z = 0.0F;
+    plane.facet = plane.normal = {0.0F, 0.0F, 1.0F};
+    plane.uv = uvOnPlane(plane.place);
+    return plane;
+}
+
+Meeting Scene::fromAir(const RayF& ray) const
+{
+    if (on_plane_ && passesBox(ray)) {
+        return nearerOfPlane(ray, {});
+    }
+    return nearerOfPlane(ray, meet(embree_->air, ray));
+}
+
+Meeting Scene::fromLiquid(const RayF& ray) const
+{
+    return nearerOfPlane(ray, meet(embree_->liquid, ray));
+}
+
+Meeting Scene::dry(const RayF& ray) const
+{
+    return nearerOfPlane(ray, on_plane_ ? Meeting{} : meet(embree_->dry, ray));
+}
+
+}  // namespace droplet

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// R. Ramamoorthi, P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps" (2001).
+#include "picture/studio.h"
+
+#include <numbers>
+
+#include "droplet/units.h"
+
+namespace droplet {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+struct BoxPlace {
+    double azimuth;    // counter-clockwise from the picture's right [°]
+    double elevation;  // [°]
+    float half_width;
+    float half_height;
+    Vec3f radiance;
+};
+
+// Chosen by eye: the key light warm, mirrored toward a camera in front, the other one cool.
+constexpr std::array<BoxPlace, 2> kBoxes = {{
+    {126.0, 37.0, 0.17F, 0.13F, {74.0F, 69.0F, 62.0F}},
+    {28.0, 30.0, 0.06F, 0.36F, {10.0F, 11.8F, 14.0F}},
+}};
+
+Vec3f towards(double azimuth, double elevation)
+{
+    const double a = azimuth * kDegree;
+    const double e = elevation * kDegree;
+    return toFloats({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)});
+}
+
+// Evenly over the sphere, by the golden angle.
+Vec3f onSphere(int index, int count)
+{
+    const float z = 1.0F - 2.0F * (static_cast<float>(index) + 0.5F) / static_cast<float>(count);
+    const double angle = index * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const float radius = std::sqrt(1.0F - z * z);
+    return {radius * static_cast<float>(std::cos(angle)), radius * static_cast<float>(std::sin(angle)), z};
+}
+
+std::array<float, 9> basis(Vec3f d)
+{
+    return {0.282095F,
+            0.488603F * d.y,
+            0.488603F * d.z,
+            0.488603F * d.x,
+            1.092548F * d.x * d.y,
+            1.092548F * d.y * d.z,
+            0.315392F * (3.0F * d.z * d.z - 1.0F),
+            1.092548F * d.x * d.z,
+            0.546274F * (d.x * d.x - d.y * d.y)};
+}
+
+Light lightOf(const SoftBox& box, int across, int upward)
+{
+    Light light;
+    float total = 0.0F;
+    for (int i = 0; i < across; ++i) {
+        for (int j = 0; j < upward; ++j) {
+            const float x = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(across) - 1.0F;
+            const float y = (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(upward) - 1.0F;
+            const Vec3f ahead = box.centre + x * box.half_width * box.right + y * box.half_height * box.up;
+            const Vec3f toward = unit(ahead);
+            // Solid angle of a part of the rectangle at distance 1.
+            const float angle = 4.0F * box.half_width * box.half_height / static_cast<float>(across * upward) /
+                                std::pow(dot(ahead, ahead), 1.5F);
+            const Vec3f irradiance = angle * toward.z * box.seen(toward);
+            light.beams.push_back({toward, irradiance.y});
+            light.irradiance = light.irradiance + irradiance;
+            total += irradiance.y;
+        }
+    }
+    for (Beam& beam : light.beams) {
+        beam.share /= total;
+    }
+    return light;
+}
+
+}  // namespace
+
+Vec3f SoftBox::seen(Vec3f direction) const
+{
+    const float ahead = dot(direction, centre);
+    if (ahead <= 1e-3F) {
+        return {};
+    }
+    const float x = std::abs(dot(direction, right)) / (ahead * half_width);
+    const float y = std::abs(dot(direction, up)) / (ahead * half_height);
+    if (std::max(x, y) > 1.2F) {
+        return {};
+    }
+    const float x2 = x * x;
+    const float y2 = y * y;
+    const float reach = std::sqrt(std::sqrt(x2 * x2 + y2 * y2));
+    const float cloth = 1.0F - 0.35F * std::min(0.5F * (x2 + y2), 1.0F);
+    return (1.0F - smoothstep(0.90F, 1.06F, reach)) * cloth * radiance;
+}
+
+Studio::Studio(Lighting lighting, Turn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
+{
+    if (!uniform_) {
+        for (const BoxPlace& place : kBoxes) {
+            SoftBox box;
+            box.centre = turn(towards(place.azimuth, place.elevation));
+            box.right = unit(cross(box.centre, {0.0F, 0.0F, 1.0F}));
+            box.up = cross(box.right, box.centre);
+            box.half_width = place.half_width;
+            box.half_height = place.half_height;
+            box.radiance = place.radiance;
+            boxes_.push_back(box);
+        }
+        lights_.push_back(lightOf(boxes_[0], 4, 4));
+        lights_.push_back(lightOf(boxes_[1], 1, 5));
+    }
+    // The room as beams of equal weight, evenly over the cosine of their elevation's square: Lambert's law.
+    constexpr int kRoomBeams = 48;
+    Light sky;
+    sky.soft = true;
+    float total = 0.0F;
+    for (int i = 0; i < kRoomBeams; ++i) {
+        const float z = std::sqrt((static_cast<float>(i) + 0.5F) / kRoomBeams);
+        const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        const float radius = std::sqrt(1.0F - z * z);
+        const Vec3f toward =
+            turn({radius * static_cast<float>(std::cos(angle)), radius * static_cast<float>(std::sin(angle)), z});
+        const Vec3f irradiance = kPi / kRoomBeams * room(toward);
+        sky.beams.push_back({toward, irradiance.y});
+        sky.irradiance = sky.irradiance + irradiance;
+        total += irradiance.y;
+    }
+    for (Beam& beam : sky.beams) {
+        beam.share /= total;
+    }
+    lights_.push_back(std::move(sky));
+
+    constexpr int kDirections = 4096;
+    // Share of every band that a cosine lobe lets through, over π.
+    constexpr std::array<float, 9> kLobe = {1.0F,  2.0F / 3.0F, 2.0F / 3.0F, 2.0F / 3.0F, 0.25F,
+                                            0.25F, 0.25F,       0.25F,       0.25F};
+    for (int i = 0; i < kDirections; ++i) {
+        const Vec3f d = onSphere(i, kDirections);
+        const std::array<float, 9> values = basis(d);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            harmonics_[k] = harmonics_[k] + 4.0F * kPi / kDirections * kLobe[k] * values[k] * radiance(d);
+        }
+    }
+}
+
+Vec3f Studio::room(Vec3f direction) const
+{
+    if (uniform_) {
+        return grey(1.0F);
+    }
+    constexpr Vec3f kFloor = {0.10F, 0.13F, 0.16F};
+    constexpr Vec3f kWall = {1.00F, 1.16F, 1.32F};
+    constexpr Vec3f kCeiling = {0.24F, 0.33F, 0.44F};
+    const float z = direction.z;
+    return z < 0.25F ? mix(kFloor, kWall, smoothstep(-0.15F, 0.25F, z))
+                     : mix(kWall, kCeiling, smoothstep(0.25F, 1.0F, z));
+}
+
+Vec3f Studio::radiance(Vec3f direction) const
+{
+    Vec3f sum = room(direction);
+    for (const SoftBox& box : boxes_) {
+        sum = sum + box.seen(direction);
+    }
+    return sum;
+}
+
+Vec3f Studio::backdrop(Vec3f direction) const
+{
+    if (uniform_) {
+        return grey(1.0F);
+    }
+    return mix(kDistance, {0.20F, 0.27F, 0.32F}, smoothstep(0.0F, 0.6F, direction.z));
+}
+
+Vec3f Studio::diffuse(Vec3f normal) const
+{
+    const std::array<float, 9> values = basis(normal);
+    Vec3f sum;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        sum = sum + values[k] * harmonics_[k];
+    }
+    return {std::max(sum.x, 0.0F), std::max(sum.y, 0.0F), std::max(sum.z, 0.0F)};
+}
+
+Vec3f Studio::level() const
+{
+    Vec3f sum;
+    for (const Light& light : lights_) {
+        sum = sum + light.irradiance;
+    }
+    return sum;
+}
+
+}  // namespace droplet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/surface/material.h"
+
+#include <array>
+#include <string>
+
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+struct Entry {
+    Material material;
+    Look look;
+};
+
+// Water's ior at 589 nm, 20 °C; ink is water with dye. Honey: Wedmore's table at 18 % water. Mercury: reflectance
+// in visible light of about 0.78. The other colours are chosen by eye.
+constexpr std::array<Entry, 5> kEntries = {{
+    {Material::Water, {"water", {1.0, 1.0, 1.0}, 0.0, 0.0, 1.0, 1.333, false}},
+    {Material::Ink, {"ink", {0.03, 0.06, 0.35}, 0.0, 0.0, 1.0, 1.333, true}},
+    {Material::Mercury, {"mercury", {0.78, 0.78, 0.78}, 1.0, 0.02, 0.0, 1.5, false}},
+    {Material::Honey, {"honey", {0.9, 0.5, 0.1}, 0.0, 0.0, 1.0, 1.489, true}},
+    {Material::Plain, {"plain", {0.8, 0.8, 0.8}, 0.0, 0.5, 0.0, 1.5, false}},
+}};
+
+}  // namespace
+
+Look lookOf(Material material)
+{
+    for (const Entry& entry : kEntries) {
+        if (entry.material == material) {
+            return entry.look;
+        }
+    }
+    throw Error(ErrorCode::InvalidArgument, "options.material = " + std::to_string(static_cast<int>(material)) +
+                                                " must be one of the " + std::to_string(kEntries.size()) +
+                                                " materials");
+}
+
+Material materialNamed(std::string_view name)
+{
+    std::string known;
+    for (const Entry& entry : kEntries) {
+        if (name == entry.look.name) {
+            return entry.material;
+        }
+        known += std::string(" ") + entry.look.name;
+    }
+    throw Error(ErrorCode::InvalidArgument, "material \"" + std::string(name) + "\" is unknown; known are" + known);
+}
+
+}  // namespace droplet

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/picture/paint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using testing::roundDroplet;
+using testing::withContactAngles;
+
+TEST(RoundStep, IsOneTwoOrFiveTimesAPowerOfTen)
+{
+    EXPECT_DOUBLE_EQ(roundStep(10.0, 10.0), 1.0);
+    EXPECT_DOUBLE_EQ(roundStep(19.0, 10.0), 2.0);
+    EXPECT_DOUBLE_EQ(roundStep(40.0, 10.0), 5.0);
+    EXPECT_DOUBLE_EQ(roundStep(80.0, 10.0), 10.0);
+    EXPECT_NEAR(roundStep(3e-4, 12.0), 2e-5, 1e-12);
+    for (double span = 1e-7; span < 1e3; span *= 1.07) {
+        const double parts = span / roundStep(span, 12.0);
+        EXPECT_GT(parts, 7.5) << span;
+        EXPECT_LT(parts, 19.0) << span;
+    }
+}
+
+TEST(HeightPaint, CountsFromTheGroundInRoundSteps)
+{
+    for (const double height : {3.3e-6, 0.4e-3, 1.7e-3, 12e-3}) {
+        const Surface surface = roundDroplet({.height = height});
+        const Paint paint = heightPaint(surface);
+        paint.validate(surface.positions.size());
+        for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+            EXPECT_DOUBLE_EQ(paint.values[v], surface.positions[v].z);
+        }
+        EXPECT_EQ(paint.low, 0.0);
+        EXPECT_GE(paint.high, height * (1.0 - 1e-9));
+        EXPECT_NEAR(std::remainder(paint.high, paint.line_spacing.value()), 0.0, 1e-9 * height);
+        EXPECT_EQ(paint.unit, height < 1e-3 ? 1e-6 : 1e-3);
+    }
+}
+
+TEST(ContactAnglePaint, ShowsAnglesAlongTheRimAlone)
+{
+    const Surface surface = withContactAngles(roundDroplet({.rings = 12, .segments = 48}));
+    const Paint paint = contactAnglePaint(surface);
+    paint.validate(surface.positions.size());
+    int rim = 0;
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        if (surface.contact_angle[v] != 0.0F) {
+            EXPECT_DOUBLE_EQ(paint.values[v], static_cast<double>(surface.contact_angle[v]));
+            EXPECT_EQ(paint.share[v], 1.0);
+            EXPECT_LE(paint.low, paint.values[v]);
+            EXPECT_GE(paint.high, paint.values[v]);
+            ++rim;
+        } else if (std::hypot(surface.positions[v].x, surface.positions[v].y) < 2e-3) {
+            EXPECT_EQ(paint.share[v], 0.0);
+        }
+    }
+    EXPECT_EQ(rim, 48);
+    EXPECT_THROW(contactAnglePaint(roundDroplet()), Error);
+}
+
+TEST(ContactAnglePaint, OfOneAngleHasASpan)
+{
+    Surface surface = roundDroplet();
+    surface.contact_angle.assign(surface.positions.size(), 0.0F);
+    for (std::size_t v = 0; v < surface.weld.size(); ++v) {
+        if (surface.weld[v] != v) {
+            surface.contact_angle[surface.weld[v]] = 0.7F;
+        }
+    }
+    contactAnglePaint(surface).validate(surface.positions.size());
+}
+
+TEST(Paint, RefusesWhatDoesNotFit)
+{
+    const Surface surface = roundDroplet();
+    const std::size_t n = surface.positions.size();
+    const auto refused = [&](const auto& change) {
+        Paint paint = heightPaint(surface);
+        change(paint);
+        EXPECT_THROW(paint.validate(n), Error);
+    };
+    refused([](Paint& p) { p.values.pop_back(); });
+    refused([](Paint& p) { p.values[1] = std::numeric_limits<double>::infinity(); });
+    refused([](Paint& p) { p.share = {1.0}; });
+    refused([n](Paint& p) { p.share.assign(n, 1.5); });
+    refused([](Paint& p) { p.scale.resize(1); });
+    refused([](Paint& p) { p.scale[0].x = 1.1; });
+    refused([](Paint& p) { p.high = p.low; });
+    refused([](Paint& p) { p.unit = 0.0; });
+    refused([](Paint& p) { p.line_spacing = 0.0; });
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/picture/render.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <xmmintrin.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "picture/camera.h"
+#include "picture/ground.h"
+#include "picture/scene.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using testing::kExtent;
+using testing::roundDroplet;
+
+constexpr std::array kViews = {View::ThreeQuarter, View::Top, View::Side};
+
+RenderOptions small(View view = View::ThreeQuarter)
+{
+    RenderOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.view = view;
+    options.lighting = Lighting::Uniform;
+    options.extent = {kExtent, kExtent};
+    return options;
+}
+
+Look ofIndex(double ior)
+{
+    Look look = lookOf(Material::Water);
+    look.ior = ior;
+    return look;
+}
+
+// Red grows to the right and green downward, in linear light; blue is the same everywhere.
+Picture slopes()
+{
+    constexpr int kSide = 128;
+    Picture picture{kSide, kSide, {}};
+    const auto level = [](int i) {
+        return static_cast<std::uint8_t>(
+            std::lrint(255.0F * toDisplay(0.1F + 0.8F * (static_cast<float>(i) + 0.5F) / kSide)));
+    };
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            picture.rgb.insert(picture.rgb.end(), {level(x), level(y), 128});
+        }
+    }
+    return picture;
+}
+
+// The level slopes() has at a uv of one axis.
+double levelAt(double uv)
+{
+    return static_cast<double>(255.0F * toDisplay(static_cast<float>(0.1 + 0.8 * uv)));
+}
+
+std::array<int, 3> pixelAt(const Picture& picture, int x, int y)
+{
+    const auto at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+    return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
+}
+
+// A level film's upper side alone, far wider than the pictures look.
+Surface film(double height, double half_side)
+{
+    Surface surface;
+    for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        surface.positions.push_back({x * half_side, y * half_side, height});
+        surface.normals.push_back({0.0, 0.0, 1.0});
+        surface.uvs.push_back({0.5 + x * half_side / kExtent, 0.5 - y * half_side / kExtent});
+        surface.weld.push_back(static_cast<std::uint32_t>(surface.weld.size()));
+    }
+    surface.triangles = {{0, 1, 2}, {0, 2, 3}};
+    surface.mean_height = height;
+    return surface;
+}
+
+// The furnace: where all that light ends in is equally bright, refraction and reflection must neither add nor lose any.
+TEST(Render, ClearDropletIsInvisibleInAWhiteFurnace)
+{
+    const std::vector<Surface> surfaces = {
+        roundDroplet({.height = 0.5e-3, .rings = 6, .segments = 32}),
+        roundDroplet({.height = 6e-3, .rings = 12, .segments = 32}),
+        roundDroplet({.inner = 2e-3, .height = 1e-3, .rings = 6, .segments = 32}),
+        roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .open = true}),
+    };
+    for (const Surface& surface : surfaces) {
+        for (const View view : kViews) {
+            for (const double ior : {1.0, 1.333, 2.4}) {
+                RenderOptions options = small(view);
+                options.look = ofIndex(ior);
+                EXPECT_THAT(render(surface, options).rgb, ::testing::Each(::testing::Ge(254)))
+                    << ior << ' ' << static_cast<int>(view);
+            }
+        }
+    }
+}
+
+TEST(Render, FurnaceHoldsOnCurvedGround)
+{
+    const BaseSurface sphere = BaseSurface::sphere(30e-3);
+    Surface surface = roundDroplet({.height = 1e-3, .rings = 12, .segments = 48});
+    for (Vec3& p : surface.positions) {
+        p.z += sphere.at({p.x, p.y}).height;
+    }
+    RenderOptions options = small();
+    options.stand = groundMesh(sphere, {kExtent, kExtent});
+    EXPECT_THAT(render(surface, options).rgb, ::testing::Each(::testing::Ge(254)));
+    options.stand.reset();
+    EXPECT_THAT(render(surface, options).rgb, ::testing::Each(::testing::Ge(254)));
+}
+
+// From above, and with a droplet that bends no light, the picture of the ground lies where its uv say.
+TEST(Render, GroundPictureLiesWhereUvSays)
+{
+    const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .centre = {2e-3, -1e-3}});
+    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    for (const View view : {View::Top, View::ThreeQuarter}) {
+        for (const double azimuth : {0.0, 0.7}) {
+            RenderOptions options = small(view);
+            options.azimuth = azimuth;
+            options.look = ofIndex(1.0);
+            options.ground = slopes();
+            const Picture picture = render(surface, options);
+            const Camera camera(scene.shown(), options);
+            int compared = 0;
+            for (int y = 0; y < options.height; ++y) {
+                for (int x = 0; x < options.width; ++x) {
+                    const Vec2 uv =
+                        scene.dry(camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F)).uv;
+                    if (std::min(uv.x, uv.y) > 0.02 && std::max(uv.x, uv.y) < 0.98) {
+                        ASSERT_NEAR(pixelAt(picture, x, y)[0], levelAt(uv.x), 1.6) << x << ' ' << y;
+                        ASSERT_NEAR(pixelAt(picture, x, y)[1], levelAt(uv.y), 1.6) << x << ' ' << y;
+                        ASSERT_EQ(pixelAt(picture, x, y)[2], 128);
+                        ++compared;
+                    }
+                }
+            }
+            EXPECT_GT(compared, 1000);
+        }
+    }
+}
+
+// Snell, Fresnel and the light that scatters below a film: the colour of every pixel by hand.
+TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
+{
+    constexpr double kHeight = 1.5e-3;
+    constexpr double kIndex = 1.5;
+    const Surface surface = film(kHeight, 9e-3);
+    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    RenderOptions options = small();
+    options.look = ofIndex(kIndex);
+    options.ground = slopes();
+    const Picture picture = render(surface, options);
+    const Camera camera(scene.shown(), options);
+    const double returned = 1.0 - (1.0 - diffuseReflectance(kIndex)) / (kIndex * kIndex);
+    int compared = 0;
+    for (int y = 0; y < options.height; ++y) {
+        for (int x = 0; x < options.width; ++x) {
+            const RayF ray = camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+            const double cosine = static_cast<double>(-ray.direction.z);
+            const double sine = std::sqrt(1.0 - cosine * cosine);
+            const double inner_sine = sine / kIndex;
+            const double inner_cosine = std::sqrt(1.0 - inner_sine * inner_sine);
+            const double top = kHeight / scene.scale();
+            const double down = (static_cast<double>(ray.origin.z) - top) / cosine;
+            // Along the ray to the film, and below it as far as the steeper way leads.
+            const double shift = top * inner_sine / inner_cosine / sine;
+            const Vec3f place = ray.origin + static_cast<float>(down) * ray.direction;
+            const Vec2 at{static_cast<double>(place.x), static_cast<double>(place.y)};
+            const Vec2 ahead{static_cast<double>(ray.direction.x), static_cast<double>(ray.direction.y)};
+            const Vec2 landed = at + shift * ahead;
+            const double edge = 8.5e-3 / scene.scale();
+            if (std::max({std::abs(at.x), std::abs(at.y), std::abs(landed.x), std::abs(landed.y)}) > edge) {
+                continue;
+            }
+            const Vec2 uv = scene.uvOnPlane({static_cast<float>(landed.x), static_cast<float>(landed.y), 0.0F});
+            const double across = (cosine - kIndex * inner_cosine) / (cosine + kIndex * inner_cosine);
+            const double along = (inner_cosine - kIndex * cosine) / (inner_cosine + kIndex * cosine);
+            const double reflected = 0.5 * (across * across + along * along);
+            const double matter = 0.1 + 0.8 * uv.x;
+            const double light = reflected + (1.0 - reflected) * matter * (1.0 - returned) / (1.0 - returned * matter);
+            ASSERT_NEAR(pixelAt(picture, x, y)[0], static_cast<double>(255.0F * toDisplay(static_cast<float>(light))),
+                        1.6)
+                << x << ' ' << y;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 1000);
+}
+
+TEST(Render, PictureOfAMirrorImageIsTheMirroredPicture)
+{
+    // Ground and droplet are the same to the left and right.
+    RenderOptions options = small(View::Top);
+    options.ground = slopes();
+    for (std::size_t i = 0; i < options.ground->rgb.size(); i += 3) {
+        options.ground->rgb[i] = 90;
+    }
+    const Picture picture = render(roundDroplet({.height = 2e-3, .rings = 16, .segments = 64}), options);
+    double sum = 0.0;
+    for (int y = 0; y < options.height; ++y) {
+        for (int x = 0; x < options.width; ++x) {
+            const int difference = pixelAt(picture, x, y)[1] - pixelAt(picture, options.width - 1 - x, y)[1];
+            sum += std::abs(difference);
+            EXPECT_LE(std::abs(difference), 20);  // of pixels on an edge, whose samples are not mirrored
+        }
+    }
+    EXPECT_LT(sum / (options.width * options.height), 0.5);
+}
+
+TEST(Render, GivesTheSameBytesAtAnyNumberOfThreads)
+{
+    const Surface surface = roundDroplet({.height = 2e-3, .rings = 10, .segments = 48});
+    for (const Material material : {Material::Water, Material::Ink, Material::Mercury, Material::Plain}) {
+        RenderOptions options = small();
+        options.lighting = Lighting::Studio;
+        options.look = lookOf(material);
+        const auto made = [&](std::size_t threads) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            return render(surface, options);
+        };
+        const Picture one = made(1);
+        EXPECT_EQ(one, made(2));
+        EXPECT_EQ(one, made(4));
+    }
+}
+
+TEST(Render, LeavesFloatingPointModesAlone)
+{
+    const unsigned before = _mm_getcsr();
+    render(roundDroplet(), small());
+    constexpr unsigned kFlags = 0x3fU;  // what has happened, not what shall
+    EXPECT_EQ(_mm_getcsr() & ~kFlags, before & ~kFlags);
+}
+
+TEST(Render, WaterShowsHighlightsAndShadows)
+{
+    RenderOptions options = small();
+    options.lighting = Lighting::Studio;
+    options.width = 160;
+    options.height = 120;
+    options.extent = {kExtent, kExtent};
+    options.ground = Picture{1, 1, {128, 128, 128}};
+    const auto extremes = [&](const Surface& surface) {
+        const Picture picture = render(surface, options);
+        int darkest = 255;
+        int brightest = 0;
+        for (std::size_t i = 1; i < picture.rgb.size(); i += 3) {
+            darkest = std::min<int>(darkest, picture.rgb[i]);
+            brightest = std::max<int>(brightest, picture.rgb[i]);
+        }
+        return std::pair(darkest, brightest);
+    };
+    const auto [darkest, brightest] = extremes(roundDroplet({.height = 2e-3, .rings = 24, .segments = 96}));
+    EXPECT_GT(brightest, 235);
+    options.look = ofIndex(1.0);
+    const auto [plain_darkest, plain_brightest] = extremes(roundDroplet({.height = 2e-3, .rings = 24, .segments = 96}));
+    EXPECT_LT(plain_brightest, 200);
+    EXPECT_LT(darkest, plain_darkest - 20);
+}
+
+// Whatever the view, all is in the picture and fills it up to the margin.
+TEST(Camera, FramesEverything)
+{
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    for (const View view : kViews) {
+        for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
+            RenderOptions options = small(view);
+            options.width = width;
+            options.height = height;
+            const Camera camera(scene.shown(), options, width / 10);
+            Vec2 low{1e9, 1e9};
+            Vec2 high{-1e9, -1e9};
+            for (const Vec3f& p : scene.shown()) {
+                const Vec2 at = camera.seen(p);
+                low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+                high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+            }
+            EXPECT_GT(std::min(low.x, low.y), 0.0);
+            EXPECT_LT(high.x, 0.9 * width);
+            EXPECT_LT(high.y, height);
+            EXPECT_NEAR(std::max((high.x - low.x) / (0.9 * width), (high.y - low.y) / height), 0.86, 0.01);
+        }
+    }
+}
+
+TEST(Camera, FramesATurntableOnceForAllTurns)
+{
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    RenderOptions options = small(View::Side);
+    options.fits_any_turn = true;
+    const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
+    for (const double azimuth : {0.5, 2.0, 4.5}) {
+        options.azimuth = azimuth;
+        const Camera camera(scene.shown(), options);
+        EXPECT_NEAR(camera.seen({0.0F, 0.0F, 0.5F}).x, top.x, 0.01);
+        EXPECT_NEAR(camera.seen({0.0F, 0.0F, 0.5F}).y, top.y, 0.01);
+        for (const Vec3f& p : scene.shown()) {
+            EXPECT_GT(std::min(camera.seen(p).x, camera.seen(p).y), 0.0);
+            EXPECT_LT(camera.seen(p).x, options.width);
+            EXPECT_LT(camera.seen(p).y, options.height);
+        }
+    }
+}
+
+// A point on the right comes to the front when the droplet is turned counter-clockwise by three quarters.
+TEST(Camera, TurnsTheDropletCounterClockwise)
+{
+    const Scene scene(roundDroplet(), nullptr, {});
+    RenderOptions options = small(View::Top);
+    options.azimuth = 90.0 * kDegree;
+    const Camera camera(scene.shown(), options);
+    EXPECT_NEAR(camera.seen({0.5F, 0.0F, 0.0F}).x, 32.0, 0.01);
+    EXPECT_LT(camera.seen({0.5F, 0.0F, 0.0F}).y, 20.0);
+}
+
+TEST(Render, PaintHasItsColours)
+{
+    const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32});
+    RenderOptions options = small(View::Top);
+    Paint paint;
+    paint.values.assign(surface.positions.size(), 0.25);
+    paint.scale = {{0.0, 0.2, 1.0}, {1.0, 0.2, 0.0}};
+    options.paint = paint;
+    EXPECT_THAT(pixelAt(render(surface, options), 32, 24), ::testing::ElementsAre(64, 51, 191));
+    paint.share.assign(surface.positions.size(), 0.0);
+    options.paint = paint;
+    const auto plain = pixelAt(render(surface, options), 32, 24);
+    EXPECT_NEAR(plain[0], plain[2], 8);
+}
+
+TEST(Render, RefusesWhatItCannotDo)
+{
+    const Surface surface = roundDroplet();
+    const auto refused = [&](const auto& change, const std::string& words) {
+        RenderOptions options = small();
+        change(options);
+        try {
+            render(surface, options);
+            ADD_FAILURE() << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+            EXPECT_THAT(error.what(), ::testing::HasSubstr(words));
+        }
+    };
+    constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+    refused([](RenderOptions& o) { o.width = 0; }, "options.width = 0");
+    refused([](RenderOptions& o) { o.height = 8193; }, "options.height = 8193");
+    refused([](RenderOptions& o) { o.samples = 3; }, "options.samples = 3");
+    refused([](RenderOptions& o) { o.samples = 257; }, "options.samples = 257");
+    refused([](RenderOptions& o) { o.azimuth = kNoNumber; }, "options.azimuth");
+    refused([](RenderOptions& o) { o.look.ior = 0.9; }, "options.look.ior");
+    refused([](RenderOptions& o) { o.look.ior = kNoNumber; }, "options.look.ior");
+    refused([](RenderOptions& o) { o.extent.x = -1.0; }, "options.extent");
+    refused([](RenderOptions& o) { o.ground = slopes(), o.extent = {}; }, "options.extent");
+    refused([](RenderOptions& o) { o.ground = Picture{}; }, "picture");
+    refused([](RenderOptions& o) { o.stand = TexturedMesh{}; }, "");
+    refused([](RenderOptions& o) { o.paint = Paint{}; }, "paint.values");
+    EXPECT_THROW(render(Surface{}, small()), Error);
+    EXPECT_THROW(viewNamed("below"), Error);
+    EXPECT_THROW(groundMesh(BaseSurface(), {1.0, 1.0}), Error);
+    EXPECT_EQ(viewNamed("side"), View::Side);
+}
+
+// Of a sphere smaller than the image there is ground in the middle alone.
+TEST(GroundMesh, EndsWhereTheGroundDoes)
+{
+    const TexturedMesh mesh = groundMesh(BaseSurface::sphere(4e-3), {kExtent, kExtent});
+    mesh.validate();
+    for (const Vec3& p : mesh.positions) {
+        EXPECT_NEAR(length(p - Vec3{0.0, 0.0, -4e-3}), 4e-3, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace droplet
