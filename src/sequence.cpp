@@ -342,13 +342,16 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
             links.push_back({group.before.front(), group.after.front(), 1.0});
         }
     }
+    DropletOptions now = options.droplet;
+    if (options.volume_mode == VolumeMode::Total) {
+        now.solve.fill = {FillBy::Volume, volumeOf(before.droplets), FillSharing::Total};
+    }
     const bool followed = options.keep_vertices && one_to_one && !anyDry(before.droplet) && followAll(before, frame);
     if (!followed) {
-        meshAnew(options.droplet, frame);
+        meshAnew(now, frame);
     }
     frame.droplets.resize(domain.droplets.size());
     nameDroplets(before, groups, links, frame);
-    DropletOptions now = options.droplet;
     if (options.volume_mode == VolumeMode::Track) {
         passVolumes(before, groups, options.droplet.solve, frame);
         now.solve.fill.by = FillBy::Volume;
@@ -356,8 +359,6 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         for (const Ancestry& droplet : frame.droplets) {
             now.solve.volumes.push_back(droplet.volume);
         }
-    } else {
-        now.solve.fill = {FillBy::Volume, volumeOf(before.droplets), FillSharing::Total};
     }
     finish(frame.droplet, now, frame.bases, progress);
     if (options.volume_mode == VolumeMode::Total) {

@@ -116,8 +116,49 @@ private:
     std::vector<double> arc_;
 };
 
+/// For every corner of the loop the bend of the rim that becomes it, if each is the other's nearest.
+std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)
+{
+    constexpr double kBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
+    const std::size_t count = moved.size();
+    std::vector<std::size_t> bends;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec2 in = moved[v] - moved[(v + count - 1) % count];
+        const Vec2 out = moved[(v + 1) % count] - moved[v];
+        if (std::abs(std::atan2(cross(in, out), dot(in, out))) > kBend) {
+            bends.push_back(v);
+        }
+    }
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+        if (loop.corner[i] != 0) {
+            corners.push_back(i);
+        }
+    }
+    const auto nearest = [](Vec2 p, const std::vector<std::size_t>& among, const std::vector<Vec2>& points) {
+        return *std::min_element(among.begin(), among.end(), [&](std::size_t a, std::size_t b) {
+            return length(points[a] - p) < length(points[b] - p);
+        });
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const std::size_t i : corners) {
+        if (!bends.empty()) {
+            const std::size_t v = nearest(loop.points[i], bends, moved);
+            if (nearest(moved[v], corners, loop.points) == i) {
+                pairs.emplace_back(i, v);
+            }
+        }
+    }
+    return pairs;
+}
+
 /// How far on the new loop every vertex is ahead of its share of the whole, one common lead for a rigid motion.
-std::vector<double> leadsOf(const Curve& before, const Curve& after, const std::vector<Vec2>& moved)
+struct Leads {
+    std::vector<double> values;
+    std::vector<std::uint8_t> fixed;  ///< 1 at vertices that become corners
+};
+
+Leads leadsOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
 {
     const std::size_t count = moved.size();
     const double ratio = after.length() / before.length();
@@ -143,13 +184,18 @@ std::vector<double> leadsOf(const Curve& before, const Curve& after, const std::
     }
     // The nearest way is looked for an eighth of the loop to both sides of that.
     constexpr double kReach = 0.125;
-    std::vector<double> leads(count);
+    Leads leads{std::vector<double>(count), std::vector<std::uint8_t>(count, 0)};
     for (std::size_t v = 0; v < count; ++v) {
         const double expected = ratio * before.arc(v) + common;
         const double from = expected - kReach * after.length();
         std::size_t pieces = after.pieceAt(expected + kReach * after.length()) + after.size() - after.pieceAt(from);
         pieces = pieces % after.size() + 1;
-        leads[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
+        leads.values[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
+    }
+    for (const auto& [corner, v] : cornerPairs(loop, moved)) {
+        const double lead = after.arc(corner) - ratio * before.arc(v);
+        leads.values[v] = common + std::remainder(lead - common, after.length());
+        leads.fixed[v] = 1;
     }
     return leads;
 }
@@ -168,45 +214,44 @@ bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<dou
     return true;
 }
 
-std::vector<double> placesOf(const Curve& before, const Curve& after, const std::vector<Vec2>& moved)
+/// Where on the new loop every vertex goes, and which of them become corners.
+struct Places {
+    std::vector<double> values;
+    std::vector<std::uint8_t> fixed;
+};
+
+Places placesOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
 {
     const std::size_t count = moved.size();
     const double ratio = after.length() / before.length();
-    std::vector<double> leads = leadsOf(before, after, moved);
-    std::vector<double> places(count);
-    const std::size_t most_passes = 4 * count;
+    Leads leads = leadsOf(before, after, loop, moved);
+    Places places{std::vector<double>(count), leads.fixed};
+    const std::size_t most_passes = 16 * count;
     for (std::size_t done = 0, passes = 1;; passes *= 4) {
         for (std::size_t v = 0; v < count; ++v) {
-            places[v] = ratio * before.arc(v) + leads[v];
+            places.values[v] = ratio * before.arc(v) + leads.values[v];
         }
-        if (evenlySpaced(before, after, places)) {
+        if (done > most_passes || evenlySpaced(before, after, places.values)) {
             return places;
         }
-        if (done > most_passes) {
-            break;
-        }
         for (; done < passes; ++done) {
-            std::vector<double> evened(count);
+            std::vector<double> evened = leads.values;
             for (std::size_t v = 0; v < count; ++v) {
-                evened[v] = 0.25 * (leads[(v + count - 1) % count] + leads[(v + 1) % count]) + 0.5 * leads[v];
+                if (leads.fixed[v] == 0) {
+                    evened[v] = 0.25 * (leads.values[(v + count - 1) % count] + leads.values[(v + 1) % count]) +
+                                0.5 * leads.values[v];
+                }
             }
-            leads = std::move(evened);
+            leads.values = std::move(evened);
         }
     }
-    double mean = 0.0;
-    for (const double lead : leads) {
-        mean += lead / static_cast<double>(count);
-    }
-    for (std::size_t v = 0; v < count; ++v) {
-        places[v] = ratio * before.arc(v) + mean;
-    }
-    return places;
 }
 
-/// Gives every corner of the loop the vertex next to it; false if two want the same or none is near.
-bool takeCorners(const Loop& loop, const Curve& after, std::vector<double>& places, std::vector<std::uint8_t>& fixed)
+/// Gives every corner of the loop the vertex next to it; false if two want the same.
+bool takeCorners(const Loop& loop, const Curve& after, Places& places)
 {
-    const std::size_t count = places.size();
+    const std::size_t count = places.values.size();
+    std::vector<std::uint8_t> taken(count, 0);
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
         if (loop.corner[i] == 0) {
             continue;
@@ -215,7 +260,7 @@ bool takeCorners(const Loop& loop, const Curve& after, std::vector<double>& plac
         double least = std::numeric_limits<double>::infinity();
         double move = 0.0;
         for (std::size_t v = 0; v < count; ++v) {
-            const double ahead = after.wrapped(after.arc(i) - places[v]);
+            const double ahead = after.wrapped(after.arc(i) - places.values[v]);
             const double way = ahead < 0.5 * after.length() ? ahead : ahead - after.length();
             if (std::abs(way) < least) {
                 least = std::abs(way);
@@ -223,11 +268,12 @@ bool takeCorners(const Loop& loop, const Curve& after, std::vector<double>& plac
                 best = v;
             }
         }
-        if (fixed[best] != 0) {
+        if (taken[best] != 0) {
             return false;
         }
-        fixed[best] = 1;
-        places[best] += move;
+        taken[best] = 1;
+        places.fixed[best] = 1;
+        places.values[best] += move;
     }
     return true;
 }
@@ -308,16 +354,15 @@ std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const
     }
     const Curve before(points);
     const Curve after(loop.points);
-    std::vector<double> places = placesOf(before, after, moved);
-    std::vector<std::uint8_t> fixed(points.size(), 0);
-    if (!takeCorners(loop, after, places, fixed)) {
+    Places places = placesOf(before, after, loop, moved);
+    if (!takeCorners(loop, after, places)) {
         return std::nullopt;
     }
     for (std::size_t v = 0; v < points.size(); ++v) {
-        moved[v] = after.at(places[v]);
+        moved[v] = after.at(places.values[v]);
     }
-    keepArea(area_after, fixed, moved);
-    return hugs(loop, after, places, moved) ? std::optional(moved) : std::nullopt;
+    keepArea(area_after, places.fixed, moved);
+    return hugs(loop, after, places.values, moved) ? std::optional(moved) : std::nullopt;
 }
 
 /// For every loop of the mesh the one of the footprint it becomes.
