@@ -16,9 +16,9 @@ namespace droplet {
 struct AnimationOptions {
     double frames_per_second = 24.0;  ///< > 0
     Material material = Material::Water;
-    bool closed = true;                 ///< as in GltfOptions
-    std::optional<std::size_t> frames;  ///< how many are to come, where that is known: too large a file is then refused
-                                        ///< with the first
+    bool closed = true;                      ///< as in GltfOptions
+    std::optional<std::size_t> frames = {};  ///< how many are to come, where that is known: too large a file is then
+                                             ///< refused with the first
 
     /// @throws Error InvalidArgument
     void validate() const;
