@@ -9,6 +9,7 @@
 #include "droplet/error.h"
 #include "droplet/shape/spread.h"
 #include "droplet/units.h"
+#include "river.h"
 #include "shape/cap.h"
 
 namespace droplet {
@@ -129,8 +130,11 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
            "); try another number of triangles";
 }
 
-void checkSolve(const DropletOptions& options)
+}  // namespace
+
+void checkRiver(const DropletOptions& options)
 {
+    options.mesh.validate();
     options.solve.validate();
     if (options.fill_range) {
         options.fill_range->validate();
@@ -138,51 +142,56 @@ void checkSolve(const DropletOptions& options)
     }
 }
 
-}  // namespace
-
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progress& progress)
 {
     options.trace.validate();
-    options.mesh.validate();
-    checkSolve(options);
+    checkRiver(options);
     if (progress) {
         progress(Stage::Trace);
     }
     return makeDroplet(trace(mask, options.trace), options, progress);
 }
 
-Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
+std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options)
 {
-    options.mesh.validate();
-    checkSolve(options);
-    const auto begin = [&](Stage stage) {
-        if (progress) {
-            progress(stage);
-        }
-    };
-    Droplet droplet;
-    droplet.outline = std::move(outline);
-    droplet.domain = split(droplet.outline);
-    begin(Stage::Triangulate);
-    droplet.meshes = triangulate(droplet.domain, options.mesh);
-    if (options.solve.model == Model::Exact) {
-        droplet.meshes = spread(std::move(droplet.meshes), options.solve);
-    }
+    std::vector<PlanarMesh> meshes = triangulate(domain, options.mesh);
+    return options.solve.model == Model::Exact ? spread(std::move(meshes), options.solve) : meshes;
+}
+
+void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
+            const Progress& progress)
+{
     droplet.solution = solve(droplet.meshes, options.solve, progress);
     if (!droplet.solution.report.usable()) {
         throw Error(ErrorCode::NoSuchDroplet, refusal(droplet.solution.report, droplet, options.solve.fill));
     }
-    begin(Stage::Loft);
+    if (progress) {
+        progress(Stage::Loft);
+    }
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
         droplet.figures.push_back(measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
     }
     droplet.total = combine(droplet.figures);
-    LoftOptions lofting{.open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground};
+    LoftOptions lofting{
+        .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
     if (options.fill_range) {
         lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, options.solve)};
     }
     droplet.surface = loft(droplet.meshes, droplet.solution.droplets, lofting);
     droplet.warnings = warningsOf(droplet, options);
+}
+
+Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
+{
+    checkRiver(options);
+    Droplet droplet;
+    droplet.outline = std::move(outline);
+    droplet.domain = split(droplet.outline);
+    if (progress) {
+        progress(Stage::Triangulate);
+    }
+    droplet.meshes = meshesOf(droplet.domain, options);
+    finish(droplet, options, {}, progress);
     return droplet;
 }
 

@@ -5,14 +5,10 @@
 
 #include <tiny_gltf.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <sstream>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -21,21 +17,14 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
-#include "io/axes.h"
 #include "io/byte_stream.h"
+#include "io/gltf_model.h"
 
 namespace droplet {
 namespace {
 
-// The writer keeps offsets in int; viewers' limits are of the same order.
-constexpr std::uint64_t kFileLimit = std::uint64_t{1} << 31;
-
 // Above the JSON's length beside an embedded buffer: fewer than 60 numbers and names, each shorter than 60 characters.
 constexpr std::uint64_t kJsonBound = 4096;
-
-// 65535 restarts primitives; with fewer vertices it can be no index.
-constexpr std::size_t kVerticesBeyond16Bit = 65535;
 
 // Position 3, normal 3, uv 2, contact angle 1, changes of position and normal 6.
 std::uint64_t vertexBytes(const Surface& surface)
@@ -54,7 +43,7 @@ void checkFileSize(const Surface& surface, bool binary)
     const std::uint64_t buffer =
         vertexBytes(surface) * surface.positions.size() + 3 * index_bytes * surface.triangles.size();
     const std::uint64_t file = kJsonBound + (binary ? buffer : (buffer + 2) / 3 * 4);
-    if (file >= kFileLimit) {
+    if (file >= kGltfFileLimit) {
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
                                                     " triangles would make a glTF file of " + std::to_string(file) +
                                                     " bytes; it must stay below 2 GiB");
@@ -77,84 +66,6 @@ void checkFloats(const Surface& surface)
     }
 }
 
-tinygltf::Value::Array colourValue(Vec3 colour)
-{
-    return {tinygltf::Value(colour.x), tinygltf::Value(colour.y), tinygltf::Value(colour.z)};
-}
-
-tinygltf::Material makeMaterial(const Look& look, const Surface& surface, bool closed)
-{
-    tinygltf::Material material;
-    material.name = look.name;
-    material.pbrMetallicRoughness.metallicFactor = look.metallic;
-    material.pbrMetallicRoughness.roughnessFactor = look.roughness;
-    // A thickness of 0 means thin-walled, and the distance of attenuation must be positive.
-    const bool has_volume = look.transmission > 0.0 && closed && surface.mean_height > 0.0;
-    if (!has_volume || !look.tinted) {
-        material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, 1.0};
-    }
-    if (look.transmission > 0.0) {
-        material.extensions["KHR_materials_transmission"] =
-            tinygltf::Value(tinygltf::Value::Object{{"transmissionFactor", tinygltf::Value(look.transmission)}});
-        material.extensions["KHR_materials_ior"] =
-            tinygltf::Value(tinygltf::Value::Object{{"ior", tinygltf::Value(look.ior)}});
-    }
-    if (has_volume) {
-        tinygltf::Value::Object volume{{"thicknessFactor", tinygltf::Value(surface.mean_height)}};
-        if (look.tinted) {
-            volume["attenuationColor"] = tinygltf::Value(colourValue(look.colour));
-            volume["attenuationDistance"] = tinygltf::Value(surface.mean_height);
-        }
-        material.extensions["KHR_materials_volume"] = tinygltf::Value(std::move(volume));
-    }
-    return material;
-}
-
-std::size_t bufferBytes(const tinygltf::Model& model)
-{
-    return model.bufferViews.empty() ? 0 : model.bufferViews.back().byteOffset + model.bufferViews.back().byteLength;
-}
-
-// Puts an array behind the last one in the buffer; returns the accessor on it.
-int addArray(tinygltf::Model& model, int target, int component_type, int type, std::size_t count)
-{
-    const int element_bytes = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)) *
-                              tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = bufferBytes(model);
-    view.byteLength = count * static_cast<std::size_t>(element_bytes);
-    view.target = target;
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model.bufferViews.size());
-    accessor.componentType = component_type;
-    accessor.type = type;
-    accessor.count = count;
-    model.bufferViews.push_back(std::move(view));
-    model.accessors.push_back(std::move(accessor));
-    return static_cast<int>(model.accessors.size()) - 1;
-}
-
-int addVertexArray(tinygltf::Model& model, int type, std::size_t count)
-{
-    return addArray(model, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);
-}
-
-// Bounds of the floats, exactly: rounding keeps the order of numbers.
-void addBounds(tinygltf::Accessor& accessor, const std::vector<Vec3>& positions)
-{
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Vec3 low{kInfinity, kInfinity, kInfinity};
-    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
-    for (const Vec3& position : positions) {
-        const Vec3 up = yUp(position);
-        low = {std::min(low.x, up.x), std::min(low.y, up.y), std::min(low.z, up.z)};
-        high = {std::max(high.x, up.x), std::max(high.y, up.y), std::max(high.z, up.z)};
-    }
-    accessor.minValues = {toFloat(low.x), toFloat(low.y), toFloat(low.z)};
-    accessor.maxValues = {toFloat(high.x), toFloat(high.y), toFloat(high.z)};
-}
-
 // targetNames is a convention that viewers share (section 3.7.2.2, implementation note).
 tinygltf::Value refillExtras(const Refill& refill)
 {
@@ -165,15 +76,7 @@ tinygltf::Value refillExtras(const Refill& refill)
 
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
 {
-    tinygltf::Model model;
-    model.asset.version = "2.0";
-    model.asset.generator = std::string("droplet-shape ") + kVersion;
-
-    model.materials.push_back(makeMaterial(lookOf(options.material), surface, options.closed));
-    for (const auto& [extension, value] : model.materials.front().extensions) {
-        model.extensionsUsed.push_back(extension);
-    }
-
+    tinygltf::Model model = makeBareModel(options.material, surface.mean_height, options.closed);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
@@ -191,10 +94,7 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
         addBounds(model.accessors.back(), surface.refill->positions);
         target["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
     }
-    primitive.indices =
-        addArray(model, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
-                 wideIndices(surface) ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                 TINYGLTF_TYPE_SCALAR, 3 * surface.triangles.size());
+    primitive.indices = addIndices(model, surface.triangles.size(), vertices);
 
     tinygltf::Mesh mesh;
     mesh.name = "droplet";
@@ -215,27 +115,6 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     return model;
 }
 
-// tinygltf makes the JSON, but of a model without a buffer: it would hold the buffer's bytes three times before the
-// first one is written. Only their number, and where the bytes themselves stand in text, is added.
-nlohmann::json jsonOf(const tinygltf::Model& model)
-{
-    constexpr bool kPretty = false;
-    constexpr bool kBinary = false;
-    std::stringstream text;
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, kPretty, kBinary);
-    nlohmann::json json = nlohmann::json::parse(text);
-    json["buffers"] = {{{"byteLength", bufferBytes(model)}}};
-    return json;
-}
-
-void writeVectors(const std::vector<Vec3>& vectors, ByteStream& bytes)
-{
-    for (const Vec3& vector : vectors) {
-        const Vec3 up = yUp(vector);
-        bytes.f32(up.x, up.y, up.z);
-    }
-}
-
 // Positions within half an ulp of float: of a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest mesh
 // that fits a file. What little closer vertices would merge to stays closed, as faces go by index and welded copies
 // round alike; normals are stored, so no flat triangle asks for one.
@@ -253,37 +132,15 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
         writeVectors(surface.refill->positions, bytes);
         writeVectors(surface.refill->normals, bytes);
     }
-    for (const auto& [a, b, c] : surface.triangles) {
-        if (wideIndices(surface)) {
-            bytes.u32(a, b, c);
-        } else {
-            bytes.u16(a, b, c);
-        }
-    }
+    writeIndices(surface.triangles, surface.positions.size(), bytes);
 }
 
-constexpr std::size_t padding(std::size_t bytes)
-{
-    return (4 - bytes % 4) % 4;
-}
-
-// GLB file format: a header of three words, then chunks of whole words, JSON filled up with spaces, the buffer with 0.
 void writeBinary(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
 {
-    std::string json = jsonOf(model).dump();
-    json.append(padding(json.size()), ' ');
-    const std::string zeros(padding(bufferBytes(model)), '\0');
-    const std::size_t buffer_bytes = bufferBytes(model) + zeros.size();
-    constexpr std::size_t kHeaders = 12 + 8 + 8;
-    bytes.text("glTF");
-    bytes.u32(2, kHeaders + json.size() + buffer_bytes, json.size());
-    bytes.text("JSON");
-    bytes.text(json);
-    bytes.u32(buffer_bytes);
-    bytes.text("BIN");
-    bytes.u8(0);
+    const BinaryFrame frame = binaryFrame(model);
+    bytes.text(frame.head);
     writeBuffer(surface, bytes);
-    bytes.text(zeros);
+    bytes.text(frame.tail);
 }
 
 // Encodes what it is given: S. Josefsson, RFC 4648 (2006), section 4.

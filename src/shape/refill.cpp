@@ -111,6 +111,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
     level.gravity = gravity.normal;
     level.tilt = 0.0;
     level.ground = {};
+    level.volumes.clear();
     level.fill = {FillBy::Volume, shared ? total : total / static_cast<double>(meshes.size()), options.fill.sharing};
     Solution solution = solve(meshes, level);
     if (!solution.report.usable()) {

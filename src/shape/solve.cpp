@@ -148,6 +148,41 @@ void SolveOptions::validate() const
     }
 }
 
+namespace {
+
+void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+{
+    const std::vector<double>& volumes = options.volumes;
+    if (volumes.empty()) {
+        return;
+    }
+    if (volumes.size() != meshes.size()) {
+        throw Error(ErrorCode::InvalidArgument, "volumes must be as many as meshes: " + std::to_string(volumes.size()) +
+                                                    " against " + std::to_string(meshes.size()));
+    }
+    if (options.fill.sharing != FillSharing::Each) {
+        throw Error(ErrorCode::InvalidArgument, "volumes of each droplet need fill.sharing each");
+    }
+    for (std::size_t k = 0; k < volumes.size(); ++k) {
+        if (!(volumes[k] > 0.0 && std::isfinite(volumes[k]))) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "volumes[" + std::to_string(k) + "] " + std::to_string(volumes[k]) + " m³ must be positive");
+        }
+    }
+}
+
+SolveOptions optionsOf(std::size_t group, const SolveOptions& options)
+{
+    SolveOptions own = options;
+    if (!options.volumes.empty()) {
+        own.volumes.clear();
+        own.fill = {FillBy::Volume, options.volumes[group], FillSharing::Each};
+    }
+    return own;
+}
+
+}  // namespace
+
 PlaneGravity planeGravity(const SolveOptions& options)
 {
     // What is level to the last digit has no downhill: sin π is not quite 0.
@@ -168,6 +203,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
             throw Error(ErrorCode::InvalidArgument, "meshes[" + std::to_string(k) + "] must have an inner vertex");
         }
     }
+    checkVolumes(meshes, options);
     requireGround(meshes, options.ground);
     if (progress) {
         progress(Stage::Assemble);
@@ -191,8 +227,9 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
     if (progress) {
         progress(Stage::Solve);
     }
-    tbb::parallel_for(std::size_t{0}, groups.size(),
-                      [&](std::size_t g) { groups[g].outcome = findEquilibrium(groups[g].members, options); });
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        groups[g].outcome = findEquilibrium(groups[g].members, optionsOf(g, options));
+    });
 
     Solution solution;
     SolveReport& report = solution.report;

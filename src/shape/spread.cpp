@@ -93,7 +93,8 @@ void move(PlanarMesh& mesh, const std::vector<Vec2>& moves, double angle)
 std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options)
 {
     const Fill& fill = options.fill;
-    if (fill.by == FillBy::ContactAngle && fill.sharing == FillSharing::Each && fill.amount <= kSteep) {
+    if (options.volumes.empty() && fill.by == FillBy::ContactAngle && fill.sharing == FillSharing::Each &&
+        fill.amount <= kSteep) {
         return meshes;
     }
     // How steep it gets, is a matter of the mean: no tilt, no ground, and no gravity but that which flattens.

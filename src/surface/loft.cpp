@@ -219,11 +219,17 @@ std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::ve
             pieces.push_back({&part.mesh, &part.field, true, {}, {}, {}});
         }
         if (!hasDry(fields[k])) {
-            pieces.push_back({&meshes[k], &fields[k], !options.ground.flat(), {}, {}, {}});
+            Piece& piece = pieces.emplace_back();
+            piece.mesh = &meshes[k];
+            piece.field = &fields[k];
+            piece.mirrored = !options.ground.flat();
+            if (!options.open && !piece.mirrored && !options.bases.empty()) {
+                piece.cover = options.bases[k];
+            }
         }
     }
     tbb::parallel_for(std::size_t{0}, options.open ? 0 : pieces.size(), [&](std::size_t k) {
-        if (!pieces[k].mirrored) {
+        if (!pieces[k].mirrored && pieces[k].cover.vertices.empty()) {
             pieces[k].cover = cover(*pieces[k].mesh);
         }
     });
@@ -265,9 +271,17 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
         throw Error(ErrorCode::InvalidArgument, "fields must be as many as meshes: " + std::to_string(fields.size()) +
                                                     " against " + std::to_string(meshes.size()));
     }
+    if (!options.bases.empty() && options.bases.size() != meshes.size()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "bases must be none or as many as meshes: " + std::to_string(options.bases.size()) + " against " +
+                        std::to_string(meshes.size()));
+    }
     std::vector<std::vector<WetPart>> wet(meshes.size());
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         check(meshes[k], fields[k], options, k);
+        if (!options.bases.empty() && options.bases[k].loop_starts != meshes[k].loop_starts) {
+            throw Error(ErrorCode::InvalidArgument, "bases[" + std::to_string(k) + "] must have the rim of its mesh");
+        }
     }
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
         if (hasDry(fields[k])) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/io/animation.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
 #include "support/surfaces.h"
@@ -91,6 +92,26 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
     add("flat", testing::roundDroplet({.height = 1e-12}), Material::Honey, true);
     add("nanometres", testing::roundDroplet({.outer = 1e-9, .height = 1e-10}), Material::Water, true);
     add("kilometres", testing::roundDroplet({.outer = 1e3, .height = 1.0}), Material::Water, true);
+    const auto animate = [&](const std::string& name, const std::vector<Surface>& frames, std::size_t run,
+                             bool closed) {
+        Animation animation({.frames_per_second = 25.0, .material = Material::Ink, .closed = closed});
+        for (std::size_t k = 0; k < frames.size(); ++k) {
+            animation.add(frames[k], k % run != 0);
+        }
+        std::ostringstream out;
+        animation.write(out);
+        files.push_back(stored(name, out.str()));
+    };
+    std::vector<Surface> film;
+    for (int k = 0; k < 70; ++k) {
+        film.push_back(testing::roundDroplet({.height = 1e-3 + 1e-5 * k, .centre = {1e-4 * k, 0.0}}));
+    }
+    animate("one_run.glb", film, 100, true);
+    animate("runs_of_four.glb", film, 4, true);
+    animate("single_frames.glb", {film[0], film[1], film[2]}, 1, true);
+    animate("single_frame.glb", {film[0]}, 1, true);
+    const Surface odd = testing::soup({{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}, 5);
+    animate("odd_number_of_triangles.glb", {odd, odd, odd}, 2, false);
 
     const Verdict verdict = validated(files);
     EXPECT_EQ(verdict.exit_code, 0) << verdict.text;

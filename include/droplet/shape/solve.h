@@ -86,6 +86,9 @@ struct SolveOptions {
     BaseSurface ground;
     bool no_penetration = false;  ///< keep u ≥ h: where the liquid would sink into the ground, it leaves it dry
     Fill fill;
+    std::vector<double> volumes =
+        {};  ///< each droplet's own, in the order of the meshes [m³]; then fill is left aside,
+             ///< but for FillSharing::Each, which it must have. Empty: fill says how much
     Solver solver = Solver::Auto;
 
     /// @throws Error InvalidArgument

@@ -23,6 +23,7 @@ struct LoftOptions {
     bool open = false;  ///< leave out the base
     Vec2 extent;        ///< physical size of the image, centred at the origin, for texture coordinates [m]; both > 0
     BaseSurface ground = {};                ///< what the fields were solved on
+    std::vector<PlanarMesh> bases = {};     ///< cover() of every mesh, where known already; empty: made
     std::optional<LoftRefill> refill = {};  ///< makes a surface that can be filled and drained
 
     /// @throws Error InvalidArgument

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "droplet/droplet.h"
+
+namespace droplet {
+
+/// What is kept from frame to frame.
+enum class VolumeMode {
+    Total,  ///< the volume of all droplets together, which share it as one reservoir (thesis 4.2.4)
+    Track,  ///< the volume of every droplet, through merging and splitting
+};
+
+/// How frames become droplets.
+struct SequenceOptions {
+    DropletOptions droplet;  ///< of every frame; how much liquid: of the first, and of droplets that come from nowhere
+    VolumeMode volume_mode = VolumeMode::Total;
+    bool keep_vertices = true;  ///< move a mesh with its footprint where that is possible; else triangulate every frame
+
+    /// @throws Error InvalidArgument also with a fill_range, volumes of each droplet, or with VolumeMode::Total unless
+    ///               fill.sharing is Total
+    void validate() const;
+};
+
+/// A droplet's place in the story.
+struct Ancestry {
+    std::size_t id = 0;             ///< the same from frame to frame; never given twice
+    std::vector<std::size_t> from;  ///< ids in the frame before of what became this droplet; empty where it is new
+    double volume = 0.0;            ///< prescribed [m³]
+};
+
+/// One frame of a sequence, and what the next one needs of it.
+struct Frame {
+    Droplet droplet;
+    std::vector<Ancestry> droplets;  ///< one per droplet
+    bool continues = false;      ///< the surface is that of the frame before, moved: vertex by vertex, same triangles
+    double volume_gained = 0.0;  ///< by droplets that come from nowhere; with VolumeMode::Total 0 [m³]
+    double volume_lost = 0.0;    ///< by droplets that went nowhere; with VolumeMode::Total 0 [m³]
+
+    std::vector<PlanarMesh> first_meshes;  ///< as they stood where the connections began
+    std::vector<PlanarMesh> bases;         ///< of closed surfaces on flat ground
+    std::vector<PlanarMesh> first_bases;
+    std::size_t next_id = 0;
+};
+
+/// The first frame: the river, with one pressure for all if the total volume is to be kept.
+/// @throws Error as makeDroplet
+Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress = {});
+
+/// The next frame.
+///
+/// Droplets belong together where their footprints overlap by a quarter of the smaller one, or where each overlaps none
+/// more than the other. What belongs together, directly or by way of others, is a group, whose volume is conserved. Of
+/// a group that ends as one droplet, that has all of it. One that ends as several was one liquid at one pressure until
+/// it broke, so they get what they held then: volumes in proportion to what one pressure would give them, by the linear
+/// model on level flat ground, which is exact for that, in proportion elsewhere. The largest part keeps the id of the
+/// droplet that gave the most. Overlap with nothing: a new droplet, filled as droplet.solve.fill says, or a lost one.
+///
+/// Where every droplet goes on as one droplet with as many holes, meshes move along (mesh/follow.h), and droplets stand
+/// in the order they had.
+///
+/// Guarantees: with VolumeMode::Track volumes are those of the frame before − lost + gained, with VolumeMode::Total the
+/// same in every frame, to 1e-9.
+/// @param before   the frame before, of a picture of the same extent
+/// @throws Error   as makeDroplet; InvalidInput if the extent is another
+Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
+
+}  // namespace droplet

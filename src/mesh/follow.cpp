@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Harmonic motion of inner vertices, by linear finite elements: of a translation it makes a translation, and what is
+// affine stays so.
+#include "droplet/mesh/follow.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+
+namespace droplet {
+namespace {
+
+/// What is refused, see follow().
+constexpr double kLeastAngle = 15.0 * kDegree;
+constexpr double kShareOfAngle = 0.75;
+constexpr double kMostStretch = 1.5;
+constexpr double kMostSagitta = 0.2;
+
+/// Spacing of the rim's vertices, relative to what it was, beyond which the nearest way is evened out further.
+constexpr double kLeastSpacing = 0.5;
+constexpr double kMostSpacing = 2.0;
+
+Vec2 centroid(const std::vector<Vec2>& points)
+{
+    // About the first point, so that places far from the origin lose no digits.
+    const Vec2 origin = points.front();
+    Vec2 moment;
+    double twice = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 a = points[i] - origin;
+        const Vec2 b = points[(i + 1) % points.size()] - origin;
+        twice += cross(a, b);
+        moment = moment + cross(a, b) * (a + b);
+    }
+    return origin + (1.0 / (3.0 * twice)) * moment;
+}
+
+double enclosed(const std::vector<Vec2>& points)
+{
+    const Vec2 origin = points.front();
+    double twice = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        twice += cross(points[i] - origin, points[(i + 1) % points.size()] - origin);
+    }
+    return 0.5 * twice;
+}
+
+/// A closed polygon by its length from the first point on.
+class Curve {
+public:
+    explicit Curve(std::vector<Vec2> points) : points_(std::move(points)), arc_{0.0}
+    {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            arc_.push_back(arc_.back() + droplet::length(end(i) - points_[i]));
+        }
+    }
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+    [[nodiscard]] double length() const { return arc_.back(); }
+    [[nodiscard]] double arc(std::size_t point) const { return arc_[point]; }
+
+    /// Of any number, once around or more.
+    [[nodiscard]] double wrapped(double s) const { return s - length() * std::floor(s / length()); }
+
+    [[nodiscard]] std::size_t pieceAt(double s) const
+    {
+        const auto after = std::upper_bound(arc_.begin(), arc_.end(), wrapped(s));
+        return std::min(static_cast<std::size_t>(after - arc_.begin()), size()) - 1;
+    }
+
+    [[nodiscard]] Vec2 at(double s) const
+    {
+        const std::size_t i = pieceAt(s);
+        const double t = (wrapped(s) - arc_[i]) / (arc_[i + 1] - arc_[i]);
+        return points_[i] + t * (end(i) - points_[i]);
+    }
+
+    /// Place of the nearest point among that many pieces from one on, as a length from that piece's lap on.
+    [[nodiscard]] double nearest(Vec2 p, double from, std::size_t pieces) const
+    {
+        double best = std::numeric_limits<double>::infinity();
+        double place = from;
+        std::size_t i = pieceAt(from);
+        double lap = from - wrapped(from);
+        for (std::size_t k = 0; k < pieces; ++k) {
+            const Vec2 along = end(i) - points_[i];
+            const double squared = dot(along, along);
+            const double t = std::clamp(dot(p - points_[i], along) / squared, 0.0, 1.0);
+            const Vec2 away = p - (points_[i] + t * along);
+            if (dot(away, away) < best) {
+                best = dot(away, away);
+                place = lap + arc_[i] + t * (arc_[i + 1] - arc_[i]);
+            }
+            if (++i == size()) {
+                i = 0;
+                lap += length();
+            }
+        }
+        return place;
+    }
+
+private:
+    [[nodiscard]] Vec2 end(std::size_t i) const { return points_[(i + 1) % size()]; }
+
+    std::vector<Vec2> points_;
+    std::vector<double> arc_;
+};
+
+/// For every corner of the loop the bend of the rim that becomes it, if each is the other's nearest.
+std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)
+{
+    constexpr double kBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
+    const std::size_t count = moved.size();
+    std::vector<std::size_t> bends;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec2 in = moved[v] - moved[(v + count - 1) % count];
+        const Vec2 out = moved[(v + 1) % count] - moved[v];
+        if (std::abs(std::atan2(cross(in, out), dot(in, out))) > kBend) {
+            bends.push_back(v);
+        }
+    }
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+        if (loop.corner[i] != 0) {
+            corners.push_back(i);
+        }
+    }
+    const auto nearest = [](Vec2 p, const std::vector<std::size_t>& among, const std::vector<Vec2>& points) {
+        return *std::min_element(among.begin(), among.end(), [&](std::size_t a, std::size_t b) {
+            return length(points[a] - p) < length(points[b] - p);
+        });
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const std::size_t i : corners) {
+        if (!bends.empty()) {
+            const std::size_t v = nearest(loop.points[i], bends, moved);
+            if (nearest(moved[v], corners, loop.points) == i) {
+                pairs.emplace_back(i, v);
+            }
+        }
+    }
+    return pairs;
+}
+
+/// How far on the new loop every vertex is ahead of its share of the whole, one common lead for a rigid motion.
+struct Leads {
+    std::vector<double> values;
+    std::vector<std::uint8_t> fixed;  ///< 1 at vertices that become corners
+};
+
+Leads leadsOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
+{
+    const std::size_t count = moved.size();
+    const double ratio = after.length() / before.length();
+    // Of several vertices, the lead that others agree with most.
+    constexpr std::size_t kSamples = 16;
+    std::vector<double> sampled;
+    for (std::size_t k = 0; k < std::min(kSamples, count); ++k) {
+        const std::size_t v = k * count / std::min(kSamples, count);
+        sampled.push_back(after.nearest(moved[v], 0.0, after.size()) - ratio * before.arc(v));
+    }
+    double common = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double lead : sampled) {
+        double disagreement = 0.0;
+        for (const double other : sampled) {
+            const double apart = after.wrapped(other - lead);
+            disagreement += std::min(apart, after.length() - apart);
+        }
+        if (disagreement < least) {
+            least = disagreement;
+            common = lead;
+        }
+    }
+    // The nearest way is looked for an eighth of the loop to both sides of that.
+    constexpr double kReach = 0.125;
+    Leads leads{std::vector<double>(count), std::vector<std::uint8_t>(count, 0)};
+    for (std::size_t v = 0; v < count; ++v) {
+        const double expected = ratio * before.arc(v) + common;
+        const double from = expected - kReach * after.length();
+        std::size_t pieces = after.pieceAt(expected + kReach * after.length()) + after.size() - after.pieceAt(from);
+        pieces = pieces % after.size() + 1;
+        leads.values[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
+    }
+    for (const auto& [corner, v] : cornerPairs(loop, moved)) {
+        const double lead = after.arc(corner) - ratio * before.arc(v);
+        leads.values[v] = common + std::remainder(lead - common, after.length());
+        leads.fixed[v] = 1;
+    }
+    return leads;
+}
+
+/// Whether vertices follow one another at distances like those they had.
+bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<double>& places)
+{
+    const double ratio = after.length() / before.length();
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        const double next = v + 1 < places.size() ? places[v + 1] : places[0] + after.length();
+        const double spacing = (next - places[v]) / (ratio * (before.arc(v + 1) - before.arc(v)));
+        if (!(spacing >= kLeastSpacing && spacing <= kMostSpacing)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Where on the new loop every vertex goes, and which of them become corners.
+struct Places {
+    std::vector<double> values;
+    std::vector<std::uint8_t> fixed;
+};
+
+Places placesOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
+{
+    const std::size_t count = moved.size();
+    const double ratio = after.length() / before.length();
+    Leads leads = leadsOf(before, after, loop, moved);
+    Places places{std::vector<double>(count), leads.fixed};
+    const std::size_t most_passes = 16 * count;
+    for (std::size_t done = 0, passes = 1;; passes *= 4) {
+        for (std::size_t v = 0; v < count; ++v) {
+            places.values[v] = ratio * before.arc(v) + leads.values[v];
+        }
+        if (done > most_passes || evenlySpaced(before, after, places.values)) {
+            return places;
+        }
+        for (; done < passes; ++done) {
+            std::vector<double> evened = leads.values;
+            for (std::size_t v = 0; v < count; ++v) {
+                if (leads.fixed[v] == 0) {
+                    evened[v] = 0.25 * (leads.values[(v + count - 1) % count] + leads.values[(v + 1) % count]) +
+                                0.5 * leads.values[v];
+                }
+            }
+            leads.values = std::move(evened);
+        }
+    }
+}
+
+/// Gives every corner of the loop the vertex next to it; false if two want the same.
+bool takeCorners(const Loop& loop, const Curve& after, Places& places)
+{
+    const std::size_t count = places.values.size();
+    std::vector<std::uint8_t> taken(count, 0);
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+        if (loop.corner[i] == 0) {
+            continue;
+        }
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        double move = 0.0;
+        for (std::size_t v = 0; v < count; ++v) {
+            const double ahead = after.wrapped(after.arc(i) - places.values[v]);
+            const double way = ahead < 0.5 * after.length() ? ahead : ahead - after.length();
+            if (std::abs(way) < least) {
+                least = std::abs(way);
+                move = way;
+                best = v;
+            }
+        }
+        if (taken[best] != 0) {
+            return false;
+        }
+        taken[best] = 1;
+        places.fixed[best] = 1;
+        places.values[best] += move;
+    }
+    return true;
+}
+
+/// Moves all but corners across the rim, alike, until the polygon has the loop's area.
+void keepArea(double wanted, const std::vector<std::uint8_t>& fixed, std::vector<Vec2>& points)
+{
+    constexpr int kPasses = 3;  // the error is squared each time
+    const std::size_t count = points.size();
+    for (int pass = 0; pass < kPasses; ++pass) {
+        std::vector<Vec2> outward(count);
+        double reach = 0.0;
+        for (std::size_t v = 0; v < count; ++v) {
+            const Vec2 chord = points[(v + 1) % count] - points[(v + count - 1) % count];
+            if (fixed[v] == 0 && length(chord) > 0.0) {
+                outward[v] = (1.0 / length(chord)) * Vec2{chord.y, -chord.x};
+                reach += 0.5 * length(chord);
+            }
+        }
+        if (!(reach > 0.0)) {
+            return;
+        }
+        const double step = (wanted - enclosed(points)) / reach;
+        for (std::size_t v = 0; v < count; ++v) {
+            points[v] = points[v] + step * outward[v];
+        }
+    }
+}
+
+/// Whether every chord stands close to its piece of the loop.
+bool hugs(const Loop& loop, const Curve& after, const std::vector<double>& places, const std::vector<Vec2>& points)
+{
+    const std::size_t count = points.size();
+    for (std::size_t v = 0; v < count; ++v) {
+        const double from = places[v];
+        const double to = v + 1 < count ? places[v + 1] : places[0] + after.length();
+        const Vec2 chord = points[(v + 1) % count] - points[v];
+        const double size = length(chord);
+        if (!(to > from && size > 0.0)) {
+            return false;
+        }
+        double lap = from - after.wrapped(from);
+        for (std::size_t i = after.pieceAt(from) + 1;; ++i) {
+            if (i >= after.size()) {
+                i -= after.size();
+                lap += after.length();
+            }
+            if (lap + after.arc(i) >= to) {
+                break;
+            }
+            if (std::abs(cross(chord, loop.points[i] - points[v])) > kMostSagitta * size * size) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::vector<Vec2> loopOf(const PlanarMesh& mesh, std::size_t loop)
+{
+    return {mesh.vertices.begin() + mesh.loop_starts[loop], mesh.vertices.begin() + mesh.loop_starts[loop + 1]};
+}
+
+/// Where the vertices of one loop go on another.
+std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const Loop& loop)
+{
+    const double area_before = enclosed(points);
+    const double area_after = enclosed(loop.points);
+    if (!(area_before * area_after > 0.0)) {
+        return std::nullopt;
+    }
+    const double scale = std::sqrt(area_after / area_before);
+    const Vec2 from = centroid(points);
+    const Vec2 to = centroid(loop.points);
+    std::vector<Vec2> moved;
+    for (const Vec2 p : points) {
+        moved.push_back(to + scale * (p - from));
+    }
+    const Curve before(points);
+    const Curve after(loop.points);
+    Places places = placesOf(before, after, loop, moved);
+    if (!takeCorners(loop, after, places)) {
+        return std::nullopt;
+    }
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        moved[v] = after.at(places.values[v]);
+    }
+    keepArea(area_after, places.fixed, moved);
+    return hugs(loop, after, places.values, moved) ? std::optional(moved) : std::nullopt;
+}
+
+/// For every loop of the mesh the one of the footprint it becomes.
+std::optional<std::vector<const Loop*>> partners(const PlanarMesh& mesh, const Footprint& footprint)
+{
+    const std::size_t count = mesh.loopCount();
+    if (count != 1 + footprint.holes.size()) {
+        return std::nullopt;
+    }
+    std::vector<const Loop*> found{&footprint.rim};
+    std::vector<std::uint8_t> taken(footprint.holes.size(), 0);
+    const Vec2 shift = centroid(footprint.rim.points) - centroid(loopOf(mesh, 0));
+    for (std::size_t k = 1; k < count; ++k) {
+        const Vec2 middle = centroid(loopOf(mesh, k)) + shift;
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t h = 0; h < footprint.holes.size(); ++h) {
+            const double away = length(centroid(footprint.holes[h].points) - middle);
+            if (away < least) {
+                least = away;
+                best = h;
+            }
+        }
+        if (taken[best] != 0) {
+            return std::nullopt;
+        }
+        taken[best] = 1;
+        found.push_back(&footprint.holes[best]);
+    }
+    return found;
+}
+
+}  // namespace
+
+PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
+{
+    const std::uint32_t on_rim = mesh.rimVertexCount();
+    if (rim.size() != on_rim) {
+        throw Error(ErrorCode::InvalidArgument, "rim must have as many vertices as the mesh's: " +
+                                                    std::to_string(rim.size()) + " against " + std::to_string(on_rim));
+    }
+    PlanarMesh moved = mesh;
+    moved.lattice = {};
+    std::copy(rim.begin(), rim.end(), moved.vertices.begin());
+    const std::size_t inner = mesh.vertices.size() - on_rim;
+    if (inner == 0) {
+        return moved;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(inner), 2);
+    for (const Triangle& t : mesh.triangles) {
+        const double twice = doubleArea(mesh, t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            // The edge opposite vertex k, by half the cotangent of the angle there.
+            const std::uint32_t a = t[(k + 1) % 3];
+            const std::uint32_t b = t[(k + 2) % 3];
+            const double weight =
+                0.5 * dot(mesh.vertices[a] - mesh.vertices[t[k]], mesh.vertices[b] - mesh.vertices[t[k]]) / twice;
+            for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+                if (mesh.onRim(from)) {
+                    continue;
+                }
+                const int row = static_cast<int>(from - on_rim);
+                entries.emplace_back(row, row, weight);
+                if (mesh.onRim(to)) {
+                    const Vec2 move = rim[to] - mesh.vertices[to];
+                    right(row, 0) += weight * move.x;
+                    right(row, 1) += weight * move.y;
+                } else {
+                    entries.emplace_back(row, static_cast<int>(to - on_rim), -weight);
+                }
+            }
+        }
+    }
+    Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(inner), static_cast<Eigen::Index>(inner));
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+    const Eigen::MatrixX2d moves = factor.solve(right);
+    for (std::size_t i = 0; i < inner; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        moved.vertices[on_rim + i] = moved.vertices[on_rim + i] + Vec2{moves(row, 0), moves(row, 1)};
+    }
+    return moved;
+}
+
+std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint)
+{
+    if (first.vertices.size() != last.vertices.size() || first.loop_starts != last.loop_starts ||
+        first.triangles != last.triangles) {
+        throw Error(ErrorCode::InvalidArgument, "first and last must be one mesh in two places");
+    }
+    const std::optional<std::vector<const Loop*>> loops = partners(last, footprint);
+    const double stretch = std::sqrt(area(footprint) / area(first));
+    if (!loops || !(stretch <= kMostStretch && stretch >= 1.0 / kMostStretch)) {
+        return std::nullopt;
+    }
+    std::vector<Vec2> rim;
+    for (std::size_t k = 0; k < loops->size(); ++k) {
+        const std::optional<std::vector<Vec2>> moved = moveLoop(loopOf(last, k), *(*loops)[k]);
+        if (!moved) {
+            return std::nullopt;
+        }
+        rim.insert(rim.end(), moved->begin(), moved->end());
+    }
+    PlanarMesh mesh = withRim(first, rim);
+    const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                                   [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
+    if (!whole || minAngle(mesh) < std::min(kLeastAngle, kShareOfAngle * minAngle(first))) {
+        return std::nullopt;
+    }
+    return mesh;
+}
+
+}  // namespace droplet

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Animations are played here as the specification says viewers do (glTF 2.0, section 3.11 and appendix C).
+#include "droplet/io/animation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "support/surfaces.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::roundDroplet;
+
+/// A film of frames and where new triangles begin.
+struct Film {
+    std::vector<Surface> frames;
+    std::vector<bool> continues;
+};
+
+/// Runs of so many frames each; within one the droplet grows and moves, each run has triangles of its own.
+Film filmOf(const std::vector<int>& runs, bool open = false)
+{
+    Film film;
+    std::uint32_t segments = 9;
+    for (const int length : runs) {
+        for (int k = 0; k < length; ++k) {
+            const double t = 0.05 * k;
+            film.frames.push_back(roundDroplet({.inner = segments % 2 == 0 ? 1e-3 : 0.0,
+                                                .outer = 4e-3 + 0.5e-3 * t,
+                                                .height = 1e-3 * (1.0 + t),
+                                                .segments = segments,
+                                                .open = open,
+                                                .centre = {2e-3 * t, -1e-3 * t}}));
+            film.continues.push_back(k > 0);
+        }
+        ++segments;
+    }
+    return film;
+}
+
+std::string written(const Film& film, const AnimationOptions& options = {})
+{
+    Animation animation(options);
+    for (std::size_t k = 0; k < film.frames.size(); ++k) {
+        animation.add(film.frames[k], film.continues[k]);
+    }
+    std::ostringstream out;
+    const std::uint64_t bytes = animation.write(out);
+    EXPECT_EQ(bytes, out.str().size());
+    EXPECT_TRUE(out.good());
+    return out.str();
+}
+
+tinygltf::Model parsed(const std::string& bytes)
+{
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model model;
+    std::string error;
+    std::string warning;
+    EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning,
+                                            reinterpret_cast<const unsigned char*>(bytes.data()),
+                                            static_cast<unsigned>(bytes.size())))
+        << error;
+    EXPECT_EQ(warning, "");
+    return model;
+}
+
+std::size_t at(int index)
+{
+    return static_cast<std::size_t>(index);
+}
+
+template <class Number>
+std::vector<Number> numbersOf(const tinygltf::Model& model, int index)
+{
+    const tinygltf::Accessor& accessor = model.accessors.at(at(index));
+    const tinygltf::BufferView& view = model.bufferViews.at(at(accessor.bufferView));
+    std::vector<Number> numbers(accessor.count *
+                                at(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type))));
+    EXPECT_EQ(view.byteLength, numbers.size() * sizeof(Number));
+    EXPECT_EQ(view.byteOffset % 4, 0U);
+    std::memcpy(numbers.data(), model.buffers.at(0).data.data() + view.byteOffset, view.byteLength);
+    return numbers;
+}
+
+/// What a channel gives at a time.
+std::vector<double> sampled(const tinygltf::Model& model, const tinygltf::AnimationChannel& channel, double time)
+{
+    const tinygltf::AnimationSampler& sampler = model.animations.at(0).samplers.at(at(channel.sampler));
+    const auto times = numbersOf<float>(model, sampler.input);
+    const auto values = numbersOf<float>(model, sampler.output);
+    const std::size_t width = values.size() / times.size();
+    EXPECT_EQ(values.size(), width * times.size());
+    EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+    std::size_t key = 0;
+    while (key + 1 < times.size() && static_cast<double>(times[key + 1]) <= time) {
+        ++key;
+    }
+    double part = 0.0;
+    if (sampler.interpolation == "LINEAR" && key + 1 < times.size() && time > static_cast<double>(times[key])) {
+        part = (time - static_cast<double>(times[key])) / static_cast<double>(times[key + 1] - times[key]);
+    }
+    std::vector<double> result;
+    for (std::size_t i = 0; i < width; ++i) {
+        const double from = static_cast<double>(values[key * width + i]);
+        const double to = part > 0.0 ? static_cast<double>(values[(key + 1) * width + i]) : from;
+        result.push_back(from + part * (to - from));
+    }
+    return result;
+}
+
+/// What is seen at a time: the vertices of the one node that is shown.
+struct Shown {
+    std::size_t nodes = 0;
+    std::size_t node = 0;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Triangle> triangles;
+};
+
+Shown playedAt(const tinygltf::Model& model, double time)
+{
+    Shown shown;
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+        const tinygltf::Node& node = model.nodes[n];
+        const tinygltf::Mesh& mesh = model.meshes.at(at(node.mesh));
+        std::vector<double> scale = node.scale.empty() ? std::vector<double>(3, 1.0) : node.scale;
+        std::vector<double> weights = mesh.weights;
+        for (const tinygltf::AnimationChannel& channel :
+             model.animations.empty() ? std::vector<tinygltf::AnimationChannel>{} : model.animations[0].channels) {
+            if (channel.target_node == static_cast<int>(n)) {
+                (channel.target_path == "scale" ? scale : weights) = sampled(model, channel, time);
+            }
+        }
+        if (scale == std::vector<double>(3, 0.0)) {
+            continue;
+        }
+        EXPECT_EQ(scale, std::vector<double>(3, 1.0));
+        ++shown.nodes;
+        shown.node = n;
+        const tinygltf::Primitive& primitive = mesh.primitives.at(0);
+        EXPECT_EQ(weights.size(), primitive.targets.size());
+        const auto morphed = [&](const char* name) {
+            const auto base = numbersOf<float>(model, primitive.attributes.at(name));
+            std::vector<double> sums(base.begin(), base.end());
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                const auto change = numbersOf<float>(model, primitive.targets[i].at(name));
+                for (std::size_t j = 0; j < sums.size(); ++j) {
+                    sums[j] += weights[i] * static_cast<double>(change[j]);
+                }
+            }
+            std::vector<Vec3> vectors;
+            for (std::size_t j = 0; j < sums.size(); j += 3) {
+                vectors.push_back({sums[j], -sums[j + 2], sums[j + 1]});
+            }
+            return vectors;
+        };
+        shown.positions = morphed("POSITION");
+        shown.normals = morphed("NORMAL");
+        const auto indices = numbersOf<std::uint16_t>(model, primitive.indices);
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            shown.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+        }
+    }
+    return shown;
+}
+
+void expectShows(const tinygltf::Model& model, double time, const Surface& surface)
+{
+    SCOPED_TRACE("at " + std::to_string(time) + " s");
+    const Shown shown = playedAt(model, time);
+    ASSERT_EQ(shown.nodes, 1U);
+    EXPECT_EQ(shown.triangles, surface.triangles);
+    ASSERT_EQ(shown.positions.size(), surface.positions.size());
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        ASSERT_LT(length(shown.positions[v] - surface.positions[v]), 1e-9);
+        ASSERT_LT(length((1.0 / length(shown.normals[v])) * shown.normals[v] - surface.normals[v]), 1e-6);
+    }
+}
+
+void expectPlays(const Film& film, double rate)
+{
+    const tinygltf::Model model = parsed(written(film, {.frames_per_second = rate, .frames = film.frames.size()}));
+    const auto count = static_cast<double>(film.frames.size());
+    for (std::size_t k = 0; k < film.frames.size(); ++k) {
+        // The moment itself as a player holds it: the float of a key.
+        expectShows(model, static_cast<double>(static_cast<float>(static_cast<double>(k) / rate)), film.frames[k]);
+    }
+    expectShows(model, (count - 0.5) / rate, film.frames.back());
+    expectShows(model, count / rate, film.frames.back());
+    float end = 0.0F;
+    for (const tinygltf::AnimationSampler& sampler :
+         model.animations.empty() ? std::vector<tinygltf::AnimationSampler>{} : model.animations[0].samplers) {
+        const auto times = numbersOf<float>(model, sampler.input);
+        EXPECT_EQ(model.accessors[at(sampler.input)].minValues,
+                  std::vector<double>{static_cast<double>(times.front())});
+        EXPECT_EQ(model.accessors[at(sampler.input)].maxValues, std::vector<double>{static_cast<double>(times.back())});
+        if (sampler.interpolation == "STEP") {
+            EXPECT_EQ(times.front(), 0.0F);
+        }
+        end = std::max(end, times.back());
+    }
+    if (film.frames.size() > 1) {
+        EXPECT_FLOAT_EQ(end, static_cast<float>(count / rate));
+    }
+}
+
+TEST(Animation, ShowsEveryFrameAtItsTimeAndNothingElse)
+{
+    expectPlays(filmOf({5}), 24.0);
+    expectPlays(filmOf({1, 1, 1}), 24.0);
+    expectPlays(filmOf({3, 1, 4, 1}), 30.0);
+    expectPlays(filmOf({1, 6}), 29.97);
+    expectPlays(filmOf({1}), 24.0);
+    expectPlays(filmOf({2, 2}, true), 12.0);
+}
+
+TEST(Animation, BetweenFramesOfARunVerticesMoveInStraightLines)
+{
+    const Film film = filmOf({4, 2});
+    const tinygltf::Model model = parsed(written(film, {.frames_per_second = 10.0}));
+    const Shown shown = playedAt(model, 0.125);
+    ASSERT_EQ(shown.nodes, 1U);
+    for (std::size_t v = 0; v < shown.positions.size(); ++v) {
+        const Vec3 wanted = 0.75 * film.frames[1].positions[v] + 0.25 * film.frames[2].positions[v];
+        EXPECT_LT(length(shown.positions[v] - wanted), 1e-8);
+    }
+    // And the last one of a run stands still.
+    expectShows(model, 0.399, film.frames[3]);
+}
+
+TEST(Animation, LongRunsGoOnInAnotherNodeWithoutAJump)
+{
+    for (const int length : {64, 65, 66, 130}) {
+        const Film film = filmOf({length, 2});
+        expectPlays(film, 25.0);
+        const tinygltf::Model model = parsed(written(film, {.frames_per_second = 25.0}));
+        for (const tinygltf::Mesh& mesh : model.meshes) {
+            EXPECT_LE(mesh.primitives[0].targets.size(), 64U);
+        }
+        if (length > 66) {
+            EXPECT_EQ(playedAt(model, 63.5 / 25.0).node, 0U);
+            EXPECT_EQ(playedAt(model, 64.5 / 25.0).node, 1U);
+            const Shown between = playedAt(model, 63.5 / 25.0);
+            for (std::size_t v = 0; v < between.positions.size(); ++v) {
+                const Vec3 wanted = 0.5 * (film.frames[63].positions[v] + film.frames[64].positions[v]);
+                EXPECT_LT(droplet::length(between.positions[v] - wanted), 1e-7);
+            }
+        }
+    }
+}
+
+TEST(Animation, WithoutPlayingTheFirstFrameIsSeen)
+{
+    const Film film = filmOf({2, 3});
+    tinygltf::Model model = parsed(written(film));
+    model.animations.clear();
+    expectShows(model, 0.0, film.frames[0]);
+}
+
+TEST(Animation, IsClosedAtEveryWeight)
+{
+    const Film film = filmOf({4});
+    const tinygltf::Model model = parsed(written(film, {.frames_per_second = 10.0}));
+    for (const double time : {0.0, 0.04, 0.1, 0.17, 0.25, 0.3}) {
+        Surface seen = film.frames[0];
+        const Shown shown = playedAt(model, time);
+        seen.positions = shown.positions;
+        for (std::size_t v = 0; v < seen.weld.size(); ++v) {
+            EXPECT_EQ(seen.positions[v], seen.positions[seen.weld[v]]) << "copies move alike";
+        }
+        EXPECT_TRUE(isClosed(seen));
+        EXPECT_GT(enclosedVolume(seen), 0.0);
+    }
+}
+
+TEST(Animation, EqualFramesHaveNoDifference)
+{
+    Film film = filmOf({1});
+    film.frames.resize(3, film.frames[0]);
+    film.continues = {false, true, true};
+    const tinygltf::Model model = parsed(written(film));
+    for (const auto& target : model.meshes.at(0).primitives.at(0).targets) {
+        for (const char* name : {"POSITION", "NORMAL"}) {
+            for (const float number : numbersOf<float>(model, target.at(name))) {
+                // What a float of the base leaves of its double.
+                EXPECT_LT(std::abs(number), 1e-7F);
+            }
+        }
+    }
+}
+
+TEST(Animation, NamesAreThoseOfFrames)
+{
+    const tinygltf::Model model = parsed(written(filmOf({2, 3})));
+    EXPECT_EQ(model.animations.at(0).name, "sequence");
+    ASSERT_EQ(model.nodes.size(), 2U);
+    EXPECT_EQ(model.nodes[1].name, "frame 3");
+    const tinygltf::Value& names = model.meshes[1].extras.Get("targetNames");
+    ASSERT_EQ(names.ArrayLen(), 2U);
+    EXPECT_EQ(names.Get(0).Get<std::string>(), "frame 4");
+    EXPECT_EQ(names.Get(1).Get<std::string>(), "frame 5");
+}
+
+std::string refusal(const std::function<void()>& action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+        return error.what();
+    }
+    return {};
+}
+
+TEST(Animation, RefusesWhatCannotBePlayed)
+{
+    EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames_per_second = 0.0, .frames = {}}); }),
+                HasSubstr("frames_per_second"));
+    EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames = 0}); }), HasSubstr("frames 0"));
+    EXPECT_THAT(refusal([] {
+                    std::ostringstream out;
+                    Animation(AnimationOptions{}).write(out);
+                }),
+                HasSubstr("at least one frame"));
+    EXPECT_THAT(refusal([] {
+                    Animation animation(AnimationOptions{});
+                    animation.add(roundDroplet(), true);
+                }),
+                HasSubstr("frame 1 has not the triangles"));
+    EXPECT_THAT(refusal([] {
+                    Animation animation(AnimationOptions{});
+                    animation.add(roundDroplet(), false);
+                    animation.add(roundDroplet({.segments = 13}), true);
+                }),
+                HasSubstr("frame 2 has not the triangles"));
+}
+
+TEST(Animation, TooLargeAFileIsRefusedWithItsFirstFrame)
+{
+    const Surface surface = roundDroplet({.rings = 60, .segments = 60});
+    EXPECT_THAT(refusal([&] { Animation({.frames = 100'000}).add(surface, false); }), HasSubstr("2 GiB"));
+    EXPECT_EQ(refusal([&] { Animation({.frames = 1'000}).add(surface, false); }), "");
+}
+
+}  // namespace
+}  // namespace droplet
