@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { extent, length, rows, volume } from './figures.js';
+import { extent, length, rows, sides, volume } from './figures.js';
 import { kGrounds } from './ground.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { roundLength, Stage } from './stage.js';
@@ -13,9 +13,8 @@ const bytes = decodeBase64(find('model').textContent.trim());
 
 function showFigures() {
     find('title').textContent = title;
-    const sides = extent(report);
     find('subtitle').textContent = [report.liquid?.name, report.shape && volume(report.shape.volume_m3),
-        sides && `${length(sides[0])} × ${length(sides[1])}`].filter(Boolean).join(' · ');
+        extent(report) && sides(extent(report))].filter(Boolean).join(' · ');
     const body = find('figures').querySelector('tbody');
     for (const [name, value] of rows(report)) {
         const row = body.insertRow();
