@@ -21,7 +21,6 @@ export const kGrounds = {
     leaf: plain('Green', '#6f9a6a', '#5d8858', '#f2f6f2'),
     clay: plain('Terracotta', '#c8704f', '#b56143', '#fdf3ee'),
     rose: plain('Rose', '#dfa7ab', '#d3979c', '#4a2d30'),
-    slate: plain('Slate', '#5b646d', '#4a525a', '#eef2f5'),
     white: plain('White', '#fbfbfa', '#f1f1ef', '#33414d'),
 };
 const kPicture = { name: 'Own picture', colour: '#d9d6d0', far: '#cfccc6', mark: '#33414d', sky: 0.4, sun: 0.52 };
