@@ -28,7 +28,7 @@ _droplet_shape()
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --json | --export-evolver | --config) ;;
+        --surface | --onto | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -38,7 +38,7 @@ _droplet_shape()
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
-                    *) choices="$picture $making $running --format --fill-range --json --export-evolver" ;;
+                    *) choices="$picture $making $running --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
             ;;

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -11,10 +12,13 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
 #include "droplet/io/evolver.h"
+#include "droplet/io/gltf.h"
+#include "droplet/io/page.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
@@ -40,6 +44,9 @@ void check(const ShapeOptions& options)
     }
     if (options.evolver) {
         outputs.push_back({"--export-evolver", *options.evolver});
+    }
+    if (options.html) {
+        outputs.push_back({"--html", *options.html});
     }
     std::vector<NamedFile> inputs{{"INPUT", options.input}};
     if (options.run.config) {
@@ -157,9 +164,36 @@ droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Out
     return input;
 }
 
-/// Writes the surface and, if asked for, the datafile for Surface Evolver and the report.
-void save(const Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+/// Whether the droplet gets a slider for the page alone: wherever there can be one, asked for or not.
+bool slidesInPageAlone(const ShapeOptions& options)
 {
+    const droplet::SolveOptions& solve = options.settings.droplet.solve;
+    return options.html && !options.settings.droplet.fill_range && solve.model == droplet::Model::Linear &&
+           !solve.no_penetration && !options.settings.onto;
+}
+
+/// The droplet as in OUTPUT, were that a GLB.
+void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
+               const droplet::Report& report)
+{
+    droplet::PageContent page;
+    page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
+    std::ostringstream glb;
+    droplet::writeGltf(surface, glb, {true, options.settings.material, report.output.topology.closed});
+    page.glb = std::move(glb).str();
+    std::ostringstream json;
+    droplet::writeReport(json, report);
+    page.report = std::move(json).str();
+    droplet::writePage(out, page);
+}
+
+/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page and the report.
+void save(Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+{
+    std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
+    if (!slidesInPageAlone(options)) {
+        droplet.surface.refill.swap(refill);
+    }
     std::vector<OutputFile> files;
     files.push_back({options.output, [&](std::ostream& out) {
                          report.output.bytes =
@@ -169,6 +203,14 @@ void save(const Droplet& droplet, const ShapeOptions& options, StageClock& clock
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
                              droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, report.physics);
+                         }});
+    }
+    if (options.html) {
+        files.push_back({*options.html, [&](std::ostream& out) {
+                             if (refill) {
+                                 droplet.surface.refill.swap(refill);
+                             }
+                             writeHtml(out, droplet.surface, options, report);
                          }});
     }
     if (options.json) {
@@ -212,6 +254,9 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     }
     picture = {};
     refuseTooShortEdge(mask, settings.droplet);
+    if (slidesInPageAlone(options)) {
+        settings.droplet.fill_range.emplace();
+    }
     const auto begin = [&](Stage stage) { stages.begin(stage); };
     Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
     std::optional<droplet::ObjectReport> onto;
@@ -220,6 +265,7 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     }
     begin(Stage::Write);
     droplet::Report report = describe(droplet, settings);
+    report.fill_range = options.settings.droplet.fill_range;
     report.input = describeInput(mask, droplet.outline, options);
     report.input.own_size = takesOwnSize(mask, around, options);
     report.output = describeOutput(droplet.surface, options.output, options.format);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "droplet/io/page.h"
 #include "droplet/version.h"
 #include "files.h"
 
@@ -49,8 +50,17 @@ void declareShape(CommandLine& line)
              "droplet: 0..2, from none to twice its liquid; of the\n"
              "linear model alone");
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
+    line.add("Run", "--html", "FILE",
+             "write a page that shows the droplet in a browser, all in\n"
+             "one file; - is standard output");
     line.add("Run", "--export-evolver", "FILE", "write the droplets for Surface Evolver");
     declareRun(line);
+}
+
+/// Whether something is written as glTF; the page holds one.
+bool inGltf(const ShapeOptions& options)
+{
+    return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
 }
 
 void readFormat(const CommandLine& line, ShapeOptions& options)
@@ -73,7 +83,7 @@ void readFormat(const CommandLine& line, ShapeOptions& options)
     }
 
     if (const auto material = line.value("--material")) {
-        if (options.format != droplet::Format::Glb && options.format != droplet::Format::Gltf) {
+        if (!inGltf(options)) {
             options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
                                                 droplet::name(options.format) + " files carry no material");
         }
@@ -116,7 +126,7 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     if (options.settings.onto) {
         clash("--onto", "droplets on an object have no slider");
     }
-    if (options.format != droplet::Format::Glb && options.format != droplet::Format::Gltf) {
+    if (!inGltf(options)) {
         clash(std::string("the format ") + droplet::name(options.format), "only glb and gltf hold a slider");
     }
     options.settings.droplet.fill_range = range;
@@ -144,6 +154,12 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     }
     if (const auto evolver = line.value("--export-evolver")) {
         options.evolver = evolver->text;
+    }
+    if (const auto html = line.value("--html")) {
+        if (!droplet::pageIsBuiltIn()) {
+            refuse("--html is not in this program: it was built with DROPLET_PAGE=OFF");
+        }
+        options.html = html->text;
     }
     options.input = line.argument("INPUT");
     options.output = line.argument("OUTPUT");

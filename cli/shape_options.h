@@ -16,6 +16,7 @@ struct ShapeOptions {
     std::string output;                  ///< path or kStandardStream
     std::optional<std::string> json;     ///< path or kStandardStream
     std::optional<std::string> evolver;  ///< path or kStandardStream
+    std::optional<std::string> html;     ///< path or kStandardStream
     droplet::Format format = droplet::Format::Glb;
     FootprintOptions footprint;
     DropletSettings settings;

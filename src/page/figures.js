@@ -53,6 +53,13 @@ export function extent(report) {
     return input && [input.width_px * input.pixel_size_m, input.height_px * input.pixel_size_m];
 }
 
+/** Both in the unit of the longer. */
+export function sides([width, height]) {
+    const [, unit] = length(Math.max(width, height)).split(kSpace);
+    const [size] = kScales.length.find(([, name]) => name === unit);
+    return `${digits(width / size)} × ${digits(height / size)}${kSpace}${unit}`;
+}
+
 function groundText(ground) {
     if (ground.radius_m !== null) {
         return `${ground.radius_m < 0 ? 'hollow ' : ''}${ground.kind}, radius ${length(Math.abs(ground.radius_m))}`;
@@ -74,15 +81,15 @@ export function rows(report) {
     add('Density', liquid?.density_kg_per_m3, (d) => `${digits(d)}${kSpace}kg/m³`);
     add('Volume', shape?.volume_m3, volume);
     add('Greatest height', shape?.height_max_m, length);
-    add('Contact angle, mean', shape?.contact_angle_deg?.mean, degrees);
-    add('Contact angle, range', shape?.contact_angle_deg, ({ min, max }) => `${degrees(min)} to ${degrees(max)}`);
+    add('Contact angle', shape?.contact_angle_deg, ({ min, mean, max }) =>
+        `${degrees(mean)} (${degrees(min)} to ${degrees(max)})`);
     add('Footprint', mesh?.footprint_area_m2, area);
     add('Liquid surface', shape?.liquid_area_m2, area);
     add('Rim', mesh?.rim_length_m, length);
     add('Pressure', shape?.pressure_pa, (p) => `${digits(p)}${kSpace}Pa`);
     add('Bond number', shape?.bond_number, (b) => digits(b));
     add('Capillary length', liquid?.capillary_length_m, length);
-    add('Picture', extent(report), ([w, h]) => `${length(w)} × ${length(h)}`);
+    add('Picture', extent(report), sides);
     if (mesh?.droplets > 1) {
         add('Droplets', mesh.droplets, String);
     }

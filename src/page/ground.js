@@ -4,14 +4,14 @@ import { BackSide, CircleGeometry, Color, Group, LinearMipmapLinearFilter, Mesh,
     SRGBColorSpace, Texture, Vector2 } from 'three';
 
 const paper = {
-    name: 'Paper with a grid', colour: '#f3efe6', far: '#e9e5dc', line: '#7d98aa', mark: '#33414d', sky: 0.6, sun: 0.42,
+    name: 'Paper with a grid', colour: '#f0ebe0', far: '#e8e2d6', line: '#7d98aa', mark: '#33414d', sky: 0.4, sun: 0.52,
     swatch: 'repeating-linear-gradient(0deg,#a9bcc8 0 1px,transparent 1px 7px),repeating-linear-gradient(90deg,#a9bcc8 0 1px,transparent 1px 7px),#f3efe6',
 };
 const studio = {
-    name: 'Dark studio', colour: '#3c454d', far: '#101315', mark: '#c9d3da', sky: 0.28, sun: 1.0, pool: 1, walls: 0.3,
+    name: 'Dark studio', colour: '#4a545d', far: '#14181b', mark: '#c9d3da', sky: 0.28, sun: 1.0, pool: 1, walls: 0.3,
     swatch: 'radial-gradient(circle at 45% 40%,#56626c,#14181b 75%)',
 };
-const plain = (name, colour, far, mark) => ({ name, colour, far, mark, sky: 0.52, sun: 0.5, swatch: colour });
+const plain = (name, colour, far, mark) => ({ name, colour, far, mark, sky: 0.42, sun: 0.55, swatch: colour });
 
 /** What can be chosen, in the order it is shown in. */
 export const kGrounds = {
@@ -21,10 +21,9 @@ export const kGrounds = {
     leaf: plain('Green', '#6f9a6a', '#5d8858', '#f2f6f2'),
     clay: plain('Terracotta', '#c8704f', '#b56143', '#fdf3ee'),
     rose: plain('Rose', '#dfa7ab', '#d3979c', '#4a2d30'),
-    slate: plain('Slate', '#5b646d', '#4a525a', '#eef2f5'),
     white: plain('White', '#fbfbfa', '#f1f1ef', '#33414d'),
 };
-const kPicture = { name: 'Own picture', colour: '#d9d6d0', far: '#cfccc6', mark: '#33414d', sky: 0.55, sun: 0.47 };
+const kPicture = { name: 'Own picture', colour: '#d9d6d0', far: '#cfccc6', mark: '#33414d', sky: 0.4, sun: 0.52 };
 
 const kVertex = `
 varying vec3 place;

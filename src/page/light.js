@@ -136,7 +136,7 @@ export class GroundLight {
         renderer.autoClear = false;
         for (let i = 0; i < count; ++i) {
             // Points of a sunflower, evenly over a disc.
-            const radius = 0.11 * Math.sqrt((i + 0.5) / count);
+            const radius = 0.075 * Math.sqrt((i + 0.5) / count);
             const angle = i * 2.399963;
             sun.value.copy(kSun).addScaledVector(kAcross, radius * Math.cos(angle))
                 .addScaledVector(kUpward, radius * Math.sin(angle)).normalize();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { extent, length, rows, volume } from './figures.js';
+import { extent, length, rows, sides, volume } from './figures.js';
 import { kGrounds } from './ground.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { roundLength, Stage } from './stage.js';
@@ -13,9 +13,8 @@ const bytes = decodeBase64(find('model').textContent.trim());
 
 function showFigures() {
     find('title').textContent = title;
-    const sides = extent(report);
     find('subtitle').textContent = [report.liquid?.name, report.shape && volume(report.shape.volume_m3),
-        sides && `${length(sides[0])} × ${length(sides[1])}`].filter(Boolean).join(' · ');
+        extent(report) && sides(extent(report))].filter(Boolean).join(' · ');
     const body = find('figures').querySelector('tbody');
     for (const [name, value] of rows(report)) {
         const row = body.insertRow();
@@ -91,11 +90,19 @@ async function readPicture(file) {
     }
 }
 
+function thumbnail(picture) {
+    const small = document.createElement('canvas');
+    small.width = small.height = 64;
+    const side = Math.min(picture.width, picture.height);
+    small.getContext('2d').drawImage(picture, (picture.width - side) / 2, (picture.height - side) / 2, side, side, 0, 0, 64, 64);
+    return small.toDataURL();
+}
+
 function offerGrounds(stage) {
     const radios = [];
     const apply = (marked) => {
         find('stage').style.setProperty('--mark', stage.ground.mark);
-        find('own').classList.toggle('chosen', marked === undefined);
+        find('picture').classList.toggle('chosen', marked === undefined);
         radios.forEach((radio) => { radio.checked = radio.value === marked; });
     };
     const choose = (key) => {
@@ -112,7 +119,7 @@ function offerGrounds(stage) {
         const dot = document.createElement('i');
         dot.style.background = swatch;
         label.append(radio, dot);
-        find('swatches').append(label);
+        find('picture').parentElement.before(label);
         radios.push(radio);
     }
     find('picture').addEventListener('change', async (event) => {
@@ -123,6 +130,7 @@ function offerGrounds(stage) {
         }
         try {
             const picture = await readPicture(file);
+            find('picture').nextElementSibling.style.backgroundImage = `url(${thumbnail(picture)})`;
             stage.wear((ground) => ground.show(picture, stage.renderer.capabilities.getMaxAnisotropy()));
             apply(undefined);
             find('trouble').hidden = true;

@@ -166,23 +166,24 @@ export class Stage {
         const upright = this.canvas.clientHeight > free;
         const box = this.box;
         const target = box.getCenter(new Vector3());
-        target.y = this.level + 0.35 * (box.max.y - this.level);
         const direction = new Vector3().setFromSphericalCoords(1, MathUtils.degToRad(upright ? 40 : 47), MathUtils.degToRad(10));
         const forward = direction.clone().negate();
         const right = new Vector3().crossVectors(forward, new Vector3(0, 1, 0)).normalize();
         const up = new Vector3().crossVectors(right, forward);
         const tan_up = Math.tan(MathUtils.degToRad(kFieldOfView / 2));
         const tan_right = tan_up * free / this.canvas.clientHeight;
+        const corners = [box.min.x, box.max.x].flatMap((x) => [this.level, box.max.y].flatMap((y) =>
+            [box.min.z, box.max.z].map((z) => new Vector3(x, y, z))));
         let distance = 0;
-        for (const x of [box.min.x, box.max.x]) {
-            for (const y of [this.level, box.max.y]) {
-                for (const z of [box.min.z, box.max.z]) {
-                    const corner = new Vector3(x, y, z).sub(target);
-                    const nearer = -corner.dot(forward);
-                    distance = Math.max(distance, nearer + Math.abs(corner.dot(right)) / (0.86 * tan_right),
-                        nearer + Math.abs(corner.dot(up)) / (0.8 * tan_up));
-                }
-            }
+        // As near as all fits, then to the middle of what is seen; perspective puts it elsewhere than the box's.
+        for (let pass = 0; pass < 4; ++pass) {
+            const seen = corners.map((corner) => corner.clone().sub(target))
+                .map((way) => ({ x: way.dot(right), y: way.dot(up), nearer: -way.dot(forward) }));
+            distance = Math.max(...seen.map(({ x, y, nearer }) =>
+                nearer + Math.max(Math.abs(x) / (0.84 * tan_right), Math.abs(y) / (0.74 * tan_up))));
+            const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
+            target.addScaledVector(right, middle(seen.map(({ x, nearer }) => x / (distance - nearer))) * distance);
+            target.addScaledVector(up, middle(seen.map(({ y, nearer }) => y / (distance - nearer))) * distance);
         }
         controls.minDistance = 0.12 * distance;
         controls.maxDistance = 3 * distance;

@@ -4,7 +4,7 @@
 import { ShaderChunk, Vector3 } from 'three';
 
 /** Toward the window: behind, to the left, so that its rays fall toward the viewer through the liquid. */
-export const kSun = new Vector3(-0.5, 0.8, -0.42).normalize();
+export const kSun = new Vector3(-0.6, 0.62, -0.5).normalize();
 /** The window's sides. */
 export const kAcross = new Vector3(0, 1, 0).cross(kSun).normalize();
 export const kUpward = new Vector3().copy(kSun).cross(kAcross);
