@@ -4,9 +4,9 @@
 // largest at a corner, and no point of the piece is farther from the second surface than the farthest corner is from
 // U. Pieces whose bound is over what some point is known to have are cut, the largest bound first.
 //
-// Where to cut is ours: along the sides of the nearest U, seen along its normal, for the bound is exact on pieces that
-// have their nearest points in one triangle. Halving alone needs pieces as small as the distance where two sheets lie
-// close to each other.
+// Where to cut is ours: pieces of one surface are laid over the other's triangles, seen along their normal, for the
+// bound is nearly exact on pieces that have their nearest points in one triangle. Halving alone needs pieces as small
+// as the distance where two sheets lie close to each other.
 #include "surface/hausdorff.h"
 
 #include <tbb/blocked_range.h>
@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct Piece {
     std::array<Sample, 3> corners;
     Sample centre;
     double upper = 0.0;
-    unsigned generation = 0;
+    bool overlaid = false;  ///< was cut along the other surface's triangles
 };
 
 Sample sampled(Vec3 at, const NearestTriangles& to, std::uint32_t guess)
@@ -70,43 +71,161 @@ void bound(Piece& piece, const NearestTriangles& to, double settled)
     piece.upper = std::min(piece.upper, piece.centre.found.distance + radius);
 }
 
-// Signed distances of a piece's corners from the plane it is to be cut by.
-std::optional<std::array<double, 3>> sidesOfCut(const Piece& piece, const NearestTriangles& to)
+/// A convex polygon in space.
+struct Polygon {
+    static constexpr std::size_t kMost = 16;
+    std::array<Vec3, kMost> corners;
+    std::size_t count = 0;
+
+    void add(Vec3 p) { corners[count++] = p; }
+};
+
+double largestFrom(const Polygon& polygon, const Corners3& triangle)
 {
-    constexpr unsigned kHalveEvery = 4;  // so that pieces shrink to nothing whatever the triangles
-    constexpr double kLeast = 1e-9;      // of the piece on either side
-    if (piece.generation % kHalveEvery == kHalveEvery - 1) {
-        return std::nullopt;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        largest = std::max(largest, distance(polygon.corners[k], triangle));
     }
-    const std::uint32_t nearest = piece.centre.found.triangle;
-    const Corners3& triangle = to.triangles()[nearest];
-    double size = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        size = std::max(size, length(piece.corners[(k + 1) % 3].at - piece.corners[k].at));
-    }
-    std::optional<std::array<double, 3>> best;
-    double farthest = kLeast * size;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 outward = cross(triangle[(k + 1) % 3] - triangle[k], to.facet(nearest));
-        const double scale = length(outward);
-        if (!(scale > 0.0)) {
-            continue;
-        }
-        std::array<double, 3> sides{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            sides[i] = dot(piece.corners[i].at - triangle[k], outward) / scale;
-        }
-        const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
-        if (*most > farthest && *least < -kLeast * size) {
-            farthest = *most;
-            best = sides;
-        }
-    }
-    return best;
+    return largest;
 }
 
-// The plane through a corner and the middle of the longest side.
-std::array<double, 3> sidesOfHalves(const Piece& piece)
+struct Halves {
+    Polygon inside;
+    Polygon outside;
+};
+
+Halves split(const Polygon& polygon, Vec3 origin, Vec3 outward)
+{
+    Halves halves;
+    for (std::size_t k = 0; k < polygon.count; ++k) {
+        const Vec3 p = polygon.corners[k];
+        const Vec3 q = polygon.corners[(k + 1) % polygon.count];
+        const double at_p = dot(p - origin, outward);
+        const double at_q = dot(q - origin, outward);
+        if (at_p <= 0.0) {
+            halves.inside.add(p);
+        }
+        if (at_p >= 0.0) {
+            halves.outside.add(p);
+        }
+        if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0)) {
+            const double t = at_p / (at_p - at_q);
+            const Vec3 middle = (1.0 - t) * p + t * q;
+            halves.inside.add(middle);
+            halves.outside.add(middle);
+        }
+    }
+    return halves;
+}
+
+/// Whether a side of one triangle, both seen along a direction that both face, has all of the other beyond it.
+bool apart(const Corners3& a, const Corners3& b, Vec3 direction)
+{
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 outward = cross(a[(k + 1) % 3] - a[k], direction);
+        if (std::all_of(b.begin(), b.end(), [&](Vec3 p) { return dot(p - a[k], outward) >= 0.0; })) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool beyond(const Polygon& polygon, Vec3 origin, Vec3 outward)
+{
+    return std::all_of(polygon.corners.begin(), polygon.corners.begin() + static_cast<std::ptrdiff_t>(polygon.count),
+                       [&](Vec3 p) { return dot(p - origin, outward) >= 0.0; });
+}
+
+/// Cuts a piece along the other surface's triangles under and over it. Calls meet(polygon, bound, triangle) for parts
+/// that make up the whole piece; false, without a call, where there are too many triangles.
+template <typename Meet>
+bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
+{
+    constexpr std::size_t kMostTriangles = 48;  // opposite the piece: else it is halved first
+    constexpr std::size_t kMostNear = 1024;
+    const auto& [a, b, c] = piece.corners;
+    const Vec3 normal = cross(b.at - a.at, c.at - a.at);
+    double radius = 0.0;
+    double away = piece.centre.found.distance;
+    for (const Sample& corner : piece.corners) {
+        radius = std::max(radius, length(corner.at - piece.centre.at));
+        away = std::max(away, corner.found.distance);
+    }
+    constexpr double kMargin = 1.01;
+    const std::vector<std::uint32_t> near = to.boxesWithin(piece.centre.at, kMargin * radius + 2.0 * away);
+    const Corners3 corners = {a.at, b.at, c.at};
+    std::vector<std::uint32_t> opposite;
+    std::copy_if(near.begin(), near.end(), std::back_inserter(opposite), [&](std::uint32_t t) {
+        const Corners3& triangle = to.triangles()[t];
+        return dot(to.facet(t), normal) > 0.0 && !apart(corners, triangle, normal) && !apart(triangle, corners, normal);
+    });
+    if (opposite.size() > kMostTriangles || near.size() > kMostNear) {
+        return false;
+    }
+    std::vector<Polygon> uncovered(1);
+    std::copy(corners.begin(), corners.end(), uncovered[0].corners.begin());
+    uncovered[0].count = 3;
+    std::vector<Polygon> rest;
+    for (const std::uint32_t t : opposite) {
+        const Corners3& triangle = to.triangles()[t];
+        Corners3 outward;
+        for (std::size_t k = 0; k < 3; ++k) {
+            outward[k] = cross(triangle[(k + 1) % 3] - triangle[k], normal);
+        }
+        rest.clear();
+        for (Polygon polygon : uncovered) {
+            if (polygon.count + 3 > Polygon::kMost || beyond(polygon, triangle[0], outward[0]) ||
+                beyond(polygon, triangle[1], outward[1]) || beyond(polygon, triangle[2], outward[2])) {
+                rest.push_back(polygon);
+                continue;
+            }
+            for (std::size_t k = 0; k < 3 && polygon.count > 2; ++k) {
+                const Halves halves = split(polygon, triangle[k], outward[k]);
+                if (halves.outside.count > 2) {
+                    rest.push_back(halves.outside);
+                }
+                polygon = halves.inside;
+            }
+            if (polygon.count > 2) {
+                meet(polygon, largestFrom(polygon, triangle), t);
+            }
+        }
+        uncovered.swap(rest);
+    }
+    for (const Polygon& polygon : uncovered) {
+        double least = std::numeric_limits<double>::infinity();
+        std::uint32_t nearest = piece.centre.found.triangle;
+        for (const std::uint32_t t : near) {
+            const double largest = largestFrom(polygon, to.triangles()[t]);
+            if (largest < least) {
+                least = largest;
+                nearest = t;
+            }
+        }
+        meet(polygon, least, nearest);
+    }
+    return true;
+}
+
+/// The bound that the overlay gives, where it is better.
+void boundByOverlay(Piece& piece, const NearestTriangles& to)
+{
+    double largest = 0.0;
+    const bool known =
+        overlay(piece, to, [&](const Polygon&, double bound, std::uint32_t) { largest = std::max(largest, bound); });
+    if (known) {
+        piece.upper = std::min(piece.upper, largest);
+    }
+}
+
+struct Cut {
+    std::vector<Piece> pieces;
+    double dismissed = 0.0;  ///< the largest bound of parts that need no further look
+    Sample farthest;
+};
+
+/// Two halves of a piece, by the middle of its longest side.
+void halve(const Piece& piece, const NearestTriangles& to, double settled, Cut& result)
 {
     std::size_t longest = 0;
     double most = -1.0;
@@ -117,63 +236,55 @@ std::array<double, 3> sidesOfHalves(const Piece& piece)
             longest = k;
         }
     }
-    std::array<double, 3> sides{};
-    sides[longest] = -1.0;
-    sides[(longest + 1) % 3] = 1.0;
-    return sides;
+    const Sample& a = piece.corners[longest];
+    const Sample& b = piece.corners[(longest + 1) % 3];
+    const Sample& c = piece.corners[(longest + 2) % 3];
+    const Sample middle = sampled(0.5 * (a.at + b.at), to, piece.centre.found.triangle);
+    for (const std::array<Sample, 3>& corners : {std::array{a, middle, c}, std::array{middle, b, c}}) {
+        Piece child;
+        child.corners = corners;
+        child.upper = piece.upper;
+        child.overlaid = piece.overlaid;
+        bound(child, to, settled);
+        if (!child.overlaid && child.upper > settled) {
+            boundByOverlay(child, to);
+        }
+        result.pieces.push_back(child);
+    }
 }
-
-struct Cut {
-    std::array<Piece, 3> pieces;
-    std::size_t count = 0;
-    Sample farthest;
-};
 
 Cut cut(const Piece& piece, const NearestTriangles& to, double settled)
 {
-    const std::array<double, 3> sides = sidesOfCut(piece, to).value_or(sidesOfHalves(piece));
-    // The piece's outline with the points where the plane cuts it: one on each of two sides, or a corner and one. There
-    // are corners on both sides of it.
-    std::array<Sample, 5> outline;
-    std::size_t count = 0;
     Cut result;
     result.farthest = piece.centre;
-    std::array<std::size_t, 2> cuts{};
-    std::size_t cut_count = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t next = (k + 1) % 3;
-        if (sides[k] == 0.0) {
-            cuts[cut_count++] = count;
+    const auto add = [&](const Polygon& polygon, double largest, std::uint32_t triangle) {
+        if (std::min(largest, piece.upper) <= settled) {
+            result.dismissed = std::max(result.dismissed, std::min(largest, piece.upper));
+            return;
         }
-        outline[count++] = piece.corners[k];
-        if ((sides[k] < 0.0 && sides[next] > 0.0) || (sides[k] > 0.0 && sides[next] < 0.0)) {
-            const double t = sides[k] / (sides[k] - sides[next]);
-            const Vec3 at = (1.0 - t) * piece.corners[k].at + t * piece.corners[next].at;
-            cuts[cut_count++] = count;
-            outline[count] = sampled(at, to, piece.centre.found.triangle);
-            if (outline[count].found.distance > result.farthest.found.distance) {
-                result.farthest = outline[count];
+        std::array<Sample, Polygon::kMost> samples;
+        for (std::size_t k = 0; k < polygon.count; ++k) {
+            samples[k] = sampled(polygon.corners[k], to, triangle);
+        }
+        for (std::size_t k = 1; k + 1 < polygon.count; ++k) {
+            Piece child;
+            child.corners = {samples[0], samples[k], samples[k + 1]};
+            child.upper = std::min(largest, piece.upper);
+            child.overlaid = true;
+            bound(child, to, settled);
+            result.pieces.push_back(child);
+        }
+    };
+    if (piece.overlaid || !overlay(piece, to, add)) {
+        halve(piece, to, settled, result);
+    }
+    for (const Piece& child : result.pieces) {
+        for (const Sample& sample : {child.corners[0], child.corners[1], child.corners[2], child.centre}) {
+            if (sample.found.distance > result.farthest.found.distance) {
+                result.farthest = sample;
             }
-            ++count;
         }
     }
-    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-        Piece& child = result.pieces[result.count++];
-        child.corners = {outline[a % count], outline[b % count], outline[c % count]};
-        child.upper = piece.upper;
-        child.generation = piece.generation + 1;
-        bound(child, to, settled);
-        if (child.centre.found.distance > result.farthest.found.distance) {
-            result.farthest = child.centre;
-        }
-    };
-    const auto fan = [&](std::size_t from, std::size_t until) {
-        for (std::size_t k = from + 1; k < until; ++k) {
-            add(from, k, k + 1);
-        }
-    };
-    fan(cuts[0], cuts[1]);
-    fan(cuts[1], cuts[0] + count);
     return result;
 }
 
@@ -229,7 +340,12 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
             std::for_each(piece.corners.begin(), piece.corners.end(), meet);
         }
         const double line = settled();
-        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { bound(pieces[i], to, line); });
+        tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+            bound(pieces[i], to, line);
+            if (pieces[i].upper > line) {
+                boundByOverlay(pieces[i], to);
+            }
+        });
         for (const Piece& piece : pieces) {
             meet(piece.centre);
         }
@@ -256,12 +372,13 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) { cuts[i] = cut(batch[i], to, line); });
         for (const Cut& one : cuts) {
             meet(one.farthest);
-            looked_at += one.count;
+            looked_at += one.pieces.size();
+            dismissed = std::max(dismissed, one.dismissed);
         }
         const double next_line = settled();
         for (const Cut& one : cuts) {
-            for (std::size_t k = 0; k < one.count; ++k) {
-                keep(one.pieces[k], next_line);
+            for (const Piece& piece : one.pieces) {
+                keep(piece, next_line);
             }
         }
     }

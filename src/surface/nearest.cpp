@@ -208,4 +208,23 @@ std::vector<std::uint32_t> NearestTriangles::within(Vec3 p, double most) const
     return found;
 }
 
+std::vector<std::uint32_t> NearestTriangles::boxesWithin(Vec3 p, double most) const
+{
+    std::vector<std::uint32_t> found;
+    auto visitor = [&](std::uint32_t triangle) {
+        const auto& [a, b, c] = triangles_[triangle];
+        const auto gap = [](double x, double u, double v, double w) {
+            return std::max({0.0, std::min({u, v, w}) - x, x - std::max({u, v, w})});
+        };
+        const Vec3 away{gap(p.x, a.x, b.x, c.x), gap(p.y, a.y, b.y, c.y), gap(p.z, a.z, b.z, c.z)};
+        if (dot(away, away) <= most * most) {
+            found.push_back(triangle);
+        }
+        return most;
+    };
+    visit(p, most, visitor);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 }  // namespace droplet

@@ -52,6 +52,9 @@ public:
     /// Triangles no farther from p than `most`, in rising order.
     [[nodiscard]] std::vector<std::uint32_t> within(Vec3 p, double most) const;
 
+    /// Triangles whose boxes are no farther from p than `most`, in rising order: all that `within` finds, and more.
+    [[nodiscard]] std::vector<std::uint32_t> boxesWithin(Vec3 p, double most) const;
+
 private:
     struct Tree;
     template <typename Visit>

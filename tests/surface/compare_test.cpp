@@ -406,7 +406,8 @@ TEST(Compare, LengthsFollowTheScaleAndAnglesDoNot)
     const Comparison one = compare(a, b);
     for (const double factor : {std::ldexp(1.0, -30), std::ldexp(1.0, 30), 1e-8, 1e8}) {
         const Comparison found = compare(scaled(a, factor), scaled(b, factor));
-        const double exact = std::log2(factor) == std::round(std::log2(factor)) ? 0.0 : 1e-9;
+        // Beside powers of two round-off decides which of two equally long sides is cut for quadrature.
+        const double exact = std::log2(factor) == std::round(std::log2(factor)) ? 0.0 : 1e-7;
         const auto expect_times = [&](double big, double small, double power) {
             EXPECT_NEAR(big / small, std::pow(factor, power), exact * std::pow(factor, power)) << factor;
         };
@@ -416,8 +417,8 @@ TEST(Compare, LengthsFollowTheScaleAndAnglesDoNot)
         expect_times(found.from_b.upper, one.from_b.upper, 1.0);
         expect_times(found.a.area, one.a.area, 2.0);
         expect_times(found.b.volume, one.b.volume, 3.0);
-        EXPECT_NEAR(found.normals.largest, one.normals.largest, 1e-9);
-        EXPECT_NEAR(found.normals.rms, one.normals.rms, 1e-9);
+        EXPECT_NEAR(found.normals.largest, one.normals.largest, 1e-7);
+        EXPECT_NEAR(found.normals.rms, one.normals.rms, 1e-7);
     }
 }
 
@@ -465,16 +466,20 @@ TEST(Compare, ToleranceIsDecidedWhereBoundsAloneWouldNot)
 
 TEST(Compare, BoundsStayBoundsWhereTheWorkIsLimited)
 {
-    const Surface a = roundDroplet({.rings = 7, .segments = 17});
-    const Surface b = roundDroplet({.rings = 5, .segments = 13});
+    // The middle of a sphere's inside is far from all its points, a hard case: a small sphere in it, off centre.
+    const Surface a = faceted(sphereFacets(1.0, 9));
+    const Surface b = shifted(faceted(sphereFacets(0.01, 2)), {1e-3, 2e-3, 3e-3});
     CompareOptions options;
-    options.share = 1e-6;
+    options.share = 1e-9;
     const Comparison exact = compare(a, b, options);
     options.most_pieces = 1;
     const Comparison coarse = compare(a, b, options);
-    EXPECT_LE(coarse.from_a.lower, exact.from_a.upper);
-    EXPECT_GE(coarse.from_a.upper, exact.from_a.lower);
-    EXPECT_GT(coarse.from_a.upper - coarse.from_a.lower, 1e-3 * coarse.from_a.upper) << "the limit was no limit";
+    for (const auto& [wide, narrow] : {std::pair(coarse.from_a, exact.from_a), {coarse.from_b, exact.from_b}}) {
+        EXPECT_LE(wide.lower, narrow.upper);
+        EXPECT_GE(wide.upper, narrow.lower);
+        EXPECT_LE(narrow.upper - narrow.lower, 2e-9 * narrow.upper);
+    }
+    EXPECT_GT(coarse.from_b.upper - coarse.from_b.lower, 1e-6) << "the limit was no limit";
 }
 
 TEST(Compare, TrianglesWithoutAreaAddNothingButTheirPoints)
