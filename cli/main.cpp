@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compare_command.h"
 #include "droplet/error.h"
 #include "shape_command.h"
 #include "terminal.h"
@@ -71,7 +72,7 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{};
+    static const std::vector<Command> all{{"compare", cli::runCompare}};
     return all;
 }
 

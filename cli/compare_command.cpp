@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compare_command.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "droplet/error.h"
+#include "droplet/io/comparison_report.h"
+#include "droplet/io/output.h"
+#include "droplet/io/read_surface.h"
+#include "droplet/surface/compare.h"
+#include "droplet/units.h"
+#include "droplet/version.h"
+#include "files.h"
+#include "option_values.h"
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+constexpr Range kTolerance{droplet::Dimension::Length, 1e-15, 1e3, "over 0m, up to 1000m"};
+constexpr Range kAngle{droplet::Dimension::Angle, 1e-9, 3.2, "over 0deg, up to 180deg"};
+
+const CommandText& commandText()
+{
+    static const CommandText text{
+        "droplet-shape compare", "how far two surfaces differ", "[OPTIONS] A B",
+        "Surfaces are .glb, .gltf, .obj, .ply or .stl. With a tolerance, topology must be the\n"
+        "same, too, and the exit code says whether all is within.\n"
+        "\n"
+        "Examples:\n"
+        "  droplet-shape compare reference.glb new.glb --tolerance 0.01mm\n"
+        "  droplet-shape compare coarse.glb fine.glb --json difference.json\n"
+        "\n"
+        "Exit codes:\n"
+        "  0 done, within every tolerance; 1 the two differ by more than a tolerance, or\n"
+        "  internal error; 2 usage; 3 a surface is unreadable; 4 output cannot be written"};
+    return text;
+}
+
+struct Options {
+    std::string path_a;
+    std::string path_b;
+    droplet::Tolerances tolerances;
+    std::optional<std::string> json;
+    std::optional<std::size_t> threads;
+    droplet::OutputOptions files;
+    bool quiet = false;
+};
+
+void declare(CommandLine& line)
+{
+    line.addArgument("A", "a surface");
+    line.addArgument("B", "another");
+    constexpr const char* kAllowed = "Allowed";
+    line.add(kAllowed, "--tolerance", "LENGTH", "largest distance of either one's points from the other");
+    line.add(kAllowed, "--volume-tolerance", "SHARE", "difference of volumes, as in 0.1%");
+    line.add(kAllowed, "--normal-tolerance", "ANGLE", "rms angle between normals");
+    constexpr const char* kRun = "Run";
+    line.add(kRun, "--json", "FILE", "write a report; - is standard output");
+    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
+    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
+    line.add(kRun, "--config", "FILE",
+             "take options from lines such as width = \"8cm\";\n"
+             "the command line goes before them");
+    line.addFlag(kRun, "-h,--help", "print this help");
+    line.addFlag(kRun, "--version", "print the version");
+}
+
+/// A share in per cent: of a bare number it is a guess whether it is one.
+double share(const Given& given)
+{
+    const std::string& text = given.text;
+    const auto number = text.ends_with('%') ? finiteNumber(text.substr(0, text.size() - 1)) : std::optional<double>();
+    if (!number || *number < 0.0 || *number > 100.0) {
+        refuse(given, "a share from 0% to 100%, such as 0.1%");
+    }
+    return *number / 100.0;
+}
+
+Options readOptions(const CommandLine& line)
+{
+    Options options;
+    options.path_a = line.argument("A");
+    options.path_b = line.argument("B");
+    for (const std::string& path : {options.path_a, options.path_b}) {
+        if (isStream(path)) {
+            refuse("'-': surfaces are read from files, not from standard input");
+        }
+        forOption("'" + path + "'",
+                  [&] { return droplet::formatNamed(std::filesystem::path(path).extension().string()); });
+    }
+    if (const auto tolerance = line.value("--tolerance")) {
+        options.tolerances.distance = quantity(*tolerance, kTolerance);
+    }
+    if (const auto tolerance = line.value("--volume-tolerance")) {
+        options.tolerances.volume = share(*tolerance);
+    }
+    if (const auto tolerance = line.value("--normal-tolerance")) {
+        options.tolerances.normals = quantity(*tolerance, kAngle);
+    }
+    if (const auto json = line.value("--json")) {
+        options.json = json->text;
+    }
+    constexpr std::size_t kMostThreads = 1024;  // as of all commands
+    if (const auto threads = line.value("--threads")) {
+        options.threads = count(*threads, kMostThreads, "1024");
+    }
+    options.files.no_clobber = line.flag("--no-clobber");
+    options.quiet = line.flag("--quiet");
+    return options;
+}
+
+// -------------------------------------------------------------------------------------------------- the table
+
+std::string text(const char* format, double value)
+{
+    std::array<char, 350> room{};
+    std::snprintf(room.data(), room.size(), format, value);
+    return room.data();
+}
+
+std::string millimetres(double metres)
+{
+    return text("%.4g", metres / droplet::kMillimetre) + " mm";
+}
+
+std::string place(droplet::Vec3 p)
+{
+    return "(" + text("%.4g", p.x / droplet::kMillimetre) + ", " + text("%.4g", p.y / droplet::kMillimetre) + ", " +
+           text("%.4g", p.z / droplet::kMillimetre) + ") mm";
+}
+
+/// A row of the table: columns of one width, by characters, not bytes.
+std::string row(const std::vector<std::string>& cells)
+{
+    std::string line;
+    for (const std::string& cell : cells) {
+        constexpr std::size_t kColumn = 15;
+        const auto characters = static_cast<std::size_t>(
+            std::count_if(cell.begin(), cell.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+        line += cell + std::string(characters < kColumn ? kColumn - characters : 1, ' ');
+    }
+    return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string shareOf(double a, double b)
+{
+    return a != 0.0 ? text("%+.3g", 100.0 * (b - a) / std::abs(a)) + " %" : "";
+}
+
+std::string topologyOf(const droplet::Topology& topology)
+{
+    if (!topology.manifold) {
+        return "no manifold";
+    }
+    return (topology.closed ? "closed" : "open") + std::string(", Euler ") + std::to_string(topology.euler);
+}
+
+std::string table(const droplet::Comparison& found)
+{
+    const droplet::SurfaceMeasures& a = found.a;
+    const droplet::SurfaceMeasures& b = found.b;
+    const double square = droplet::kMillimetre * droplet::kMillimetre;
+    std::string lines = row({"", "A", "B", "B − A"});
+    lines += row({"triangles", std::to_string(a.triangles), std::to_string(b.triangles)});
+    lines += row({"area", text("%.5g", a.area / square) + " mm²", text("%.5g", b.area / square) + " mm²",
+                  shareOf(a.area, b.area)});
+    lines += row({"volume", text("%.5g", a.volume / droplet::kMicrolitre) + " µL",
+                  text("%.5g", b.volume / droplet::kMicrolitre) + " µL", shareOf(a.volume, b.volume)});
+    if (a.contact_angle && b.contact_angle) {
+        lines += row({"contact angle", text("%.2f", a.contact_angle->mean / droplet::kDegree) + "°",
+                      text("%.2f", b.contact_angle->mean / droplet::kDegree) + "°",
+                      text("%+.2g", (b.contact_angle->mean - a.contact_angle->mean) / droplet::kDegree) + "°"});
+    }
+    lines +=
+        row({"topology", topologyOf(a.topology), topologyOf(b.topology), found.same_topology ? "same" : "differs"});
+    lines += row({"components", std::to_string(a.topology.components), std::to_string(b.topology.components)});
+    lines += "\n" + row({"", "A from B", "B from A", "either"});
+    const auto over = [&](const char* name, const auto& value) {
+        lines += row({name, value(found.from_a), value(found.from_b), value(found.symmetric)});
+    };
+    over("distance, from", [](const droplet::SurfaceDistance& d) { return millimetres(d.lower); });
+    over("  to", [](const droplet::SurfaceDistance& d) { return millimetres(d.upper); });
+    over("  rms", [](const droplet::SurfaceDistance& d) { return millimetres(d.rms); });
+    over("  mean", [](const droplet::SurfaceDistance& d) { return millimetres(d.mean); });
+    const auto angle = [](double radians) { return text("%.3g", radians / droplet::kDegree) + "°"; };
+    lines +=
+        row({"normals, rms", angle(found.normals_of_a.rms), angle(found.normals_of_b.rms), angle(found.normals.rms)});
+    lines += row({"  largest", angle(found.normals_of_a.largest), angle(found.normals_of_b.largest),
+                  angle(found.normals.largest)});
+    lines += "farthest at " + place(found.symmetric.at) + "\n";
+    return lines;
+}
+
+}  // namespace
+
+int runCompare(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        print(line.help());
+        return 0;
+    }
+    if (line.flag("--version")) {
+        print("droplet-shape " + std::string(droplet::kVersion) + "\n");
+        return 0;
+    }
+    const Options options = readOptions(line);
+    std::vector<NamedFile> outputs;
+    if (options.json) {
+        outputs.push_back({"--json", *options.json});
+    }
+    checkFiles({{"A", options.path_a}, {"B", options.path_b}}, outputs, options.files);
+    std::optional<tbb::global_control> limit;
+    if (options.threads) {
+        limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
+    }
+
+    const droplet::ReadSurface a = droplet::readSurface(options.path_a);
+    const droplet::ReadSurface b = droplet::readSurface(options.path_b);
+    droplet::ComparisonReport report{options.path_a, options.path_b, {}, options.tolerances, {}, a.warnings};
+    report.warnings.insert(report.warnings.end(), b.warnings.begin(), b.warnings.end());
+    droplet::CompareOptions how;
+    how.tolerance = options.tolerances.distance;
+    report.comparison = droplet::compare(a.surface, b.surface, how);
+    report.exceeded = droplet::exceeded(report.comparison, options.tolerances);
+
+    if (options.json) {
+        writeTogether({{*options.json, [&](std::ostream& out) { writeComparison(out, report); }}}, options.files);
+    }
+    if (!options.quiet) {
+        for (const std::string& warning : report.warnings) {
+            std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << '\n';
+        }
+        if (!options.json || !isStream(*options.json)) {
+            print(table(report.comparison));
+        }
+    }
+    if (!report.exceeded.empty()) {
+        std::string differences;
+        for (const std::string& one : report.exceeded) {
+            differences += (differences.empty() ? "" : "; ") + one;
+        }
+        std::cerr << paint("droplet-shape: ", Colour::Red)
+                  << oneLine(options.path_a + " and " + options.path_b + " differ: " + differences) << std::endl;
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace cli

@@ -1,0 +1,586 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; G. Turk, "The PLY Polygon File Format"
+// (1994); 3D Systems, "StereoLithography Interface Specification" (1989).
+//
+// OpenMesh and CGAL read these, too, but not all that is compared: OpenMesh drops triangles that its half-edges cannot
+// hold, and prints about them; CGAL drops normals, and with them the crisp rims.
+#include "droplet/io/read_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "droplet/io/output.h"
+#include "droplet/units.h"
+#include "io/axes.h"
+#include "io/file_bytes.h"
+#include "io/gltf_scene.h"
+#include "io/vertex_normals.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::size_t kMostTriangles = std::size_t{1} << 26;  // as of glTF
+constexpr std::size_t kMostBytes = std::size_t{1} << 34;
+
+// ------------------------------------------------------------------------------------------------------- text
+
+constexpr std::string_view kBlank = " \t\r";
+
+std::string_view nextWord(std::string_view& line)
+{
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlank)));
+    const std::string_view word = line.substr(0, line.find_first_of(kBlank));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+double number(std::string_view word, const std::string& where)
+{
+    double value = 0.0;
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+    }
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+        throw Damage(where + " has \"" + std::string(word.substr(0, 40)) + "\" where a number should be");
+    }
+    return value;
+}
+
+std::optional<long long> wholeNumber(std::string_view word)
+{
+    long long value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
+
+/// The lines of a text, counted.
+class Lines {
+public:
+    explicit Lines(std::string_view text) : rest_(text) {}
+
+    bool next(std::string_view& line)
+    {
+        if (rest_.empty()) {
+            return false;
+        }
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        ++count_;
+        return true;
+    }
+    [[nodiscard]] std::string where() const { return "line " + std::to_string(count_); }
+    [[nodiscard]] std::string_view rest() const { return rest_; }
+
+private:
+    std::string_view rest_;
+    std::size_t count_ = 0;
+};
+
+// -------------------------------------------------------------------------------------------------------- all
+
+/// What a file holds, in its own frame; normals and contact angles are missing or as many as positions.
+struct Content {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<float> contact_angles;  ///< [rad]
+    std::vector<Triangle> triangles;
+
+    void addTriangle(std::uint64_t a, std::uint64_t b, std::uint64_t c)
+    {
+        for (const std::uint64_t v : {a, b, c}) {
+            if (v >= positions.size()) {
+                throw Damage("triangle " + std::to_string(triangles.size()) + " names vertex " + std::to_string(v) +
+                             " of " + std::to_string(positions.size()));
+            }
+        }
+        if (triangles.size() == kMostTriangles) {
+            throw Damage("it has more than " + std::to_string(kMostTriangles) + " triangles");
+        }
+        triangles.push_back(
+            {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+    }
+};
+
+// -------------------------------------------------------------------------------------------------------- OBJ
+
+/// Vertices are pairs of position and normal, as faces name them.
+class ObjReader {
+public:
+    Content read(std::string_view text)
+    {
+        Lines lines(text);
+        for (std::string_view line; lines.next(line);) {
+            const std::string_view key = nextWord(line);
+            if (key == "v" || key == "vn") {
+                Vec3 a;
+                for (double* const to : {&a.x, &a.y, &a.z}) {
+                    *to = number(nextWord(line), lines.where());
+                }
+                (key == "v" ? places_ : directions_).push_back(zUp(a));
+            } else if (key == "f") {
+                readFace(line, lines.where());
+            }
+        }
+        return std::move(content_);
+    }
+
+private:
+    void readFace(std::string_view line, const std::string& where)
+    {
+        std::array<std::uint32_t, 3> corners{};
+        std::size_t count = 0;
+        for (std::string_view word = nextWord(line); !word.empty() && !word.starts_with('#'); word = nextWord(line)) {
+            if (count == 3) {
+                throw Damage(where + " has a face of more than three corners; only triangles are read");
+            }
+            corners[count++] = cornerOf(word, where);
+        }
+        if (count < 3) {
+            throw Damage(where + " has a face of less than three corners");
+        }
+        content_.addTriangle(corners[0], corners[1], corners[2]);
+    }
+
+    /// Of `place`, `place/texture`, `place//normal` or `place/texture/normal`.
+    std::uint32_t cornerOf(std::string_view word, const std::string& where)
+    {
+        const std::size_t first = std::min(word.find('/'), word.size());
+        const std::size_t second = first < word.size() ? word.find('/', first + 1) : std::string_view::npos;
+        const std::uint32_t place = indexOf(word.substr(0, first), places_.size(), where);
+        std::uint32_t direction = std::numeric_limits<std::uint32_t>::max();
+        if (second != std::string_view::npos) {
+            direction = indexOf(word.substr(second + 1), directions_.size(), where);
+        }
+        const auto [found, is_new] = vertices_.try_emplace(std::uint64_t{place} << 32 | direction,
+                                                           static_cast<std::uint32_t>(content_.positions.size()));
+        if (is_new) {
+            content_.positions.push_back(places_[place]);
+            content_.normals.push_back(second != std::string_view::npos ? directions_[direction] : Vec3{});
+        }
+        return found->second;
+    }
+
+    /// From 1 on, or from −1 back.
+    static std::uint32_t indexOf(std::string_view word, std::size_t count, const std::string& where)
+    {
+        const std::optional<long long> value = wholeNumber(word);
+        const auto most = static_cast<long long>(std::min<std::size_t>(count, 0xfffffffeU));
+        const long long index = !value ? -1 : *value < 0 ? most + *value : *value - 1;
+        if (index < 0 || index >= most) {
+            throw Damage(where + " names \"" + std::string(word.substr(0, 40)) + "\" of " + std::to_string(count));
+        }
+        return static_cast<std::uint32_t>(index);
+    }
+
+    Content content_;
+    std::vector<Vec3> places_;
+    std::vector<Vec3> directions_;
+    std::map<std::uint64_t, std::uint32_t> vertices_;
+};
+
+// -------------------------------------------------------------------------------------------------------- PLY
+
+enum class Scalar { I8, U8, I16, U16, I32, U32, F32, F64 };
+
+Scalar scalarNamed(std::string_view name)
+{
+    constexpr std::array<std::pair<std::string_view, Scalar>, 16> kNames = {{{"char", Scalar::I8},
+                                                                             {"int8", Scalar::I8},
+                                                                             {"uchar", Scalar::U8},
+                                                                             {"uint8", Scalar::U8},
+                                                                             {"short", Scalar::I16},
+                                                                             {"int16", Scalar::I16},
+                                                                             {"ushort", Scalar::U16},
+                                                                             {"uint16", Scalar::U16},
+                                                                             {"int", Scalar::I32},
+                                                                             {"int32", Scalar::I32},
+                                                                             {"uint", Scalar::U32},
+                                                                             {"uint32", Scalar::U32},
+                                                                             {"float", Scalar::F32},
+                                                                             {"float32", Scalar::F32},
+                                                                             {"double", Scalar::F64},
+                                                                             {"float64", Scalar::F64}}};
+    for (const auto& [known, scalar] : kNames) {
+        if (known == name) {
+            return scalar;
+        }
+    }
+    throw Damage("its header names no type: " + std::string(name.substr(0, 40)));
+}
+
+template <typename T>
+double littleEndian(std::string_view bytes)
+{
+    static_assert(std::endian::native == std::endian::little);
+    T value{};
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return static_cast<double>(value);
+}
+
+/// Numbers one by one, from words or bytes.
+class PlyNumbers {
+public:
+    PlyNumbers(std::string_view rest, bool text) : rest_(rest), text_(text) {}
+
+    double next(Scalar scalar)
+    {
+        if (text_) {
+            rest_.remove_prefix(std::min(rest_.size(), rest_.find_first_not_of(" \t\r\n")));
+            const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
+            rest_.remove_prefix(word.size());
+            if (word.empty()) {
+                throw Damage("it is cut short");
+            }
+            return number(word, "its text");
+        }
+        constexpr std::array<std::size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
+        const std::size_t size = kBytes[static_cast<std::size_t>(scalar)];
+        if (rest_.size() < size) {
+            throw Damage("it is cut short");
+        }
+        const std::string_view bytes = rest_.substr(0, size);
+        rest_.remove_prefix(size);
+        switch (scalar) {
+            case Scalar::I8:
+                return littleEndian<std::int8_t>(bytes);
+            case Scalar::U8:
+                return littleEndian<std::uint8_t>(bytes);
+            case Scalar::I16:
+                return littleEndian<std::int16_t>(bytes);
+            case Scalar::U16:
+                return littleEndian<std::uint16_t>(bytes);
+            case Scalar::I32:
+                return littleEndian<std::int32_t>(bytes);
+            case Scalar::U32:
+                return littleEndian<std::uint32_t>(bytes);
+            case Scalar::F32:
+                return littleEndian<float>(bytes);
+            case Scalar::F64:
+                break;
+        }
+        return littleEndian<double>(bytes);
+    }
+
+    std::uint64_t nextWhole(Scalar scalar)
+    {
+        const double value = next(scalar);
+        if (!(value >= 0.0 && value < 4294967296.0 && std::floor(value) == value)) {
+            throw Damage("it has a count or index that is none");
+        }
+        return static_cast<std::uint64_t>(value);
+    }
+
+private:
+    std::string_view rest_;
+    bool text_;
+};
+
+struct PlyProperty {
+    std::string name;
+    Scalar scalar = Scalar::F32;
+    std::optional<Scalar> count = {};  ///< of a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, Content& content)
+{
+    const auto has = [&](const char* name) {
+        return std::any_of(element.properties.begin(), element.properties.end(),
+                           [&](const PlyProperty& p) { return p.name == name && !p.count; });
+    };
+    if (!has("x") || !has("y") || !has("z")) {
+        throw Damage("its vertices have no x, y and z");
+    }
+    const bool normals = has("nx") && has("ny") && has("nz");
+    const bool angles = has("contact_angle");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        Vec3 p;
+        Vec3 n;
+        double angle = 0.0;
+        double other = 0.0;
+        for (const PlyProperty& property : element.properties) {
+            for (std::uint64_t left = property.count ? numbers.nextWhole(*property.count) : 0; left > 0; --left) {
+                numbers.next(property.scalar);
+            }
+            if (property.count) {
+                continue;
+            }
+            const std::string_view name = property.name;
+            double& to = name == "x"               ? p.x
+                         : name == "y"             ? p.y
+                         : name == "z"             ? p.z
+                         : name == "nx"            ? n.x
+                         : name == "ny"            ? n.y
+                         : name == "nz"            ? n.z
+                         : name == "contact_angle" ? angle
+                                                   : other;
+            to = numbers.next(property.scalar);
+        }
+        content.positions.push_back(p);
+        if (normals) {
+            content.normals.push_back(n);
+        }
+        if (angles) {
+            content.contact_angles.push_back(static_cast<float>(kDegree * angle));
+        }
+    }
+}
+
+void readPlyFaces(const PlyElement& element, PlyNumbers& numbers, Content& content)
+{
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (const PlyProperty& property : element.properties) {
+            if (!property.count) {
+                numbers.next(property.scalar);
+                continue;
+            }
+            const std::uint64_t corners = numbers.nextWhole(*property.count);
+            if (property.name == "vertex_indices" || property.name == "vertex_index") {
+                if (corners != 3) {
+                    throw Damage("face " + std::to_string(i) + " has " + std::to_string(corners) +
+                                 " corners; only triangles are read");
+                }
+                const std::uint64_t a = numbers.nextWhole(property.scalar);
+                const std::uint64_t b = numbers.nextWhole(property.scalar);
+                content.addTriangle(a, b, numbers.nextWhole(property.scalar));
+                continue;
+            }
+            for (std::uint64_t k = 0; k < corners; ++k) {
+                numbers.next(property.scalar);
+            }
+        }
+    }
+}
+
+Content readPly(std::string_view text)
+{
+    Lines lines(text);
+    std::string_view line;
+    const auto first_word = [&] { return nextWord(line); };
+    if (!lines.next(line) || first_word() != "ply") {
+        throw Damage("it does not begin with \"ply\"");
+    }
+    std::vector<PlyElement> elements;
+    std::string format;
+    bool ended = false;
+    while (!ended && lines.next(line)) {
+        const std::string_view key = nextWord(line);
+        if (key == "format") {
+            format = nextWord(line);
+        } else if (key == "element") {
+            PlyElement element;
+            element.name = nextWord(line);
+            const std::optional<long long> count = wholeNumber(nextWord(line));
+            if (!count || *count < 0) {
+                throw Damage(lines.where() + " has no count");
+            }
+            element.count = static_cast<std::uint64_t>(*count);
+            elements.push_back(element);
+        } else if (key == "property") {
+            if (elements.empty()) {
+                throw Damage(lines.where() + " has a property of no element");
+            }
+            PlyProperty property;
+            std::string_view type = nextWord(line);
+            if (type == "list") {
+                property.count = scalarNamed(nextWord(line));
+                type = nextWord(line);
+            }
+            property.scalar = scalarNamed(type);
+            property.name = nextWord(line);
+            elements.back().properties.push_back(property);
+        }
+        ended = key == "end_header";
+    }
+    if (!ended) {
+        throw Damage("its header is cut short");
+    }
+    if (format != "ascii" && format != "binary_little_endian") {
+        throw Damage("its format is \"" + format.substr(0, 40) + "\"; ascii and binary_little_endian are read");
+    }
+    PlyNumbers numbers(lines.rest(), format == "ascii");
+    Content content;
+    for (const PlyElement& element : elements) {
+        if (element.properties.empty()) {
+            continue;
+        }
+        if (element.name == "vertex") {
+            readPlyVertices(element, numbers, content);
+        } else if (element.name == "face") {
+            readPlyFaces(element, numbers, content);
+        } else {
+            for (std::uint64_t i = 0; i < element.count; ++i) {
+                for (const PlyProperty& property : element.properties) {
+                    for (std::uint64_t left = property.count ? numbers.nextWhole(*property.count) : 1; left > 0;
+                         --left) {
+                        numbers.next(property.scalar);
+                    }
+                }
+            }
+        }
+    }
+    return content;
+}
+
+// -------------------------------------------------------------------------------------------------------- STL
+
+/// Normals are the facets', whatever the file says of them.
+void addFacet(Content& content, const std::array<Vec3, 3>& facet)
+{
+    const Vec3 normal = cross(facet[1] - facet[0], facet[2] - facet[0]);
+    for (const Vec3 p : facet) {
+        content.positions.push_back(p);
+        content.normals.push_back(normal);
+    }
+    const std::size_t count = content.positions.size();
+    content.addTriangle(count - 3, count - 2, count - 1);
+}
+
+Content readStl(std::string_view text)
+{
+    constexpr std::size_t kHeader = 84;
+    constexpr std::size_t kFacet = 50;
+    Content content;
+    std::array<Vec3, 3> facet;
+    const bool has_header = text.size() >= kHeader;
+    const double count = has_header ? littleEndian<std::uint32_t>(text.substr(kHeader - 4)) : 0.0;
+    const bool whole = has_header && static_cast<double>(text.size()) == kHeader + count * kFacet;
+    if (!whole && text.starts_with("solid")) {
+        Lines lines(text);
+        std::size_t corners = 0;
+        for (std::string_view line; lines.next(line);) {
+            if (nextWord(line) == "vertex") {
+                Vec3& p = facet[corners++ % 3];
+                for (double* const to : {&p.x, &p.y, &p.z}) {
+                    *to = number(nextWord(line), lines.where());
+                }
+                if (corners % 3 == 0) {
+                    addFacet(content, facet);
+                }
+            }
+        }
+        if (corners % 3 != 0 || text.find("endsolid") == std::string_view::npos) {
+            throw Damage("it is cut short");
+        }
+        return content;
+    }
+    if (!whole) {
+        throw Damage(text.size() < kHeader ? std::string("it is cut short")
+                                           : "it has " + std::to_string(text.size()) +
+                                                 " bytes, not those of as many triangles as it says");
+    }
+    for (std::size_t at = kHeader; at < text.size(); at += kFacet) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto coordinate = [&](std::size_t i) {
+                return littleEndian<float>(text.substr(at + 12 * (k + 1) + 4 * i));
+            };
+            facet[k] = {coordinate(0), coordinate(1), coordinate(2)};
+        }
+        addFacet(content, facet);
+    }
+    return content;
+}
+
+// ------------------------------------------------------------------------------------------------- the surface
+
+Surface surfaceOf(Content content, double unit)
+{
+    Surface surface;
+    surface.positions = std::move(content.positions);
+    surface.triangles = std::move(content.triangles);
+    surface.normals = std::move(content.normals);
+    if (surface.triangles.empty()) {
+        throw Damage("it has no triangles");
+    }
+    surface.normals.resize(surface.positions.size());
+    for (Vec3& p : surface.positions) {
+        p = unit * p;
+    }
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        const Vec3 p = surface.positions[v];
+        const Vec3 n = surface.normals[v];
+        if (!std::isfinite(p.x + p.y + p.z + n.x + n.y + n.z)) {
+            throw Damage("it holds numbers that are not finite");
+        }
+    }
+    fillNormals(surface.positions, surface.triangles, surface.normals);
+    surface.uvs.resize(surface.positions.size());
+    const auto is_angle = [](float angle) { return angle != 0.0F; };
+    if (std::any_of(content.contact_angles.begin(), content.contact_angles.end(), is_angle)) {
+        surface.contact_angle = std::move(content.contact_angles);
+        for (const float angle : surface.contact_angle) {
+            if (!std::isfinite(angle)) {
+                throw Damage("it holds numbers that are not finite");
+            }
+        }
+    }
+    surface.weld = firstAtPlace(surface.positions);
+    return surface;
+}
+
+Surface readGltf(const std::filesystem::path& path, std::vector<std::string>& warnings)
+{
+    SceneMesh scene = readScene(path);
+    if (scene.moves) {
+        warnings.push_back(path.string() + " moves, by animation, skin or morph targets; it is taken at rest");
+    }
+    Content content;
+    content.positions = std::move(scene.positions);
+    content.normals = std::move(scene.normals);
+    content.triangles = std::move(scene.triangles);
+    content.contact_angles = std::move(scene.contact_angles);
+    Surface surface = surfaceOf(std::move(content), 1.0);
+    surface.uvs = std::move(scene.uvs);
+    return surface;
+}
+
+}  // namespace
+
+ReadSurface readSurface(const std::filesystem::path& path)
+{
+    const std::string extension = path.extension().string();
+    const Format format = formatNamed(extension.empty() ? extension : extension.substr(1));
+    ReadSurface result;
+    readFile(path, [&] {
+        if (format == Format::Glb || format == Format::Gltf) {
+            result.surface = readGltf(path, result.warnings);
+            return;
+        }
+        std::error_code none;
+        if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
+            throw Damage("it is no regular file");
+        }
+        const Bytes bytes = readBytes(path, kMostBytes, [](std::byte) { return true; });
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        if (format == Format::Obj) {
+            result.surface = surfaceOf(ObjReader().read(text), kMillimetre);
+        } else if (format == Format::Stl) {
+            result.surface = surfaceOf(readStl(text), kMillimetre);
+        } else {
+            result.surface = surfaceOf(readPly(text), 1.0);
+        }
+    });
+    return result;
+}
+
+}  // namespace droplet
