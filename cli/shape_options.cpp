@@ -34,21 +34,11 @@ void declareShape(CommandLine& line)
 {
     line.addArgument("INPUT",
                      "picture of the footprint: PNG, JPEG, BMP, TIFF, WebP,\n"
-                     "PBM, PGM or PPM; - is standard input");
+                     "PBM, PGM, PPM or SVG; - is standard input");
     line.addArgument("OUTPUT",
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");
-    declareFootprint(line);
-    declareLiquid(line);
-    declareGround(line);
-    declareSurface(line);
-    line.add("Surface", "--format", "NAME",
-             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
-             "[by OUTPUT's extension]");
-    line.add("Surface", "--fill-range", "RANGE",
-             "add a slider to glb or gltf that fills and drains the\n"
-             "droplet: 0..2, from none to twice its liquid; of the\n"
-             "linear model alone");
+    declareShapes(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     line.add("Run", "--html", "FILE",
              "write a page that shows the droplet in a browser, all in\n"
@@ -63,7 +53,8 @@ bool inGltf(const ShapeOptions& options)
     return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
 }
 
-void readFormat(const CommandLine& line, ShapeOptions& options)
+/// @param subject  how messages call the output
+void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
     const std::string known = "glb, gltf, obj, ply, stl";
     const std::string extension = std::filesystem::path(options.output).extension().string();
@@ -76,10 +67,11 @@ void readFormat(const CommandLine& line, ShapeOptions& options)
     } else if (options.output == kStandardStream) {
         refuse("--format is needed when OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
-        refuse("OUTPUT '" + options.output + "' has no extension to tell the format; allowed are " + known +
+        refuse(subject + " '" + options.output + "' has no extension to tell the format; allowed are " + known +
                ", or give --format");
     } else {
-        options.format = forOption("OUTPUT '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
+        options.format =
+            forOption(subject + " '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
     }
 
     if (const auto material = line.value("--material")) {
@@ -134,6 +126,30 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
 
 }  // namespace
 
+void declareShapes(CommandLine& line)
+{
+    declareFootprint(line);
+    declareLiquid(line);
+    declareGround(line);
+    declareSurface(line);
+    line.add("Surface", "--format", "NAME",
+             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
+             "[by OUTPUT's extension]");
+    line.add("Surface", "--fill-range", "RANGE",
+             "add a slider to glb or gltf that fills and drains the\n"
+             "droplet: 0..2, from none to twice its liquid; of the\n"
+             "linear model alone");
+}
+
+void readShapes(const CommandLine& line, const std::string& subject, ShapeOptions& options)
+{
+    options.footprint = readFootprint(line);
+    options.settings = readDroplet(line);
+    options.run = readRun(line);
+    readFormat(line, subject, options);
+    readFillRange(line, options);
+}
+
 std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
@@ -146,9 +162,8 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
         return "droplet-shape " + std::string(droplet::kVersion) + "\n";
     }
     ShapeOptions options;
-    options.footprint = readFootprint(line);
-    options.settings = readDroplet(line);
-    options.run = readRun(line);
+    options.input = line.argument("INPUT");
+    options.output = line.argument("OUTPUT");
     if (const auto json = line.value("--json")) {
         options.json = json->text;
     }
@@ -161,10 +176,7 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
         }
         options.html = html->text;
     }
-    options.input = line.argument("INPUT");
-    options.output = line.argument("OUTPUT");
-    readFormat(line, options);
-    readFillRange(line, options);
+    readShapes(line, "OUTPUT", options);
     return options;
 }
 

@@ -23,6 +23,15 @@ struct ShapeOptions {
     RunOptions run;
 };
 
+/// What every command takes that makes droplets from pictures: all groups but the run, then --format and --fill-range.
+void declareShapes(CommandLine& line);
+
+/// Reads those and the run's options.
+/// @param subject         how messages call the output
+/// @param options         whose outputs are known already, or patterns of them: some options depend on those
+/// @throws droplet::Error InvalidArgument
+void readShapes(const CommandLine& line, const std::string& subject, ShapeOptions& options);
+
 /// Reads the command line, and the configuration file it names.
 /// @return                the job, or text for standard output if --help or --version asked for it
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
