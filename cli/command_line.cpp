@@ -105,8 +105,8 @@ public:
 
     void addArguments(const char* name, const std::string& description)
     {
-        // CLI11 wants to know how many at most.
-        app_.add_option(name)->description(description)->expected(0, 1 << 29);
+        // CLI11 wants to know how many at most, and fills up to the least number but where extra ones are allowed.
+        app_.add_option(name)->description(description)->expected(0, 1 << 29)->allow_extra_args()->take_all();
     }
 
     void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }
