@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "droplet/io/report.h"
 #include "droplet_options.h"
 
@@ -62,8 +63,9 @@ struct BatchOptions {
     /// What the manifest tells of the options the items share: names without dashes, and values.
     std::vector<std::pair<std::string, std::string>> told;
     std::vector<std::string> read;  ///< files that are read, which no item may replace; inputs of items need no mention
-    bool keep_going = false;        ///< go on after an item that failed
-    bool resume = true;             ///< skip items whose files are there already, made from the same input and options
+    droplet::OutputOptions files;
+    bool keep_going = false;  ///< go on after an item that failed
+    bool resume = true;       ///< skip items whose files are there already, made from the same input and options
     std::optional<BatchShard> shard;
     std::optional<std::size_t> threads;  ///< items worked on at one time [all cores]
     Verbosity verbosity = Verbosity::Normal;
@@ -72,6 +74,19 @@ struct BatchOptions {
 
 /// The exit code of a batch of which some items failed.
 inline constexpr int kSomeFailed = 6;
+
+/// Declares what every batch takes: --keep-going, --no-resume, --shard, --manifest.
+void declareBatch(CommandLine& line);
+
+/// Reads those.
+/// @param run             of the same line
+/// @param output_pattern  how the paths of outputs are made
+/// @throws droplet::Error InvalidArgument
+BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern);
+
+/// The options given that can change a byte of what is made, for BatchOptions::told and fingerprints: all but those of
+/// the run and of the batch.
+std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLine& line);
 
 /// Where the manifest goes: `given`, or manifest.json in the folder that all outputs share: that of `output_pattern` as
 /// far as it has no placeholder. A shard's has the shard in its name, as in manifest-2-of-8.json.

@@ -167,6 +167,27 @@ public:
         return given->text;
     }
 
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> given() const
+    {
+        std::vector<std::pair<std::string, std::string>> all;
+        for (const CLI::Option* option : app_.get_options()) {
+            if (option->get_positional()) {
+                continue;
+            }
+            const std::string name = "--" + option->get_lnames().front();
+            if (isFlag(option)) {
+                if (flag(name)) {
+                    all.emplace_back(name, "true");
+                }
+                continue;
+            }
+            for (const std::string& text : option->results()) {
+                all.emplace_back(name, text);
+            }
+        }
+        return all;
+    }
+
     [[nodiscard]] std::string help() const { return app_.help(); }
 
 private:
@@ -364,6 +385,11 @@ std::vector<Given> CommandLine::values(const std::string& name) const
 std::string CommandLine::argument(const std::string& name) const
 {
     return parser_->argument(name);
+}
+
+std::vector<std::pair<std::string, std::string>> CommandLine::given() const
+{
+    return parser_->given();
 }
 
 std::string CommandLine::help() const

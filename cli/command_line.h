@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "option_values.h"
@@ -54,6 +55,9 @@ public:
     /// The argument of that name.
     /// @throws droplet::Error InvalidArgument: missing or empty
     [[nodiscard]] std::string argument(const std::string& name) const;
+    /// Every option given, and its values, in the order of their declaration; a flag's is `true`. Arguments are not
+    /// among them.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> given() const;
     [[nodiscard]] std::string help() const;
 
 private:

@@ -11,29 +11,16 @@
 #include <string_view>
 #include <vector>
 
+#include "batch_command.h"
 #include "droplet/error.h"
+#include "exit_code.h"
 #include "shape_command.h"
 #include "terminal.h"
 
 namespace {
 
-/// The exit codes of the manual page.
-enum class ExitCode { InternalError = 1, Usage = 2, BadInput = 3, BadOutput = 4, NoSuchDroplet = 5 };
-
-ExitCode exitCodeOf(droplet::ErrorCode code)
-{
-    switch (code) {
-        case droplet::ErrorCode::InvalidArgument:
-            return ExitCode::Usage;
-        case droplet::ErrorCode::InvalidInput:
-            return ExitCode::BadInput;
-        case droplet::ErrorCode::OutputFailed:
-            return ExitCode::BadOutput;
-        case droplet::ErrorCode::NoSuchDroplet:
-            return ExitCode::NoSuchDroplet;
-    }
-    return ExitCode::InternalError;
-}
+using cli::ExitCode;
+using cli::exitCodeOf;
 
 int fail(std::string_view message, ExitCode code)
 {
@@ -71,7 +58,7 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{};
+    static const std::vector<Command> all{{"batch", cli::runBatch}};
     return all;
 }
 

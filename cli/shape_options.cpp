@@ -33,27 +33,18 @@ void declareShape(CommandLine& line)
 {
     line.addArgument("INPUT",
                      "picture of the footprint: PNG, JPEG, BMP, TIFF, WebP,\n"
-                     "PBM, PGM or PPM; - is standard input");
+                     "PBM, PGM, PPM or SVG; - is standard input");
     line.addArgument("OUTPUT",
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");
-    declareFootprint(line);
-    declareLiquid(line);
-    declareGround(line);
-    declareSurface(line);
-    line.add("Surface", "--format", "NAME",
-             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
-             "[by OUTPUT's extension]");
-    line.add("Surface", "--fill-range", "RANGE",
-             "add a slider to glb or gltf that fills and drains the\n"
-             "droplet: 0..2, from none to twice its liquid; of the\n"
-             "linear model alone");
+    declareShapes(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     line.add("Run", "--export-evolver", "FILE", "write the droplets for Surface Evolver");
     declareRun(line);
 }
 
-void readFormat(const CommandLine& line, ShapeOptions& options)
+/// @param subject  how messages call the output
+void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
     const std::string known = "glb, gltf, obj, ply, stl";
     const std::string extension = std::filesystem::path(options.output).extension().string();
@@ -66,10 +57,11 @@ void readFormat(const CommandLine& line, ShapeOptions& options)
     } else if (options.output == kStandardStream) {
         refuse("--format is needed when OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
-        refuse("OUTPUT '" + options.output + "' has no extension to tell the format; allowed are " + known +
+        refuse(subject + " '" + options.output + "' has no extension to tell the format; allowed are " + known +
                ", or give --format");
     } else {
-        options.format = forOption("OUTPUT '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
+        options.format =
+            forOption(subject + " '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
     }
 
     if (const auto material = line.value("--material")) {
@@ -124,6 +116,33 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
 
 }  // namespace
 
+void declareShapes(CommandLine& line)
+{
+    declareFootprint(line);
+    declareLiquid(line);
+    declareGround(line);
+    declareSurface(line);
+    line.add("Surface", "--format", "NAME",
+             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
+             "[by OUTPUT's extension]");
+    line.add("Surface", "--fill-range", "RANGE",
+             "add a slider to glb or gltf that fills and drains the\n"
+             "droplet: 0..2, from none to twice its liquid; of the\n"
+             "linear model alone");
+}
+
+ShapeOptions readShapes(const CommandLine& line, const std::string& output, const std::string& subject)
+{
+    ShapeOptions options;
+    options.footprint = readFootprint(line);
+    options.settings = readDroplet(line);
+    options.run = readRun(line);
+    options.output = output;
+    readFormat(line, subject, options);
+    readFillRange(line, options);
+    return options;
+}
+
 std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
@@ -135,20 +154,15 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     if (line.flag("--version")) {
         return "droplet-shape " + std::string(droplet::kVersion) + "\n";
     }
-    ShapeOptions options;
-    options.footprint = readFootprint(line);
-    options.settings = readDroplet(line);
-    options.run = readRun(line);
+    const std::string input = line.argument("INPUT");
+    ShapeOptions options = readShapes(line, line.argument("OUTPUT"), "OUTPUT");
+    options.input = input;
     if (const auto json = line.value("--json")) {
         options.json = json->text;
     }
     if (const auto evolver = line.value("--export-evolver")) {
         options.evolver = evolver->text;
     }
-    options.input = line.argument("INPUT");
-    options.output = line.argument("OUTPUT");
-    readFormat(line, options);
-    readFillRange(line, options);
     return options;
 }
 

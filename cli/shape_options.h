@@ -22,6 +22,15 @@ struct ShapeOptions {
     RunOptions run;
 };
 
+/// What every command takes that makes droplets from pictures: all groups but the run, then --format and --fill-range.
+void declareShapes(CommandLine& line);
+
+/// Reads those and the run's options; the input is left empty.
+/// @param output          the path, or how paths of outputs are made
+/// @param subject         how messages call it
+/// @throws droplet::Error InvalidArgument
+ShapeOptions readShapes(const CommandLine& line, const std::string& output, const std::string& subject);
+
 /// Reads the command line, and the configuration file it names.
 /// @return                the job, or text for standard output if --help or --version asked for it
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed

@@ -390,10 +390,12 @@ private:
 Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options)
 {
     std::vector<std::byte> text;
-    if (ByteView(encoded, ImageFormat::Svg).startsWith("\x1f\x8b")) {
+    const auto is_compressed = [&] { return ByteView(encoded, ImageFormat::Svg).startsWith("\x1f\x8b"); };
+    if (is_compressed()) {
         text = inflated(encoded);
         encoded = text;
-        if (imageFormat(encoded) != ImageFormat::Svg) {
+        // librsvg would inflate what is compressed twice, without bounds.
+        if (is_compressed() || imageFormat(encoded) != ImageFormat::Svg) {
             throw Error(ErrorCode::InvalidInput, "compressed data without an SVG image in them");
         }
     }

@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 Report sampleReport()
 {
     Report report;
-    report.input = {"in.png", 640, 480, 3.125e-5, Channel::Alpha, true, 0.25, 0.125, 0.875, true, 7, 2.5};
+    report.input = {"in.png", 640, 480, true, true, 3.125e-5, Channel::Alpha, true, 0.25, 0.125, 0.875, true, 7, 2.5};
     report.output = {"out.glb", Format::Glb, 123456, 900, 1700, {true, true, 4, 2, 0}};
     report.physics.liquid = {"honey", 0.055, 1417.0};
     report.physics.gravity = 1.62;
@@ -128,6 +128,8 @@ TEST(Report, PutsEveryValueUnderItsOwnName)
     EXPECT_EQ(input["path"], "in.png");
     EXPECT_EQ(input["width_px"], 640);
     EXPECT_EQ(input["height_px"], 480);
+    EXPECT_EQ(input["drawn"], true);
+    EXPECT_EQ(input["own_size"], true);
     EXPECT_EQ(input["pixel_size_m"], 3.125e-5);
     EXPECT_EQ(input["channel"], "alpha");
     EXPECT_EQ(input["inverted"], true);

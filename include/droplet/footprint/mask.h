@@ -55,7 +55,7 @@ struct Mask {
 /// compressed by gzip or not, which is drawn on a transparent page.
 ///
 /// The mask of an SVG image is exactly as wide as its page and less than a pixel higher. Its longer side has
-/// vector_long_side pixels, or as many as max_pixels and 32767 a side admit; more if the shorter side would have fewer
+/// vector_long_side pixels or one more, or as many as max_pixels and 32767 a side admit; more if the shorter side would have fewer
 /// than 16. The page is that of the SVG's width and height, at 96 px to the inch, or its viewBox, or just what is
 /// drawn. Nothing the image refers to is read, neither from disk nor from the network, but what it holds itself as
 /// data: URLs. Text depends on the fonts installed.

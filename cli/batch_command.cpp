@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "batch_command.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch.h"
+#include "droplet/error.h"
+#include "droplet/version.h"
+#include "files.h"
+#include "option_values.h"
+#include "shape_command.h"
+#include "shape_options.h"
+#include "surroundings.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const CommandText& commandText()
+{
+    static const CommandText text{
+        "droplet-shape batch", "from many pictures to a droplet each", "[OPTIONS] INPUT... -o OUTPUT",
+        std::string("In OUTPUT and --json stand, of each picture,\n"
+                    "  {stem} its name without extension, {name} its whole name, {ext} its extension,\n"
+                    "  {dir} its folder below the one given, {parent} the name of its folder,\n"
+                    "  {index} its number; {{ and }} are braces\n"
+                    "\n") +
+            kUnitsText +
+            "\n"
+            "Examples:\n"
+            "  droplet-shape batch masks/*.png -o 'out/{stem}.glb'\n"
+            "  droplet-shape batch masks --recursive -o 'out/{dir}/{stem}.glb' --keep-going\n"
+            "  droplet-shape batch masks -o 'out/{stem}.stl' --json 'out/{stem}.json' --shard 2/8\n"
+            "\n"
+            "Exit codes:\n"
+            "  0 all made; 1 internal error; 2 usage; 3 no pictures; 4 manifest cannot be\n"
+            "  written; 6 some failed, and the manifest says which and why"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    line.addArguments("INPUT", "pictures, and folders of pictures");
+    line.add("Batch", "-o,--output", "OUTPUT", "where each droplet goes, such as 'out/{stem}.glb'");
+    line.addFlag("Batch", "--recursive", "look into folders of folders, too");
+    line.add("Batch", "--json", "FILE", "write a report of each, such as 'out/{stem}.json'");
+    declareBatch(line);
+    declareShapes(line);
+    declareRun(line);
+}
+
+/// A picture, and where it was found.
+struct Picture {
+    fs::path path;
+    fs::path below;  ///< its folder, from the folder given on the command line
+};
+
+bool isPicture(const fs::path& path)
+{
+    constexpr std::array<std::string_view, 13> kExtensions{".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
+                                                           ".pbm", ".pgm", ".ppm",  ".pnm", ".svg", ".svgz"};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+/// Every picture in a folder by name, then those in its folders; what begins with a dot is hidden.
+void addFolder(const fs::path& folder, const fs::path& below, bool recursive, std::vector<Picture>& pictures)
+{
+    std::vector<fs::path> files;
+    std::vector<fs::path> folders;
+    try {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            const fs::path name = entry.path().filename();
+            if (name.string().front() == '.') {
+                continue;
+            }
+            if (entry.is_directory()) {
+                if (recursive && !entry.is_symlink()) {
+                    folders.push_back(name);
+                }
+            } else if (isPicture(name)) {
+                files.push_back(name);
+            }
+        }
+    } catch (const fs::filesystem_error& error) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             folder.string() + " cannot be read: " + error.code().message());
+    }
+    std::sort(files.begin(), files.end());
+    std::sort(folders.begin(), folders.end());
+    for (const fs::path& name : files) {
+        pictures.push_back({folder / name, below});
+    }
+    for (const fs::path& name : folders) {
+        addFolder(folder / name, below / name, recursive, pictures);
+    }
+}
+
+std::vector<Picture> readInputs(const CommandLine& line)
+{
+    std::vector<Picture> pictures;
+    for (const Given& given : line.values("INPUT")) {
+        if (given.text.empty() || isStream(given.text)) {
+            refuse(given, "a picture's file or a folder");
+        }
+        if (!fs::is_directory(given.text)) {
+            pictures.push_back({given.text, {}});
+            continue;
+        }
+        const std::size_t before = pictures.size();
+        addFolder(given.text, {}, line.flag("--recursive"), pictures);
+        if (pictures.size() == before) {
+            throw droplet::Error(
+                droplet::ErrorCode::InvalidInput,
+                given.text + " holds no pictures" + (line.flag("--recursive") ? "" : "; --recursive looks deeper"));
+        }
+    }
+    if (pictures.empty()) {
+        refuse("INPUT is missing; usage: droplet-shape batch [OPTIONS] INPUT... -o OUTPUT, more with --help");
+    }
+    return pictures;
+}
+
+using Values = std::map<std::string, std::string, std::less<>>;
+
+Values valuesOf(const Picture& picture, std::size_t index, std::size_t count)
+{
+    const std::string number = std::to_string(index + 1);
+    const std::string extension = picture.path.extension().string();
+    const std::string parent = fs::absolute(picture.path).lexically_normal().parent_path().filename().string();
+    return {{"stem", picture.path.stem().string()},
+            {"name", picture.path.filename().string()},
+            {"ext", extension.empty() ? "" : extension.substr(1)},
+            {"dir", picture.below.empty() ? "." : picture.below.string()},
+            {"parent", parent},
+            {"index", std::string(std::to_string(count).size() - number.size(), '0') + number}};
+}
+
+/// A pattern with its placeholders filled in.
+std::string filled(const Given& pattern, const Values& values)
+{
+    const auto refuse_pattern = [&] {
+        refuse(pattern, "a path with {stem}, {name}, {ext}, {dir}, {parent} or {index}; {{ and }} stand for braces");
+    };
+    std::string text;
+    for (std::size_t i = 0; i < pattern.text.size(); ++i) {
+        const char c = pattern.text[i];
+        if (c != '{' && c != '}') {
+            text += c;
+            continue;
+        }
+        if (i + 1 < pattern.text.size() && pattern.text[i + 1] == c) {
+            text += c;
+            ++i;
+            continue;
+        }
+        const auto end = pattern.text.find('}', i);
+        if (c == '}' || end == std::string::npos) {
+            refuse_pattern();
+        }
+        const auto value = values.find(std::string_view(pattern.text).substr(i + 1, end - i - 1));
+        if (value == values.end()) {
+            refuse_pattern();
+        }
+        text += value->second;
+        i = end;
+    }
+    return text;
+}
+
+/// A text for everything that decides the bytes of an output but the picture itself.
+std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions& batch)
+{
+    std::vector<std::string> parts{droplet::name(options.format)};
+    for (const auto& [name, value] : batch.told) {
+        parts.push_back(name);
+        parts.push_back(value);
+    }
+    for (const auto& path : {options.settings.ground.path, options.settings.onto}) {
+        parts.push_back(path ? sha256OfFile(*path) : "");
+    }
+    return fingerprintOf(parts);
+}
+
+}  // namespace
+
+int runBatch(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        print(line.help());
+        return 0;
+    }
+    if (line.flag("--version")) {
+        print("droplet-shape " + std::string(droplet::kVersion) + "\n");
+        return 0;
+    }
+    const auto output = line.value("--output");
+    if (!output || output->text.empty() || isStream(output->text)) {
+        refuse("--output is missing, or no path: where each droplet goes, such as -o 'out/{stem}.glb'");
+    }
+    const auto report = line.value("--json");
+    const ShapeOptions shared = readShapes(line, output->text, "--output");
+    BatchOptions options = readBatch(line, shared.run, output->text);
+    for (const auto& path : {shared.settings.ground.path, shared.settings.onto}) {
+        if (path) {
+            options.read.push_back(*path);
+        }
+    }
+    const std::vector<Picture> pictures = readInputs(line);
+    const Surroundings around = readSurroundings(shared.settings);
+    const std::string settings = settingsFingerprint(shared, options);
+
+    std::vector<BatchItem> items;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const Values values = valuesOf(pictures[i], i, pictures.size());
+        BatchItem item;
+        item.name = pictures[i].path.string();
+        item.input = item.name;
+        item.output = filled(*output, values);
+        if (report) {
+            item.others.push_back(filled(*report, values));
+        }
+        ShapeOptions job = shared;
+        job.input = item.input;
+        job.output = item.output;
+        if (report) {
+            job.json = item.others.front();
+        }
+        item.open = [job, &around, &settings] {
+            auto picture = readPicture(job);
+            BatchWork work;
+            work.fingerprint = fingerprintOf({settings, sha256(picture)});
+            // Taken by what is made, and gone as soon as that no longer needs it.
+            work.make = [&job, &around, picture = std::move(picture)]() mutable {
+                return figuresOf(makeShape(job, around, std::move(picture)));
+            };
+            return work;
+        };
+        items.push_back(std::move(item));
+    }
+    return makeAll(items, options);
+}
+
+}  // namespace cli
