@@ -14,6 +14,7 @@
 #include "batch_command.h"
 #include "droplet/error.h"
 #include "exit_code.h"
+#include "glyphs_command.h"
 #include "shape_command.h"
 #include "terminal.h"
 
@@ -58,7 +59,7 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"batch", cli::runBatch}};
+    static const std::vector<Command> all{{"batch", cli::runBatch}, {"glyphs", cli::runGlyphs}};
     return all;
 }
 

@@ -116,9 +116,8 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
 
 }  // namespace
 
-void declareShapes(CommandLine& line)
+void declareDroplets(CommandLine& line)
 {
-    declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
@@ -131,15 +130,27 @@ void declareShapes(CommandLine& line)
              "linear model alone");
 }
 
-ShapeOptions readShapes(const CommandLine& line, const std::string& output, const std::string& subject)
+void declareShapes(CommandLine& line)
+{
+    declareFootprint(line);
+    declareDroplets(line);
+}
+
+ShapeOptions readDroplets(const CommandLine& line, const std::string& output, const std::string& subject)
 {
     ShapeOptions options;
-    options.footprint = readFootprint(line);
     options.settings = readDroplet(line);
     options.run = readRun(line);
     options.output = output;
     readFormat(line, subject, options);
     readFillRange(line, options);
+    return options;
+}
+
+ShapeOptions readShapes(const CommandLine& line, const std::string& output, const std::string& subject)
+{
+    ShapeOptions options = readDroplets(line, output, subject);
+    options.footprint = readFootprint(line);
     return options;
 }
 

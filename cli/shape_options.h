@@ -22,6 +22,15 @@ struct ShapeOptions {
     RunOptions run;
 };
 
+/// What every command takes that makes droplets: liquid, ground and surface, --format and --fill-range.
+void declareDroplets(CommandLine& line);
+
+/// Reads those and the run's options; input and footprint are left as they are by default.
+/// @param output          the path, or how paths of outputs are made
+/// @param subject         how messages call it
+/// @throws droplet::Error InvalidArgument
+ShapeOptions readDroplets(const CommandLine& line, const std::string& output, const std::string& subject);
+
 /// What every command takes that makes droplets from pictures: all groups but the run, then --format and --fill-range.
 void declareShapes(CommandLine& line);
 
