@@ -660,6 +660,10 @@ private:
                 triangles += row.record->figures.triangles;
             }
         }
+        Json left_out = Json::array();
+        for (const auto& [what, reason] : options_.left_out) {
+            left_out.push_back({{"name", what}, {"reason", reason}});
+        }
         const Json manifest{
             {"schema", kSchema},
             {"version", droplet::kVersion},
@@ -667,6 +671,7 @@ private:
             {"shard",
              options_.shard ? Json{{"index", options_.shard->index}, {"count", options_.shard->count}} : Json()},
             {"items", items},
+            {"left_out", left_out},
             {"totals",
              {{"items", rows_.size()},
               {"made", counts[Status::Made]},

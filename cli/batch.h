@@ -52,6 +52,12 @@ struct BatchItem {
     std::function<BatchWork()> open;
 };
 
+/// What was asked for and has no output, and why.
+struct BatchLeftOut {
+    std::string name;
+    std::string reason;
+};
+
 /// The share `index` of `count`: items index, index + count, index + 2 count, … counted from 1.
 struct BatchShard {
     std::size_t index = 1;  ///< from 1
@@ -64,8 +70,9 @@ struct BatchOptions {
     std::vector<std::pair<std::string, std::string>> told;
     std::vector<std::string> read;  ///< files that are read, which no item may replace; inputs of items need no mention
     droplet::OutputOptions files;
-    bool keep_going = false;  ///< go on after an item that failed
-    bool resume = true;       ///< skip items whose files are there already, made from the same input and options
+    std::vector<BatchLeftOut> left_out;  ///< told in the manifest
+    bool keep_going = false;             ///< go on after an item that failed
+    bool resume = true;  ///< skip items whose files are there already, made from the same input and options
     std::optional<BatchShard> shard;
     std::optional<std::size_t> threads;  ///< items worked on at one time [all cores]
     Verbosity verbosity = Verbosity::Normal;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include "droplet/version.h"
 #include "files.h"
 #include "option_values.h"
+#include "output_pattern.h"
 #include "shape_command.h"
 #include "shape_options.h"
 #include "surroundings.h"
@@ -132,9 +132,7 @@ std::vector<Picture> readInputs(const CommandLine& line)
     return pictures;
 }
 
-using Values = std::map<std::string, std::string, std::less<>>;
-
-Values valuesOf(const Picture& picture, std::size_t index, std::size_t count)
+PatternValues valuesOf(const Picture& picture, std::size_t index, std::size_t count)
 {
     const std::string number = std::to_string(index + 1);
     const std::string extension = picture.path.extension().string();
@@ -147,37 +145,7 @@ Values valuesOf(const Picture& picture, std::size_t index, std::size_t count)
             {"index", std::string(std::to_string(count).size() - number.size(), '0') + number}};
 }
 
-/// A pattern with its placeholders filled in.
-std::string filled(const Given& pattern, const Values& values)
-{
-    const auto refuse_pattern = [&] {
-        refuse(pattern, "a path with {stem}, {name}, {ext}, {dir}, {parent} or {index}; {{ and }} stand for braces");
-    };
-    std::string text;
-    for (std::size_t i = 0; i < pattern.text.size(); ++i) {
-        const char c = pattern.text[i];
-        if (c != '{' && c != '}') {
-            text += c;
-            continue;
-        }
-        if (i + 1 < pattern.text.size() && pattern.text[i + 1] == c) {
-            text += c;
-            ++i;
-            continue;
-        }
-        const auto end = pattern.text.find('}', i);
-        if (c == '}' || end == std::string::npos) {
-            refuse_pattern();
-        }
-        const auto value = values.find(std::string_view(pattern.text).substr(i + 1, end - i - 1));
-        if (value == values.end()) {
-            refuse_pattern();
-        }
-        text += value->second;
-        i = end;
-    }
-    return text;
-}
+constexpr const char* kPlaceholders = "{stem}, {name}, {ext}, {dir}, {parent} or {index}";
 
 /// A text for everything that decides the bytes of an output but the picture itself.
 std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions& batch)
@@ -228,13 +196,13 @@ int runBatch(int argc, const char* const* argv)
 
     std::vector<BatchItem> items;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const Values values = valuesOf(pictures[i], i, pictures.size());
+        const PatternValues values = valuesOf(pictures[i], i, pictures.size());
         BatchItem item;
         item.name = pictures[i].path.string();
         item.input = item.name;
-        item.output = filled(*output, values);
+        item.output = filled(*output, values, kPlaceholders);
         if (report) {
-            item.others.push_back(filled(*report, values));
+            item.others.push_back(filled(*report, values, kPlaceholders));
         }
         ShapeOptions job = shared;
         job.input = item.input;

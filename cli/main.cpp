@@ -15,6 +15,7 @@
 #include "compare_command.h"
 #include "droplet/error.h"
 #include "exit_code.h"
+#include "glyphs_command.h"
 #include "shape_command.h"
 #include "terminal.h"
 
@@ -59,7 +60,8 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"batch", cli::runBatch}, {"compare", cli::runCompare}};
+    static const std::vector<Command> all{
+        {"batch", cli::runBatch}, {"compare", cli::runCompare}, {"glyphs", cli::runGlyphs}};
     return all;
 }
 

@@ -36,31 +36,6 @@ using droplet::Error;
 using droplet::ErrorCode;
 using droplet::Stage;
 
-void check(const ShapeOptions& options)
-{
-    std::vector<NamedFile> outputs{{"OUTPUT", options.output}};
-    if (options.json) {
-        outputs.push_back({"--json", *options.json});
-    }
-    if (options.evolver) {
-        outputs.push_back({"--export-evolver", *options.evolver});
-    }
-    if (options.html) {
-        outputs.push_back({"--html", *options.html});
-    }
-    std::vector<NamedFile> inputs{{"INPUT", options.input}};
-    if (options.run.config) {
-        inputs.push_back({"--config", *options.run.config});
-    }
-    if (options.settings.ground.path) {
-        inputs.push_back({"--surface", *options.settings.ground.path});
-    }
-    if (options.settings.onto) {
-        inputs.push_back({"--onto", *options.settings.onto});
-    }
-    checkFiles(inputs, outputs, options.run.files);
-}
-
 /// Runs a function of the library that may find fault with the picture's content, and puts the picture's name before.
 template <typename Function>
 auto forInput(const ShapeOptions& options, Function function)
@@ -125,16 +100,15 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
 }
 
 /// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
-void refuseTooShortEdge(const droplet::Mask& mask, const droplet::DropletOptions& options)
+/// @param area  of the footprint [m²]
+void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
 {
     if (!options.mesh.edge) {
         return;
     }
-    const double pixel = droplet::pixelSize(mask, options.trace);
-    const double covered = std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0;
     const double edge = *options.mesh.edge;
     const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
-    const double triangles = covered * pixel * pixel / equilateral;
+    const double triangles = area / equilateral;
     if (triangles > static_cast<double>(kMostTriangles)) {
         std::ostringstream message;
         message << std::setprecision(3) << "--edge: " << edge / droplet::kMillimetre << "mm would take " << triangles
@@ -142,6 +116,18 @@ void refuseTooShortEdge(const droplet::Mask& mask, const droplet::DropletOptions
                 << edge * std::sqrt(triangles / static_cast<double>(kMostTriangles)) / droplet::kMillimetre << "mm";
         throw Error(ErrorCode::InvalidArgument, message.str());
     }
+}
+
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    const double pixel = droplet::pixelSize(mask, options);
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
+}
+
+double coveredArea(const droplet::Outline& outline)
+{
+    return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
+                           [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
 }
 
 droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline,
@@ -170,6 +156,13 @@ bool slidesInPageAlone(const ShapeOptions& options)
     const droplet::SolveOptions& solve = options.settings.droplet.solve;
     return options.html && !options.settings.droplet.fill_range && solve.model == droplet::Model::Linear &&
            !solve.no_penetration && !options.settings.onto;
+}
+
+void addSliderOfPage(droplet::DropletOptions& droplet, const ShapeOptions& options)
+{
+    if (slidesInPageAlone(options)) {
+        droplet.fill_range.emplace();
+    }
 }
 
 /// The droplet as in OUTPUT, were that a GLB.
@@ -240,6 +233,24 @@ struct Stages {
     }
 };
 
+/// Lays a droplet on its object, writes its files, and says what was done.
+droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
+                       const Surroundings& around, const ShapeOptions& options, Stages& stages)
+{
+    std::optional<droplet::ObjectReport> onto;
+    if (around.object) {
+        onto = lay(droplet, *around.object, *options.settings.onto);
+    }
+    stages.begin(Stage::Write);
+    droplet::Report report = describe(droplet, settings);
+    report.fill_range = options.settings.droplet.fill_range;
+    report.input = input;
+    report.output = describeOutput(droplet.surface, options.output, options.format);
+    report.onto = onto;
+    save(droplet, options, stages.clock, report);
+    return report;
+}
+
 droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                      Stages& stages)
 {
@@ -253,25 +264,13 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
         settings = complete(mask, around, options);
     }
     picture = {};
-    refuseTooShortEdge(mask, settings.droplet);
-    if (slidesInPageAlone(options)) {
-        settings.droplet.fill_range.emplace();
-    }
+    refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
+    addSliderOfPage(settings.droplet, options);
     const auto begin = [&](Stage stage) { stages.begin(stage); };
     Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
-    std::optional<droplet::ObjectReport> onto;
-    if (around.object) {
-        onto = lay(droplet, *around.object, *options.settings.onto);
-    }
-    begin(Stage::Write);
-    droplet::Report report = describe(droplet, settings);
-    report.fill_range = options.settings.droplet.fill_range;
-    report.input = describeInput(mask, droplet.outline, options);
-    report.input.own_size = takesOwnSize(mask, around, options);
-    report.output = describeOutput(droplet.surface, options.output, options.format);
-    report.onto = onto;
-    save(droplet, options, stages.clock, report);
-    return report;
+    droplet::InputReport input = describeInput(mask, droplet.outline, options);
+    input.own_size = takesOwnSize(mask, around, options);
+    return finish(std::move(droplet), settings, input, around, options, stages);
 }
 
 void tell(const droplet::Report& report, const RunOptions& run)
@@ -313,6 +312,58 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     return make(options, around, std::move(picture), stages);
 }
 
+droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
+                          const droplet::Progress& progress)
+{
+    Stages stages{{}, progress};
+    DropletSettings settings = options.settings;
+    settings.droplet.solve.ground = groundOf(settings, around, footprint.outline.extent);
+    refuseTooShortEdge(coveredArea(footprint.outline), settings.droplet);
+    addSliderOfPage(settings.droplet, options);
+    footprint.input.specks_dropped = footprint.outline.specks_dropped;
+    Droplet droplet =
+        droplet::makeDroplet(std::move(footprint.outline), settings.droplet, [&](Stage stage) { stages.begin(stage); });
+    return finish(std::move(droplet), settings, footprint.input, around, options, stages);
+}
+
+void checkShape(const ShapeOptions& options, const std::string& input_name)
+{
+    std::vector<NamedFile> outputs{{"OUTPUT", options.output}};
+    if (options.json) {
+        outputs.push_back({"--json", *options.json});
+    }
+    if (options.evolver) {
+        outputs.push_back({"--export-evolver", *options.evolver});
+    }
+    if (options.html) {
+        outputs.push_back({"--html", *options.html});
+    }
+    std::vector<NamedFile> inputs{{input_name, options.input}};
+    if (options.run.config) {
+        inputs.push_back({"--config", *options.run.config});
+    }
+    if (options.settings.ground.path) {
+        inputs.push_back({"--surface", *options.settings.ground.path});
+    }
+    if (options.settings.onto) {
+        inputs.push_back({"--onto", *options.settings.onto});
+    }
+    checkFiles(inputs, outputs, options.run.files);
+}
+
+void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)
+{
+    std::optional<tbb::global_control> threads;
+    if (run.threads) {
+        threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
+    }
+    ProgressDisplay progress(
+        run.verbosity == Verbosity::Quiet && run.progress == ProgressMode::Auto ? ProgressMode::None : run.progress);
+    const droplet::Report report = make([&](Stage stage) { progress.begin(stage); });
+    progress.finish();
+    tell(report, run);
+}
+
 int runShape(int argc, const char* const* argv)
 {
     const auto parsed = parseShape(argc, argv);
@@ -321,17 +372,8 @@ int runShape(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<ShapeOptions>(parsed);
-    check(options);
-    std::optional<tbb::global_control> threads;
-    if (options.run.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);
-    }
-    ProgressDisplay progress(options.run.verbosity == Verbosity::Quiet && options.run.progress == ProgressMode::Auto
-                                 ? ProgressMode::None
-                                 : options.run.progress);
-    const droplet::Report report = makeShape(options, [&](Stage stage) { progress.begin(stage); });
-    progress.finish();
-    tell(report, options.run);
+    checkShape(options, "INPUT");
+    makeAndTell(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
     return 0;
 }
 

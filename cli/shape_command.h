@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "droplet/footprint/outline.h"
 #include "droplet/io/report.h"
 #include "droplet/progress.h"
 #include "shape_options.h"
@@ -25,6 +28,27 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
 /// @param around   of readSurroundings
 /// @param picture  of readPicture
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture);
+
+/// A footprint that comes of something else than a picture.
+struct DrawnFootprint {
+    droplet::Outline outline;
+    droplet::InputReport input;
+};
+
+/// The same, from an outline on.
+/// @param around    of readSurroundings
+/// @param progress  told of every stage from Triangulate
+droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
+                          const droplet::Progress& progress);
+
+/// What is known to fail must fail before any work is done.
+/// @param input_name      how messages call the input
+/// @throws droplet::Error InvalidArgument, OutputFailed
+void checkShape(const ShapeOptions& options, const std::string& input_name);
+
+/// Makes one droplet with as many threads as asked for, shows how far it is, and tells what came of it.
+/// @param make  is given whom to tell of every stage
+void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make);
 
 /// Runs the main job: the picture of a footprint in, a droplet out.
 /// @return                exit code

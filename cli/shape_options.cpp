@@ -127,9 +127,8 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
 
 }  // namespace
 
-void declareShapes(CommandLine& line)
+void declareDroplets(CommandLine& line)
 {
-    declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
@@ -142,13 +141,25 @@ void declareShapes(CommandLine& line)
              "linear model alone");
 }
 
-ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject)
+void declareShapes(CommandLine& line)
 {
-    options.footprint = readFootprint(line);
+    declareFootprint(line);
+    declareDroplets(line);
+}
+
+ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject)
+{
     options.settings = readDroplet(line);
     options.run = readRun(line);
     readFormat(line, subject, options);
     readFillRange(line, options);
+    return options;
+}
+
+ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject)
+{
+    options = readDroplets(line, std::move(options), subject);
+    options.footprint = readFootprint(line);
     return options;
 }
 

@@ -23,13 +23,19 @@ struct ShapeOptions {
     RunOptions run;
 };
 
-/// What every command takes that makes droplets from pictures: all groups but the run, then --format and --fill-range.
-void declareShapes(CommandLine& line);
+/// What every command takes that makes droplets: liquid, ground and surface, --format and --fill-range.
+void declareDroplets(CommandLine& line);
 
 /// Reads those and the run's options.
 /// @param options         with the names of all files that are read and written, or how they are made
 /// @param subject         how messages call the output
 /// @throws droplet::Error InvalidArgument
+ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject);
+
+/// What every command takes that makes droplets from pictures: the footprint, too.
+void declareShapes(CommandLine& line);
+
+/// Reads those and the run's options, as readDroplets does.
 ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject);
 
 /// Reads the command line, and the configuration file it names.

@@ -84,6 +84,21 @@ std::string picture(const droplet::InputReport& input)
     return text;
 }
 
+std::string type(const droplet::InputReport& input)
+{
+    const droplet::TypeReport& type = *input.type;
+    std::string text = type.text ? "'" + oneLine(*type.text) + "'" : "glyph '" + oneLine(type.glyph_name) + "'";
+    text += " in " + (type.family.empty() ? oneLine(input.path) : oneLine(type.family + " " + type.style));
+    for (const droplet::AxisSetting& axis : type.axes) {
+        text += ", " + oneLine(axis.tag) + " " + digits(axis.value);
+    }
+    text += ", em " + millimetres(type.em);
+    if (input.specks_dropped > 0) {
+        text += "; " + counted(input.specks_dropped, "speck") + " dropped";
+    }
+    return text;
+}
+
 std::string shape(const Report& report)
 {
     const auto& total = report.total;
@@ -199,7 +214,7 @@ std::string details(const Report& report)
 
 std::string summary(const Report& report, bool with_details)
 {
-    std::string text = line("picture", picture(report.input));
+    std::string text = report.input.type ? line("type", type(report.input)) : line("picture", picture(report.input));
     text += line("footprint", counted(report.droplets.size(), "droplet") + ", " + counted(report.mesh.holes, "hole") +
                                   ", " + squareMillimetres(report.total.footprint_area) + ", rim " +
                                   millimetres(report.total.rim_length));

@@ -34,6 +34,14 @@ void requirePositive(double value, const char* name)
     }
 }
 
+void requireGlyph(const Font& font, GlyphId glyph)
+{
+    if (glyph >= font.glyphCount()) {
+        throw Error(ErrorCode::InvalidArgument, "glyph " + std::to_string(glyph) + " is too large: the font has " +
+                                                    std::to_string(font.glyphCount()) + ", from 0");
+    }
+}
+
 Flatness flatnessOf(const GlyphOptions& options)
 {
     return {options.tolerance ? *options.tolerance / options.em : kTolerance, kSpacing};
@@ -152,15 +160,32 @@ void TextOptions::validate() const
 Outline glyphOutline(const Font& font, GlyphId glyph, const GlyphOptions& options)
 {
     options.validate();
-    if (glyph >= font.glyphCount()) {
-        throw Error(ErrorCode::InvalidArgument, "glyph " + std::to_string(glyph) + " is too large: the font has " +
-                                                    std::to_string(font.glyphCount()) + ", from 0");
-    }
+    requireGlyph(font, glyph);
     const FontFace& face = font.face();
     const DrawnGlyph drawn = face.draw(glyph, flatnessOf(options));
     const Box box{{std::min(0.0, drawn.advance), face.lines().descender},
                   {std::max(0.0, drawn.advance), face.lines().ascender}};
     return outlineOf(unite(drawn.contours, options.speck_size), box, options.em);
+}
+
+bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options)
+{
+    requireGlyph(font, glyph);
+    constexpr Flatness kCoarse{0.1, 10.0};
+    const DrawnGlyph drawn = font.face().draw(glyph, kCoarse);
+    if (drawn.contours.empty()) {
+        return false;
+    }
+    double area = 0.0;
+    for (const Contour& contour : drawn.contours) {
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            area += 0.5 * cross(contour[i], contour[(i + 1) % contour.size()]);
+        }
+    }
+    // What contours wind around in sum is no nothing; where it is little, only the union tells.
+    constexpr double kMuch = 1e-3;
+    return std::abs(area) > std::max(kMuch, 1e3 * options.speck_size) ||
+           !glyphOutline(font, glyph, options).loops.empty();
 }
 
 SetText setText(const Font& font, std::string_view text, const TextOptions& options)

@@ -99,8 +99,54 @@ Json angles(const ContactAngle& angle)
             {"max_at_m", place(angle.max_at)}};
 }
 
+std::string codePoint(char32_t character)
+{
+    const std::string shown = shownCharacter(character);
+    return shown.substr(0, shown.find(' '));
+}
+
+Json typeSection(const TypeReport& type)
+{
+    Json axes = Json::object();
+    for (const AxisSetting& axis : type.axes) {
+        axes[axis.tag] = axis.value;
+    }
+    Json missing = Json::array();
+    for (const char32_t character : type.missing) {
+        missing.push_back(codePoint(character));
+    }
+    return {{"family", type.family},
+            {"style", type.style},
+            {"face_index", type.face_index},
+            {"axes", axes},
+            {"text", type.text ? Json(*type.text) : Json()},
+            {"glyph", type.glyph ? Json(*type.glyph) : Json()},
+            {"glyph_name", type.glyph ? Json(type.glyph_name) : Json()},
+            {"character", type.character ? Json(codePoint(*type.character)) : Json()},
+            {"missing", missing},
+            {"em_m", type.em}};
+}
+
+/// What there is of a picture alone is null of a font.
 Json inputSection(const InputReport& input)
 {
+    if (input.type) {
+        return {{"path", input.path},
+                {"width_px", nullptr},
+                {"height_px", nullptr},
+                {"drawn", nullptr},
+                {"own_size", nullptr},
+                {"pixel_size_m", nullptr},
+                {"channel", nullptr},
+                {"inverted", nullptr},
+                {"threshold", nullptr},
+                {"level_dry", nullptr},
+                {"level_liquid", nullptr},
+                {"anti_aliased", nullptr},
+                {"specks_dropped", input.specks_dropped},
+                {"largest_speck_px2", nullptr},
+                {"type", typeSection(*input.type)}};
+    }
     return {{"path", input.path},
             {"width_px", input.width_px},
             {"height_px", input.height_px},
@@ -114,7 +160,8 @@ Json inputSection(const InputReport& input)
             {"level_liquid", input.level_liquid},
             {"anti_aliased", input.anti_aliased},
             {"specks_dropped", input.specks_dropped},
-            {"largest_speck_px2", input.largest_speck_px}};
+            {"largest_speck_px2", input.largest_speck_px},
+            {"type", nullptr}};
 }
 
 Json outputSection(const OutputReport& output)

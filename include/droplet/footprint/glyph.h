@@ -34,6 +34,10 @@ struct GlyphOptions {
 /// @throws Error InvalidArgument: options, or no such glyph; InvalidInput: the font is broken there
 Outline glyphOutline(const Font& font, GlyphId glyph, const GlyphOptions& options = {});
 
+/// Whether glyphOutline() has loops; much quicker.
+/// @throws Error as glyphOutline()
+bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options = {});
+
 /// Where lines of a text stand in its box; for those that run from right to left, the start is on the right.
 enum class TextAlign { Start, Centre, End };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/footprint/font.h"
 #include "droplet/footprint/mask.h"
 #include "droplet/io/output.h"
 #include "droplet/progress.h"
@@ -22,9 +23,24 @@ namespace droplet {
 /// How many stages the river has.
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Write) + 1;
 
-/// The picture and how it was read.
+/// What was set, and in what.
+struct TypeReport {
+    std::string family;  ///< as the font says
+    std::string style;
+    std::size_t face_index = 0;
+    std::vector<AxisSetting> axes;    ///< as given
+    std::optional<std::string> text;  ///< empty where there is a glyph
+    std::optional<GlyphId> glyph;     ///< empty where there is a text
+    std::string glyph_name;
+    std::optional<char32_t> character;  ///< that the glyph stands for
+    std::vector<char32_t> missing;      ///< characters of the text that the font lacks
+    double em = 0.0;                    ///< [m]
+};
+
+/// The picture and how it was read, or what was set in type.
 struct InputReport {
-    std::string path;  ///< as given
+    std::string path;                ///< as given
+    std::optional<TypeReport> type;  ///< if the path is a font's: then what follows says nothing but specks_dropped
     int width_px = 0;
     int height_px = 0;
     bool drawn = false;       ///< an SVG image, which has no pixels but those it was drawn with

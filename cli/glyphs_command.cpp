@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "glyphs_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch.h"
+#include "droplet/droplet.h"
+#include "droplet/error.h"
+#include "droplet/surface/onto.h"
+#include "droplet/units.h"
+#include "files.h"
+#include "glyph_names.h"
+#include "glyphs_options.h"
+#include "output_pattern.h"
+#include "shape_command.h"
+#include "surroundings.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+using droplet::Font;
+using droplet::GlyphId;
+
+constexpr const char* kPlaceholders = "{name}, {gid} or {codepoint}";
+
+std::string codePointOf(char32_t character)
+{
+    const std::string shown = droplet::shownCharacter(character);
+    return shown.substr(0, shown.find(' '));
+}
+
+/// A glyph to be made, and the character that it was asked for by, or the least it stands for.
+struct Wanted {
+    GlyphId glyph = 0;
+    std::optional<char32_t> character;
+};
+
+/// What of a charset a font has and lacks.
+struct Selection {
+    std::vector<Wanted> glyphs;  ///< each once
+    std::vector<char32_t> missing;
+};
+
+Selection select(const Font& font, const GlyphChoice& choice)
+{
+    Selection selection;
+    if (!choice.characters) {
+        for (std::size_t glyph = 0; glyph < font.glyphCount(); ++glyph) {
+            const auto id = static_cast<GlyphId>(glyph);
+            selection.glyphs.push_back({id, font.characterOf(id)});
+        }
+        return selection;
+    }
+    std::vector<bool> taken(font.glyphCount(), false);
+    for (const char32_t character : *choice.characters) {
+        const auto glyph = font.glyphOf(character);
+        if (!glyph) {
+            selection.missing.push_back(character);
+        } else if (!taken[*glyph]) {
+            taken[*glyph] = true;
+            selection.glyphs.push_back({*glyph, character});
+        }
+    }
+    return selection;
+}
+
+std::string lacking(const std::vector<char32_t>& missing)
+{
+    constexpr std::size_t kMost = 10;
+    std::string text = "the font has no glyph for ";
+    for (std::size_t i = 0; i < std::min(kMost, missing.size()); ++i) {
+        text += (i > 0 ? ", " : "") + droplet::shownCharacter(missing[i]);
+    }
+    if (missing.size() > kMost) {
+        text += " and " + std::to_string(missing.size() - kMost) + " more";
+    }
+    return text;
+}
+
+droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
+{
+    droplet::TypeReport type;
+    type.family = font.family();
+    type.style = font.style();
+    type.face_index = options.face.face_index;
+    type.axes = options.face.axes;
+    type.em = options.type.glyph.em;
+    return type;
+}
+
+/// The letter whose height is that of all: o, or the first there is of those that might stand in for it.
+std::optional<GlyphId> referenceLetter(const Font& font, const droplet::GlyphOptions& options,
+                                       const std::vector<Wanted>& others)
+{
+    for (const char32_t character : {U'o', U'O', U'0'}) {
+        const auto glyph = font.glyphOf(character);
+        if (glyph && droplet::hasInk(font, *glyph, options)) {
+            return glyph;
+        }
+    }
+    const auto first = std::find_if(others.begin(), others.end(),
+                                    [&](const Wanted& wanted) { return droplet::hasInk(font, wanted.glyph, options); });
+    return first == others.end() ? std::nullopt : std::optional(first->glyph);
+}
+
+/// Fills every letter to one height: that of the reference letter at the contact angle asked for, on level flat ground.
+void equaliseHeights(const Font& font, const std::vector<Wanted>& glyphs, GlyphsOptions& options)
+{
+    droplet::SolveOptions& solve = options.shape.settings.droplet.solve;
+    if (!options.equal_height || solve.fill.by == droplet::FillBy::Height) {
+        return;
+    }
+    const auto letter = referenceLetter(font, options.type.glyph, glyphs);
+    if (!letter) {
+        return;
+    }
+    droplet::DropletOptions reference;
+    reference.solve = solve;
+    reference.solve.tilt = 0.0;
+    reference.solve.no_penetration = false;
+    const droplet::Outline outline = droplet::glyphOutline(font, *letter, options.type.glyph);
+    solve.fill.by = droplet::FillBy::Height;
+    solve.fill.amount = droplet::makeDroplet(outline, reference).total.height_max;
+}
+
+/// The size at which a text on an object is as large as the picture there would be.
+double emOn(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
+{
+    const droplet::Vec2 extent = droplet::setText(font, *options.text, options.type).outline.extent;
+    const double width = droplet::metresPerUv(object) * std::sqrt(extent.x / extent.y);
+    return options.type.glyph.em * width / extent.x;
+}
+
+int makeText(const Font& font, GlyphsOptions options)
+{
+    checkShape(options.shape, "--font");
+    makeAndTell(options.shape.run, [&](const droplet::Progress& progress) {
+        progress(droplet::Stage::Read);
+        const Surroundings around = readSurroundings(options.shape.settings);
+        if (around.object && !options.sized) {
+            options.type.glyph.em = emOn(*around.object, font, options);
+        }
+        droplet::SetText set = droplet::setText(font, *options.text, options.type);
+        if (set.outline.loops.empty()) {
+            throw Error(
+                ErrorCode::InvalidInput,
+                options.font + ": " +
+                    (set.missing.empty() ? "the text has no ink" : lacking(set.missing) + ", and nothing is left"));
+        }
+        std::vector<Wanted> letters;
+        for (const char32_t character : droplet::charactersOf(*options.text)) {
+            if (const auto glyph = font.glyphOf(character)) {
+                letters.push_back({*glyph, character});
+            }
+        }
+        equaliseHeights(font, letters, options);
+        DrawnFootprint footprint{std::move(set.outline), {}};
+        footprint.input.path = options.font;
+        footprint.input.type = describe(font, options);
+        footprint.input.type->text = options.text;
+        footprint.input.type->missing = set.missing;
+        if (!set.missing.empty()) {
+            options.shape.settings.warnings.push_back(lacking(set.missing) + "; left out");
+        }
+        return makeShape(options.shape, around, std::move(footprint), progress);
+    });
+    return 0;
+}
+
+PatternValues valuesOf(const Wanted& wanted, const std::vector<std::string>& names)
+{
+    return {{"name", names[wanted.glyph]},
+            {"gid", std::to_string(wanted.glyph)},
+            {"codepoint", wanted.character ? codePointOf(*wanted.character) : "glyph" + std::to_string(wanted.glyph)}};
+}
+
+/// A hash of everything that decides the bytes of all outputs but which glyph each is.
+std::string settingsFingerprint(const GlyphsOptions& options)
+{
+    std::vector<std::string> parts{sha256OfFile(options.font), droplet::name(options.shape.format)};
+    for (const auto& [name, value] : options.set->batch.told) {
+        // These choose glyphs, and do not change them.
+        if (name != "all" && name != "charset" && name != "font") {
+            parts.push_back(name);
+            parts.push_back(value);
+        }
+    }
+    if (options.equal_height) {
+        // Its reference may depend on which glyphs there are.
+        std::ostringstream height;
+        height << std::hexfloat << options.shape.settings.droplet.solve.fill.amount;
+        parts.push_back(height.str());
+    }
+    const auto& ground = options.shape.settings.ground.path;
+    parts.push_back(ground ? sha256OfFile(*ground) : "");
+    return fingerprintOf(parts);
+}
+
+int makeGlyphs(const Font& font, GlyphsOptions options)
+{
+    GlyphSetOptions& set = *options.set;
+    Selection selection = select(font, set.choice);
+    if (selection.glyphs.empty()) {
+        throw Error(ErrorCode::InvalidInput,
+                    options.font + ": " + lacking(selection.missing) + ", and nothing is left");
+    }
+    equaliseHeights(font, selection.glyphs, options);
+    for (const char32_t character : selection.missing) {
+        set.batch.left_out.push_back({droplet::shownCharacter(character), "the font has no glyph for it"});
+    }
+    const Surroundings around = readSurroundings(options.shape.settings);
+    const std::string settings = settingsFingerprint(options);
+    const std::vector<std::string> names = fileNames(font);
+    if (const auto& ground = options.shape.settings.ground.path) {
+        set.batch.read.push_back(*ground);
+    }
+
+    std::vector<BatchItem> items;
+    for (const Wanted& wanted : selection.glyphs) {
+        const std::string name = font.nameOf(wanted.glyph);
+        // A broken glyph is an item: it fails, and says so.
+        bool blank = false;
+        try {
+            blank = !droplet::hasInk(font, wanted.glyph, options.type.glyph);
+        } catch (const Error&) {
+        }
+        if (blank) {
+            set.batch.left_out.push_back({"glyph '" + name + "'", "no ink"});
+            continue;
+        }
+        const PatternValues values = valuesOf(wanted, names);
+        BatchItem item;
+        item.name = "glyph '" + name + "'";
+        item.input = options.font;
+        item.output = filled(set.output, values, kPlaceholders);
+        if (set.json) {
+            item.others.push_back(filled(*set.json, values, kPlaceholders));
+        }
+        item.open = [&, wanted, name, output = item.output, others = item.others] {
+            BatchWork work;
+            work.fingerprint = fingerprintOf({settings, std::to_string(wanted.glyph)});
+            work.make = [&, wanted, name, output, others] {
+                ShapeOptions job = options.shape;
+                job.output = output;
+                job.json = others.empty() ? std::nullopt : std::optional(others.front());
+                DrawnFootprint footprint{droplet::glyphOutline(font, wanted.glyph, options.type.glyph), {}};
+                footprint.input.path = options.font;
+                footprint.input.type = describe(font, options);
+                footprint.input.type->glyph = wanted.glyph;
+                footprint.input.type->glyph_name = name;
+                footprint.input.type->character = wanted.character;
+                return figuresOf(makeShape(job, around, std::move(footprint), [](droplet::Stage) {}));
+            };
+            return work;
+        };
+        items.push_back(std::move(item));
+    }
+    if (items.empty()) {
+        throw Error(ErrorCode::InvalidInput, options.font + ": none of the glyphs asked for has ink");
+    }
+    return makeAll(items, set.batch);
+}
+
+void list(const Font& font, const GlyphsOptions& options)
+{
+    std::ostringstream text;
+    for (const droplet::FontAxis& axis : font.axes()) {
+        text << "axis\t" << axis.tag << "\t" << axis.least << ".." << axis.most << "\t" << axis.standard << "\t"
+             << axis.name << "\n";
+    }
+    const std::vector<std::string> names = fileNames(font);
+    for (std::size_t i = 0; i < font.glyphCount(); ++i) {
+        const auto glyph = static_cast<GlyphId>(i);
+        const auto character = font.characterOf(glyph);
+        text << "glyph\t" << i << "\t" << font.nameOf(glyph) << "\t" << names[i] << "\t"
+             << (character ? codePointOf(*character) : "-") << "\t"
+             << (droplet::hasInk(font, glyph, options.type.glyph) ? "ink" : "no ink") << "\n";
+    }
+    print(text.str());
+}
+
+}  // namespace
+
+int runGlyphs(int argc, const char* const* argv)
+{
+    auto parsed = parseGlyphs(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
+        return 0;
+    }
+    auto& options = std::get<GlyphsOptions>(parsed);
+    const Font font = droplet::readFont(options.font, options.face);
+    if (options.text) {
+        return makeText(font, std::move(options));
+    }
+    if (options.set) {
+        return makeGlyphs(font, std::move(options));
+    }
+    list(font, options);
+    return 0;
+}
+
+}  // namespace cli

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "glyphs_options.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "droplet/error.h"
+#include "droplet/version.h"
+#include "files.h"
+
+namespace cli {
+namespace {
+
+constexpr const char* kUsage = "usage: droplet-shape glyphs --font FILE --text TEXT -o OUTPUT, more with --help";
+
+const CommandText& commandText()
+{
+    static const CommandText text{
+        "droplet-shape glyphs", "from a font to a line of type, or to a droplet per glyph",
+        "[OPTIONS] --font FILE (--text TEXT | --charset SET | --all | --list) -o OUTPUT",
+        std::string("A SET is characters and ranges of them, such as A-Za-z or U+0391-U+03A9, or @FILE,\n"
+                    "all characters of a text file. With --charset and --all there stand in OUTPUT and\n"
+                    "--json, of each glyph,\n"
+                    "  {name} the font's name for it, safe on any file system (--list shows it),\n"
+                    "  {gid} its index, {codepoint} its character such as U+0041; {{ and }} are braces\n"
+                    "\n") +
+            kUnitsText +
+            "\n"
+            "Examples:\n"
+            "  droplet-shape glyphs --font Serif.ttf --text Water -o water.glb\n"
+            "  droplet-shape glyphs --font Serif.ttf --charset A-Za-z -o 'out/{name}.glb'\n"
+            "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all --triangles 5k \\\n"
+            "    -o 'out/{name}.glb' --equal-height\n"
+            "\n"
+            "Exit codes:\n"
+            "  0 done; 1 internal error; 2 usage; 3 font unreadable or nothing in it to make;\n"
+            "  4 output cannot be written; 5 no such droplet exists; 6 some glyphs failed, and\n"
+            "  the manifest says which and why"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    constexpr const char* kGroup = "Type";
+    line.add(kGroup, "--font", "FILE", "TrueType, OpenType, collection, WOFF or Type 1");
+    line.add(kGroup, "--face-index", "N", "which font of a collection, from 0 [0]");
+    line.addList(kGroup, "--axis", "TAG=VALUE",
+                 "of a variable font, such as wght=700; for several\naxes several times");
+    line.add(kGroup, "--text", "TEXT", "set a text into one file; \\n begins a new line, \\\\ is\na backslash");
+    line.add(kGroup, "--charset", "SET", "or make a file for each of these characters");
+    line.addFlag(kGroup, "--all", "or for every glyph of the font");
+    line.addFlag(kGroup, "--list", "or list glyphs and axes, and make nothing");
+    line.add(kGroup, "-o,--output", "OUTPUT", "water.glb, or of many glyphs 'out/{name}.glb'");
+    line.add(kGroup, "--em", "LENGTH", "size: edge of the em square [20mm]");
+    line.add(kGroup, "--tolerance", "LENGTH", "farthest a flattened curve may lie off [em/20000]");
+    line.add(kGroup, "--align", "NAME", "lines of a text: start, centre, end [start]");
+    line.add(kGroup, "--line-spacing", "F", "distance of lines, in the font's own [1]");
+    line.addFlag(kGroup, "--equal-height",
+                 "all letters as high as the letter o is at the contact\n"
+                 "angle, or as --height says");
+    line.add(kGroup, "--json", "FILE", "write a report, of many glyphs such as\n'out/{name}.json'");
+    line.exclude({"--text", "--charset", "--all", "--list"});
+    declareBatch(line);
+    declareDroplets(line);
+    declareRun(line);
+}
+
+double number(const Given& given, double least, double most, const std::string& words)
+{
+    const auto value = finiteNumber(given.text);
+    if (!value || *value < least || *value > most) {
+        refuse(given, words);
+    }
+    return *value;
+}
+
+droplet::FontOptions readFace(const CommandLine& line)
+{
+    droplet::FontOptions face;
+    if (const auto index = line.value("--face-index")) {
+        constexpr double kMost = 65535.0;  // of FreeType
+        const std::string words = "a whole number from 0 to 65535";
+        const double value = number(*index, 0.0, kMost, words);
+        face.face_index = static_cast<std::size_t>(value);
+        if (static_cast<double>(face.face_index) != value) {
+            refuse(*index, words);
+        }
+    }
+    for (const Given& axis : line.values("--axis")) {
+        const auto equals = axis.text.find('=');
+        const auto value =
+            equals == std::string::npos ? std::nullopt : finiteNumber(std::string_view(axis.text).substr(equals + 1));
+        if (!value || equals != 4) {
+            refuse(axis, "a tag of four characters and a value, such as wght=700");
+        }
+        face.axes.push_back({axis.text.substr(0, equals), *value});
+    }
+    return face;
+}
+
+droplet::TextOptions readType(const CommandLine& line)
+{
+    droplet::TextOptions type;
+    if (const auto em = line.value("--em")) {
+        type.glyph.em = quantity(*em, kLength);
+    }
+    if (const auto tolerance = line.value("--tolerance")) {
+        type.glyph.tolerance = quantity(*tolerance, kLength);
+    }
+    if (const auto align = line.value("--align")) {
+        type.align = choice<droplet::TextAlign>(*align, {{"start", droplet::TextAlign::Start},
+                                                         {"centre", droplet::TextAlign::Centre},
+                                                         {"end", droplet::TextAlign::End}});
+    }
+    if (const auto spacing = line.value("--line-spacing")) {
+        type.line_spacing = number(*spacing, 0.01, 100.0, "a number from 0.01 to 100");
+    }
+    return type;
+}
+
+/// A text with `\n` for line feeds and `\\` for backslashes.
+std::string unescaped(const Given& given)
+{
+    std::string text;
+    for (std::size_t i = 0; i < given.text.size(); ++i) {
+        if (given.text[i] != '\\') {
+            text += given.text[i];
+            continue;
+        }
+        const char next = i + 1 < given.text.size() ? given.text[i + 1] : '\0';
+        if (next != 'n' && next != '\\') {
+            refuse(given, "a text in which \\n is a new line and \\\\ a backslash");
+        }
+        text += next == 'n' ? '\n' : '\\';
+        ++i;
+    }
+    return text;
+}
+
+std::vector<char32_t> readCharset(const Given& given)
+{
+    if (given.text.size() < 2 || given.text.front() != '@') {
+        return forOption(given.subject, [&] { return droplet::parseCharset(given.text); });
+    }
+    const std::string path = given.text.substr(1);
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad()) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput, given.subject + ": " + path + " cannot be read");
+    }
+    std::vector<char32_t> characters = forOption(given.subject, [&] { return droplet::charactersOf(text); });
+    if (characters.empty()) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput, given.subject + ": " + path + " holds no characters");
+    }
+    return characters;
+}
+
+void readEqualHeight(const CommandLine& line, GlyphsOptions& options)
+{
+    options.equal_height = line.flag("--equal-height");
+    if (!options.equal_height) {
+        return;
+    }
+    if (line.value("--volume")) {
+        refuse("--equal-height and --volume exclude each other: letters of one height have different volumes");
+    }
+    if (options.shape.settings.droplet.solve.fill.sharing == droplet::FillSharing::Total) {
+        refuse("--equal-height and --fill total exclude each other: letters of one pressure have different heights");
+    }
+}
+
+/// What has an effect on texts alone, or on files of many glyphs.
+void refuseOthers(const CommandLine& line, bool is_text)
+{
+    const auto clash = [&](const std::string& option, const std::string& with) {
+        refuse(option + " goes with " + with);
+    };
+    if (is_text) {
+        for (const char* option : {"--keep-going", "--no-resume"}) {
+            if (line.flag(option)) {
+                clash(option, "--charset or --all, not with --text");
+            }
+        }
+        for (const char* option : {"--shard", "--manifest"}) {
+            if (line.value(option)) {
+                clash(option, "--charset or --all, not with --text");
+            }
+        }
+        return;
+    }
+    for (const char* option : {"--align", "--line-spacing", "--onto"}) {
+        if (line.value(option)) {
+            clash(option, "--text alone");
+        }
+    }
+}
+
+}  // namespace
+
+std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        return line.help();
+    }
+    if (line.flag("--version")) {
+        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    }
+    const auto font = line.value("--font");
+    if (!font || font->text.empty() || isStream(font->text)) {
+        refuse(std::string("--font is missing, or no file; ") + kUsage);
+    }
+    GlyphsOptions options;
+    options.font = font->text;
+    options.face = readFace(line);
+    options.type = readType(line);
+    options.sized = line.value("--em").has_value();
+    if (line.flag("--list")) {
+        return options;
+    }
+    const auto text = line.value("--text");
+    const auto charset = line.value("--charset");
+    if (!text && !charset && !line.flag("--all")) {
+        refuse(std::string("--text, --charset, --all or --list is missing; ") + kUsage);
+    }
+    refuseOthers(line, text.has_value());
+    const auto output = line.value("--output");
+    if (!output || output->text.empty() || (!text && isStream(output->text))) {
+        refuse(
+            "--output is missing, or no path: where " +
+            std::string(text ? "the text goes, such as -o water.glb" : "each glyph goes, such as -o 'out/{name}.glb'"));
+    }
+    options.shape.input = options.font;
+    options.shape.output = output->text;
+    options.shape = readDroplets(line, std::move(options.shape), "--output");
+    const auto json = line.value("--json");
+    if (text) {
+        options.text = unescaped(*text);
+        options.shape.json = json ? std::optional(json->text) : std::nullopt;
+    } else {
+        GlyphSetOptions set;
+        if (charset) {
+            set.choice.characters = readCharset(*charset);
+        }
+        set.output = *output;
+        set.json = json;
+        set.batch = readBatch(line, options.shape.run, output->text);
+        options.set = std::move(set);
+    }
+    readEqualHeight(line, options);
+    return options;
+}
+
+}  // namespace cli
