@@ -33,7 +33,10 @@ constexpr float kPi = 3.14159265F;
 constexpr int kMostMeetings = 7;
 constexpr float kLeastWeight = 0.004F;  // a level of 255
 
-constexpr int kLightCells = 512;  // of the light on the plane, along its longer side
+// Cells of the light on the plane, along its longer side, for a pixel along the picture's.
+constexpr double kLightCells = 0.4;
+constexpr int kLeastLightCells = 64;
+constexpr int kMostLightCells = 1024;
 
 [[noreturn]] void refuse(const std::string& text)
 {
@@ -85,7 +88,9 @@ public:
         table_.emplace(std::max(size.x, size.y), size.x * size.y);
         span_ = std::max(size.x, size.y);
         if (scene_.onPlane() && !studio_.uniform()) {
-            light_ = lightOnPlane(scene_, medium_, studio_.lights(), kLightCells);
+            light_ = lightOnPlane(scene_, medium_, studio_.lights(),
+                                  std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
+                                             kLeastLightCells, kMostLightCells));
         }
         level_ = studio_.level();
         exposure_ = kWhite * kPi / level_.y;
