@@ -48,6 +48,11 @@ void check(const ShapeOptions& options)
     if (options.html) {
         outputs.push_back({"--html", *options.html});
     }
+    if (options.preview) {
+        for (NamedFile& file : previewPaths(*options.preview)) {
+            outputs.push_back(std::move(file));
+        }
+    }
     std::vector<NamedFile> inputs{{"INPUT", options.input}};
     if (options.run.config) {
         inputs.push_back({"--config", *options.run.config});
@@ -57,6 +62,9 @@ void check(const ShapeOptions& options)
     }
     if (options.settings.onto) {
         inputs.push_back({"--onto", *options.settings.onto});
+    }
+    if (options.preview && options.preview->ground) {
+        inputs.push_back({"--ground", *options.preview->ground});
     }
     checkFiles(inputs, outputs, options.run.files);
 }
@@ -187,8 +195,21 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
     droplet::writePage(out, page);
 }
 
-/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page and the report.
-void save(Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+/// What pictures show: the picture of the ground has been read.
+PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around,
+                         std::optional<droplet::Picture> ground)
+{
+    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent, std::move(ground), around.object};
+    const droplet::BaseSurface& below = settings.droplet.solve.ground;
+    if (!around.object && !below.flat()) {
+        subject.stand = droplet::groundMesh(below, droplet.domain.extent);
+    }
+    return subject;
+}
+
+/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page, pictures and the report.
+void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
+          StageClock& clock, droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!slidesInPageAlone(options)) {
@@ -212,6 +233,11 @@ void save(Droplet& droplet, const ShapeOptions& options, StageClock& clock, drop
                              }
                              writeHtml(out, droplet.surface, options, report);
                          }});
+    }
+    if (subject) {
+        for (OutputFile& file : previewFiles(*options.preview, *subject)) {
+            files.push_back(std::move(file));
+        }
     }
     if (options.json) {
         files.push_back({*options.json, [&](std::ostream& out) {
@@ -243,6 +269,10 @@ struct Stages {
 droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                      Stages& stages)
 {
+    std::optional<droplet::Picture> below;
+    if (options.preview && options.preview->ground) {
+        below = droplet::readPicture(*options.preview->ground);
+    }
     droplet::MaskOptions mask_options = options.footprint.mask;
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
@@ -270,7 +300,11 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     report.input.own_size = takesOwnSize(mask, around, options);
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.onto = onto;
-    save(droplet, options, stages.clock, report);
+    std::optional<PreviewSubject> subject;
+    if (options.preview) {
+        subject.emplace(subjectOf(droplet, settings, around, std::move(below)));
+    }
+    save(droplet, options, subject, stages.clock, report);
     return report;
 }
 

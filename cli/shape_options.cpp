@@ -22,6 +22,7 @@ const CommandText& commandText()
                                       "  droplet-shape logo.png wall.glb --model exact --tilt 90deg\n"
                                       "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
                                       "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
+                                      "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
                                       "  droplet-shape - - --format stl < logo.png > logo.stl\n"
                                       "\n"
                                       "Exit codes:\n"
@@ -49,6 +50,7 @@ void declareShape(CommandLine& line)
              "add a slider to glb or gltf that fills and drains the\n"
              "droplet: 0..2, from none to twice its liquid; of the\n"
              "linear model alone");
+    declarePreview(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     line.add("Run", "--html", "FILE",
              "write a page that shows the droplet in a browser, all in\n"
@@ -83,7 +85,7 @@ void readFormat(const CommandLine& line, ShapeOptions& options)
     }
 
     if (const auto material = line.value("--material")) {
-        if (!inGltf(options)) {
+        if (!inGltf(options) && !options.preview) {
             options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
                                                 droplet::name(options.format) + " files carry no material");
         }
@@ -163,6 +165,7 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     }
     options.input = line.argument("INPUT");
     options.output = line.argument("OUTPUT");
+    options.preview = readPreview(line, options.settings.warnings);
     readFormat(line, options);
     readFillRange(line, options);
     return options;

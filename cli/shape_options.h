@@ -7,6 +7,7 @@
 
 #include "droplet/io/output.h"
 #include "droplet_options.h"
+#include "preview.h"
 
 namespace cli {
 
@@ -16,7 +17,8 @@ struct ShapeOptions {
     std::string output;                  ///< path or kStandardStream
     std::optional<std::string> json;     ///< path or kStandardStream
     std::optional<std::string> evolver;  ///< path or kStandardStream
-    std::optional<std::string> html;     ///< path or kStandardStream
+    std::optional<PreviewOptions> preview;
+    std::optional<std::string> html;  ///< path or kStandardStream
     droplet::Format format = droplet::Format::Glb;
     FootprintOptions footprint;
     DropletSettings settings;
