@@ -38,9 +38,10 @@ _droplet_shape()
                     --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
                     --advancing --receding --triangles --edge --grading --open --material'
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
+                local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
-                    *) choices="$picture $making $running --format --fill-range --json --html --export-evolver" ;;
+                    *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
             ;;

@@ -75,6 +75,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.extent = subject.extent;
     render.ground = subject.ground;
     render.stand = subject.stand;
+    render.frames_stand = subject.on_object;
     if (options.colouring == Colouring::Contours) {
         render.paint = droplet::heightPaint(subject.surface);
     } else if (options.colouring == Colouring::ContactAngle) {

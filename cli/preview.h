@@ -39,6 +39,7 @@ struct PreviewSubject {
     droplet::Vec2 extent;                        ///< of its picture [m]
     std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
     std::optional<droplet::TexturedMesh> stand;  ///< what it stands on if not level flat ground
+    bool on_object = false;                      ///< and that is an object
 };
 
 void declarePreview(CommandLine& line);

@@ -201,6 +201,7 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
 {
     PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent, std::move(ground), around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
+    subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
         subject.stand = droplet::groundMesh(below, droplet.domain.extent);
     }
