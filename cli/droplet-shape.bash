@@ -21,14 +21,16 @@ _droplet_shape()
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
         --solver) choices='auto llt cholmod multigrid' ;;
+        --view) choices='three-quarter top side' ;;
+        --colour) choices='look contours contact-angle' ;;
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
-            --advancing | --receding | --triangles | --edge | --fill-range | --threads | -j)
+            --advancing | --receding | --triangles | --edge | --fill-range | --preview-size | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --preview | --ground | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -36,9 +38,10 @@ _droplet_shape()
                     --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
                     --advancing --receding --triangles --edge --grading --open --material'
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
+                local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
-                    *) choices="$picture $making $running --format --fill-range --json --html --export-evolver" ;;
+                    *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
             ;;

@@ -145,7 +145,7 @@ int makeText(const Font& font, GlyphsOptions options)
     checkShape(options.shape, "--font");
     makeAndTell(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read);
-        const Surroundings around = readSurroundings(options.shape.settings);
+        const Surroundings around = readSurroundings(options.shape.settings, groundPicture(options.shape));
         if (around.object && !options.sized) {
             options.type.glyph.em = emOn(*around.object, font, options);
         }

@@ -64,6 +64,8 @@ void declare(CommandLine& line)
     line.exclude({"--text", "--charset", "--all", "--list"});
     declareBatch(line);
     declareDroplets(line);
+    declarePreview(line);
+    declareHtml(line);
     declareRun(line);
 }
 
@@ -190,7 +192,7 @@ void refuseOthers(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align", "--line-spacing", "--onto"}) {
+    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -236,11 +238,13 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     }
     options.shape.input = options.font;
     options.shape.output = output->text;
+    options.shape.html = readHtml(line);
     options.shape = readDroplets(line, std::move(options.shape), "--output");
     const auto json = line.value("--json");
     if (text) {
         options.text = unescaped(*text);
         options.shape.json = json ? std::optional(json->text) : std::nullopt;
+        options.shape.preview = readPreview(line, options.shape.settings.warnings);
     } else {
         GlyphSetOptions set;
         if (charset) {

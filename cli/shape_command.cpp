@@ -180,8 +180,21 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
     droplet::writePage(out, page);
 }
 
-/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page and the report.
-void save(Droplet& droplet, const ShapeOptions& options, StageClock& clock, droplet::Report& report)
+/// What pictures show.
+PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around)
+{
+    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent, around.below, around.object};
+    const droplet::BaseSurface& below = settings.droplet.solve.ground;
+    subject.on_object = around.object.has_value();
+    if (!around.object && !below.flat()) {
+        subject.stand = droplet::groundMesh(below, droplet.domain.extent);
+    }
+    return subject;
+}
+
+/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page, pictures and the report.
+void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
+          StageClock& clock, droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!slidesInPageAlone(options)) {
@@ -205,6 +218,11 @@ void save(Droplet& droplet, const ShapeOptions& options, StageClock& clock, drop
                              }
                              writeHtml(out, droplet.surface, options, report);
                          }});
+    }
+    if (subject) {
+        for (OutputFile& file : previewFiles(*options.preview, *subject)) {
+            files.push_back(std::move(file));
+        }
     }
     if (options.json) {
         files.push_back({*options.json, [&](std::ostream& out) {
@@ -247,7 +265,11 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const d
     report.input = input;
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.onto = onto;
-    save(droplet, options, stages.clock, report);
+    std::optional<PreviewSubject> subject;
+    if (options.preview) {
+        subject.emplace(subjectOf(droplet, settings, around));
+    }
+    save(droplet, options, subject, stages.clock, report);
     return report;
 }
 
@@ -291,6 +313,11 @@ void tell(const droplet::Report& report, const RunOptions& run)
 
 }  // namespace
 
+std::optional<std::string> groundPicture(const ShapeOptions& options)
+{
+    return options.preview ? options.preview->ground : std::nullopt;
+}
+
 std::vector<std::byte> readPicture(const ShapeOptions& options)
 {
     return isStream(options.input) ? readStandardInput(options.footprint.mask.max_pixels)
@@ -301,7 +328,7 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
 {
     Stages stages{{}, progress};
     stages.begin(Stage::Read);
-    const Surroundings around = readSurroundings(options.settings);
+    const Surroundings around = readSurroundings(options.settings, groundPicture(options));
     return make(options, around, readPicture(options), stages);
 }
 
@@ -338,6 +365,11 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     if (options.html) {
         outputs.push_back({"--html", *options.html});
     }
+    if (options.preview) {
+        for (NamedFile& file : previewPaths(*options.preview)) {
+            outputs.push_back(std::move(file));
+        }
+    }
     std::vector<NamedFile> inputs{{input_name, options.input}};
     if (options.run.config) {
         inputs.push_back({"--config", *options.run.config});
@@ -347,6 +379,9 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     }
     if (options.settings.onto) {
         inputs.push_back({"--onto", *options.settings.onto});
+    }
+    if (const auto picture = groundPicture(options)) {
+        inputs.push_back({"--ground", *picture});
     }
     checkFiles(inputs, outputs, options.run.files);
 }

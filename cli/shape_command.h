@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "surroundings.h"
 
 namespace cli {
+
+/// The path of the picture that is to be seen below the droplets, where one is asked for.
+std::optional<std::string> groundPicture(const ShapeOptions& options);
 
 /// The bytes of the picture, from its file or standard input.
 /// @throws droplet::Error InvalidInput

@@ -23,6 +23,7 @@ const CommandText& commandText()
                                       "  droplet-shape logo.png wall.glb --model exact --tilt 90deg\n"
                                       "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
                                       "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
+                                      "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
                                       "  droplet-shape - - --format stl < logo.png > logo.stl\n"
                                       "\n"
                                       "Exit codes:\n"
@@ -40,10 +41,9 @@ void declareShape(CommandLine& line)
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");
     declareShapes(line);
+    declarePreview(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
-    line.add("Run", "--html", "FILE",
-             "write a page that shows the droplet in a browser, all in\n"
-             "one file; - is standard output");
+    declareHtml(line);
     line.add("Run", "--export-evolver", "FILE", "write the droplets for Surface Evolver");
     declareRun(line);
 }
@@ -76,7 +76,7 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
     }
 
     if (const auto material = line.value("--material")) {
-        if (!inGltf(options)) {
+        if (!inGltf(options) && !options.preview) {
             options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
                                                 droplet::name(options.format) + " files carry no material");
         }
@@ -147,6 +147,25 @@ void declareShapes(CommandLine& line)
     declareDroplets(line);
 }
 
+void declareHtml(CommandLine& line)
+{
+    line.add("Run", "--html", "FILE",
+             "write a page that shows the droplet in a browser, all in\n"
+             "one file; - is standard output");
+}
+
+std::optional<std::string> readHtml(const CommandLine& line)
+{
+    const auto html = line.value("--html");
+    if (!html) {
+        return std::nullopt;
+    }
+    if (!droplet::pageIsBuiltIn()) {
+        refuse("--html is not in this program: it was built with DROPLET_PAGE=OFF");
+    }
+    return html->text;
+}
+
 ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject)
 {
     options.settings = readDroplet(line);
@@ -183,13 +202,10 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     if (const auto evolver = line.value("--export-evolver")) {
         options.evolver = evolver->text;
     }
-    if (const auto html = line.value("--html")) {
-        if (!droplet::pageIsBuiltIn()) {
-            refuse("--html is not in this program: it was built with DROPLET_PAGE=OFF");
-        }
-        options.html = html->text;
-    }
-    return readShapes(line, std::move(options), "OUTPUT");
+    options.html = readHtml(line);
+    options = readShapes(line, std::move(options), "OUTPUT");
+    options.preview = readPreview(line, options.settings.warnings);
+    return options;
 }
 
 }  // namespace cli

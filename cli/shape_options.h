@@ -7,6 +7,7 @@
 
 #include "droplet/io/output.h"
 #include "droplet_options.h"
+#include "preview.h"
 
 namespace cli {
 
@@ -16,12 +17,19 @@ struct ShapeOptions {
     std::string output;                  ///< path or kStandardStream
     std::optional<std::string> json;     ///< path or kStandardStream
     std::optional<std::string> evolver;  ///< path or kStandardStream
-    std::optional<std::string> html;     ///< path or kStandardStream
+    std::optional<PreviewOptions> preview;
+    std::optional<std::string> html;  ///< path or kStandardStream
     droplet::Format format = droplet::Format::Glb;
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;
 };
+
+void declareHtml(CommandLine& line);
+
+/// The page to be written.
+/// @throws droplet::Error InvalidArgument if it is not built in
+std::optional<std::string> readHtml(const CommandLine& line);
 
 /// What every command takes that makes droplets: liquid, ground and surface, --format and --fill-range.
 void declareDroplets(CommandLine& line);

@@ -12,7 +12,7 @@ namespace cli {
 using droplet::Error;
 using droplet::ErrorCode;
 
-Surroundings readSurroundings(const DropletSettings& settings)
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below)
 {
     Surroundings around;
     if (settings.ground.path) {
@@ -25,6 +25,9 @@ Surroundings readSurroundings(const DropletSettings& settings)
     }
     if (settings.onto) {
         around.object = droplet::readObject(*settings.onto);
+    }
+    if (below) {
+        around.below = droplet::readPicture(*below);
     }
     return around;
 }

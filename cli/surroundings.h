@@ -7,6 +7,7 @@
 #include "droplet/droplet.h"
 #include "droplet/footprint/height_map.h"
 #include "droplet/io/report.h"
+#include "droplet/picture/picture.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/textured_mesh.h"
 #include "droplet_options.h"
@@ -17,10 +18,12 @@ namespace cli {
 struct Surroundings {
     std::optional<droplet::HeightMap> map;
     std::optional<droplet::TexturedMesh> object;
+    std::optional<droplet::Picture> below;  ///< to be seen there
 };
 
 /// @throws droplet::Error InvalidInput; InvalidArgument if --surface-depth is missing
-Surroundings readSurroundings(const DropletSettings& settings);
+/// @param below  path of a picture to be seen below the droplets
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below = {});
 
 /// What droplets are solved on.
 /// @param extent          of the picture, which a height map is stretched over [m]

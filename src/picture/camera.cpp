@@ -30,7 +30,7 @@ constexpr float kHalfHeight = 0.20F;  // tangent of half the picture's angle upw
 constexpr float kFilled = 0.86F;      // of the picture's width or height
 
 // Around the vertical axis of all points: what is seen at one azimuth or another.
-std::vector<Vec3f> turned(const std::vector<Vec3f>& points)
+std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const Turn& turn)
 {
     float radius = 0.0F;
     float low = points.front().z;
@@ -45,7 +45,7 @@ std::vector<Vec3f> turned(const std::vector<Vec3f>& points)
     for (int k = 0; k < kSides; ++k) {
         const auto angle = static_cast<float>(2.0 * std::numbers::pi * k / kSides);
         for (const float z : {low, high}) {
-            rings.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+            rings.push_back(turn({radius * std::cos(angle), radius * std::sin(angle), z}));
         }
     }
     return rings;
@@ -73,7 +73,7 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
     right_ = turn({-sin_azimuth, cos_azimuth, 0.0F});
     up_ = cross(back_, right_);
 
-    const std::vector<Vec3f> rings = options.fits_any_turn ? turned(points) : std::vector<Vec3f>();
+    const std::vector<Vec3f> rings = options.fits_any_turn ? turned(points, turn) : std::vector<Vec3f>();
     const std::vector<Vec3f>& framed = options.fits_any_turn ? rings : points;
     Vec3f target;
     float distance = 12.0F;

@@ -85,7 +85,7 @@ Vec3f GroundPicture::at(Vec2 uv, double width) const
                mix(texel(next_row, column), texel(next_row, next_column), fx), fy);
 }
 
-Table::Table(float span, float area) : span_(span)
+Table::Table(float span, float area, Vec3f light) : span_(span), light_(light)
 {
     const float rough = std::sqrt(std::max(area, 1e-6F)) / 18.0F;
     pitch_ = rough;
@@ -94,7 +94,7 @@ Table::Table(float span, float area) : span_(span)
 Vec3f Table::at(Vec3f place, float width) const
 {
     // Cool, warmer toward the key light.
-    const float warm = smoothstep(-1.1F, 0.8F, (-0.75F * place.x + 0.66F * place.y) / span_);
+    const float warm = smoothstep(-1.1F, 0.8F, dot(light_, place) / span_);
     const Vec3f base = mix({0.06F, 0.135F, 0.19F}, {0.20F, 0.35F, 0.41F}, warm);
     float ruling = 0.0F;
     for (const float along : {place.x, place.y}) {

@@ -37,7 +37,8 @@ class Table {
 public:
     /// @param span   larger side of what stands on it, around the origin
     /// @param area   of the box around that
-    Table(float span, float area);
+    /// @param light  toward the key light, on the table
+    Table(float span, float area, Vec3f light);
 
     /// Share of red, green and blue light that it scatters.
     /// @param width  of what is looked at
@@ -46,6 +47,7 @@ public:
 private:
     float span_;
     float pitch_;
+    Vec3f light_;
 };
 
 }  // namespace droplet

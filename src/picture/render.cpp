@@ -33,7 +33,10 @@ constexpr float kPi = 3.14159265F;
 constexpr int kMostMeetings = 7;
 constexpr float kLeastWeight = 0.004F;  // a level of 255
 
-constexpr int kLightCells = 512;  // of the light on the plane, along its longer side
+// Cells of the light on the plane, along its longer side, for a pixel along the picture's.
+constexpr double kLightCells = 0.4;
+constexpr int kLeastLightCells = 64;
+constexpr int kMostLightCells = 1024;
 
 [[noreturn]] void refuse(const std::string& text)
 {
@@ -70,9 +73,9 @@ public:
         : options_(options),
           turn_(turnedBack(options.azimuth)),
           scene_(surface, options.stand ? &*options.stand : nullptr, options.extent),
-          studio_(options.lighting, turn_),
+          studio_(options.lighting, options.stand && options.frames_stand, turn_),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(scene_.shown(), options,
+          camera_(options.frames_stand ? scene_.shown() : scene_.droplets(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -82,10 +85,12 @@ public:
             picture_.emplace(*options.ground);
         }
         const Vec3f size = scene_.high() - scene_.low();
-        table_.emplace(std::max(size.x, size.y), size.x * size.y);
+        table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}));
         span_ = std::max(size.x, size.y);
         if (scene_.onPlane() && !studio_.uniform()) {
-            light_ = lightOnPlane(scene_, medium_, studio_.lights(), kLightCells);
+            light_ = lightOnPlane(scene_, medium_, studio_.lights(),
+                                  std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
+                                             kLeastLightCells, kMostLightCells));
         }
         level_ = studio_.level();
         exposure_ = kWhite * kPi / level_.y;
@@ -257,7 +262,8 @@ private:
         if (studio_.uniform()) {
             return grey(1.0F);
         }
-        return scene_.onPlane() ? table_->at(meeting.place, width) : grey(0.5F);
+        // An object is plain; curved ground has the table's ruling, seen from above.
+        return options_.stand && options_.frames_stand ? Vec3f{0.42F, 0.45F, 0.46F} : table_->at(meeting.place, width);
     }
 
     const RenderOptions& options_;
@@ -451,9 +457,9 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
     if (!(extent.x > 0.0 && extent.y > 0.0) || ground.flat()) {
         throw Error(ErrorCode::InvalidArgument, "ground must not be flat, and extent above 0");
     }
-    // A quarter of the image on every side.
-    constexpr int kCells = 240;
-    constexpr double kBeyond = 1.5;
+    constexpr int kCells = 400;
+    constexpr double kBeyond = 3.0;    // times the image
+    constexpr double kSteepest = 8.0;  // beyond, cells are seen as what they are
     TexturedMesh mesh;
     std::vector<std::optional<std::uint32_t>> vertices;
     for (int j = 0; j <= kCells; ++j) {
@@ -466,6 +472,9 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
                 point = ground.at(p);
             } catch (const Error&) {
                 continue;  // there is none
+            }
+            if (length(point.gradient) > kSteepest) {
+                continue;
             }
             const double slope = std::sqrt(1.0 + dot(point.gradient, point.gradient));
             vertices.back() = static_cast<std::uint32_t>(mesh.positions.size());

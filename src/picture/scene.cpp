@@ -164,6 +164,7 @@ Scene::Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent) : e
     }
     triangles_ = liquid.triangles;
     shown_ = liquid.positions;
+    surface_vertices_ = shown_.size();
     const bool has_base = !embree_->parts[kBase].triangles.empty();
     if (has_base) {
         Buffers& below = embree_->parts[kBase];
@@ -188,6 +189,11 @@ Scene::~Scene() = default;
 Vec3f Scene::toScene(Vec3 p) const
 {
     return toFloats((1.0 / scale_) * (p - middle_));
+}
+
+std::vector<Vec3f> Scene::droplets() const
+{
+    return {shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_)};
 }
 
 Vec2 Scene::uvOnPlane(Vec3f place) const

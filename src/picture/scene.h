@@ -63,6 +63,7 @@ public:
     [[nodiscard]] Vec3f high() const { return high_; }
     /// Everything that a picture should show: the surface's vertices, then the stand's.
     [[nodiscard]] const std::vector<Vec3f>& shown() const { return shown_; }
+    [[nodiscard]] std::vector<Vec3f> droplets() const;
     [[nodiscard]] const Triangle& triangle(const Meeting& meeting) const { return triangles_[meeting.triangle]; }
     [[nodiscard]] Vec3f vertex(std::uint32_t index) const { return shown_[index]; }  ///< of the surface
     [[nodiscard]] Vec2 uvOnPlane(Vec3f place) const;
@@ -82,6 +83,7 @@ private:
     Vec3f high_;
     std::vector<Triangle> triangles_;  ///< of the liquid, indices of the surface's vertices
     std::vector<Vec3f> shown_;
+    std::size_t surface_vertices_ = 0;
     std::unique_ptr<Embree> embree_;
 };
 

@@ -3,6 +3,7 @@
 #include "picture/studio.h"
 
 #include <numbers>
+#include <span>
 
 #include "droplet/units.h"
 
@@ -23,6 +24,11 @@ struct BoxPlace {
 constexpr std::array<BoxPlace, 2> kBoxes = {{
     {126.0, 37.0, 0.17F, 0.13F, {74.0F, 69.0F, 62.0F}},
     {28.0, 30.0, 0.06F, 0.36F, {10.0F, 11.8F, 14.0F}},
+}};
+constexpr std::array<BoxPlace, 3> kBoxesUpright = {{
+    {-146.0, 36.0, 0.24F, 0.34F, {26.0F, 24.8F, 22.9F}},
+    {-14.0, 18.0, 0.07F, 0.60F, {9.0F, 10.3F, 12.3F}},
+    {150.0, 30.0, 0.16F, 0.50F, {8.0F, 8.8F, 9.9F}},
 }};
 
 Vec3f towards(double azimuth, double elevation)
@@ -99,10 +105,11 @@ Vec3f SoftBox::seen(Vec3f direction) const
     return (1.0F - smoothstep(0.90F, 1.06F, reach)) * cloth * radiance;
 }
 
-Studio::Studio(Lighting lighting, Turn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
+Studio::Studio(Lighting lighting, bool upright, Turn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
 {
     if (!uniform_) {
-        for (const BoxPlace& place : kBoxes) {
+        const auto places = upright ? std::span<const BoxPlace>(kBoxesUpright) : std::span<const BoxPlace>(kBoxes);
+        for (const BoxPlace& place : places) {
             SoftBox box;
             box.centre = turn(towards(place.azimuth, place.elevation));
             box.right = unit(cross(box.centre, {0.0F, 0.0F, 1.0F}));
@@ -113,7 +120,9 @@ Studio::Studio(Lighting lighting, Turn turn) : uniform_(lighting == Lighting::Un
             boxes_.push_back(box);
         }
         lights_.push_back(lightOf(boxes_[0], 4, 4));
-        lights_.push_back(lightOf(boxes_[1], 1, 5));
+        for (std::size_t k = 1; k < boxes_.size(); ++k) {
+            lights_.push_back(lightOf(boxes_[k], 1, 5));
+        }
     }
     // The room as beams of equal weight, evenly over the cosine of their elevation's square: Lambert's law.
     constexpr int kRoomBeams = 48;

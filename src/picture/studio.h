@@ -39,10 +39,10 @@ struct Light {
 };
 
 /// What shines on a droplet: a dim room brighter at its walls, a key light behind the droplet on the left, and a narrow
-/// one on the right.
+/// one on the right; on an object that stands upright, a key light in front of it on the left, and two at its sides.
 class Studio {
 public:
-    Studio(Lighting lighting, Turn turn);
+    Studio(Lighting lighting, bool upright, Turn turn);
 
     /// What comes from a direction.
     [[nodiscard]] Vec3f radiance(Vec3f direction) const;

@@ -97,7 +97,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
-    EXPECT_THAT(longOptions(help()), SizeIs(42));
+    EXPECT_THAT(longOptions(help()), SizeIs(48));
     auto known = longOptions(help());
     for (const std::string& command : commands()) {
         known.merge(longOptions(help(command)));
@@ -197,7 +197,7 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
     for (const char* option : {"--channel", "--fill", "--liquid", "--model", "--material", "--format", "--progress",
-                               "--grading", "--solver"}) {
+                               "--grading", "--solver", "--view", "--colour"}) {
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
         for (const std::string& name : offered) {
@@ -213,7 +213,7 @@ TEST(Documentation, CompletionOffersFiles)
     const std::string beginning = (scratch.path() / "my").string();
     testing::writeFile(beginning + " logo.png", "");
     EXPECT_THAT(completions({beginning}), ElementsAre(beginning + " logo.png"));
-    for (const char* option : {"--json", "--surface", "--onto", "--export-evolver", "--config"}) {
+    for (const char* option : {"--json", "--preview", "--ground", "--surface", "--onto", "--export-evolver", "--config"}) {
         EXPECT_THAT(completions({option, beginning}), ElementsAre(beginning + " logo.png")) << option;
     }
 }

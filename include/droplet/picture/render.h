@@ -41,7 +41,8 @@ struct RenderOptions {
     Vec2 extent = {};                    ///< physical size of the image, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< what the droplet stands on; empty: a table with a fine ruling
     std::optional<TexturedMesh> stand = {};  ///< what the droplet stands on if not the plane z = 0, uv as the droplet's
-    std::optional<Paint> paint = {};         ///< opaque colours instead of the material
+    bool frames_stand = true;         ///< show all of the stand, an object then; otherwise the droplets, on ground
+    std::optional<Paint> paint = {};  ///< opaque colours instead of the material
 
     /// @throws Error InvalidArgument
     void validate() const;

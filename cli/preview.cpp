@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preview.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <iomanip>
+#include <numbers>
+#include <sstream>
+
+#include "droplet/picture/paint.h"
+
+namespace cli {
+namespace {
+
+constexpr int kMostPixels = 8192;        // of a side
+constexpr std::size_t kMostTurns = 360;  // pictures of a turntable
+constexpr int kFewestDigits = 3;
+
+void readSize(const Given& given, PreviewOptions& options)
+{
+    const char* const words = "width and height in pixels such as 1280x960, each from 16 to 8192";
+    constexpr int kFewestPixels = 16;
+    const auto side = [&](std::string_view text) {
+        int value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || value < kFewestPixels || value > kMostPixels) {
+            refuse(given, words);
+        }
+        return value;
+    };
+    const std::string_view text = given.text;
+    const auto times = text.find('x');
+    if (times == std::string_view::npos) {
+        refuse(given, words);
+    }
+    options.width = side(text.substr(0, times));
+    options.height = side(text.substr(times + 1));
+}
+
+/// `name-007.png` of `name.png`.
+std::string numbered(const std::string& path, std::size_t number, std::size_t count)
+{
+    const std::filesystem::path whole(path);
+    std::ostringstream digits;
+    digits << std::setfill('0')
+           << std::setw(std::max<int>(kFewestDigits, static_cast<int>(std::to_string(count).size()))) << number;
+    return (whole.parent_path() / whole.stem()).string() + "-" + digits.str() + whole.extension().string();
+}
+
+std::vector<std::string> paths(const PreviewOptions& options)
+{
+    if (!options.turns) {
+        return {options.path};
+    }
+    std::vector<std::string> found;
+    for (std::size_t k = 1; k <= *options.turns; ++k) {
+        found.push_back(numbered(options.path, k, *options.turns));
+    }
+    return found;
+}
+
+droplet::RenderOptions renderOptions(const PreviewOptions& options, const PreviewSubject& subject, std::size_t index)
+{
+    droplet::RenderOptions render;
+    render.width = options.width;
+    render.height = options.height;
+    render.view = options.view;
+    if (options.turns) {
+        render.azimuth = 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(*options.turns);
+        render.fits_any_turn = true;
+    }
+    render.look = droplet::lookOf(subject.material);
+    render.extent = subject.extent;
+    render.ground = subject.ground;
+    render.stand = subject.stand;
+    render.frames_stand = subject.on_object;
+    if (options.colouring == Colouring::Contours) {
+        render.paint = droplet::heightPaint(subject.surface);
+    } else if (options.colouring == Colouring::ContactAngle) {
+        render.paint = droplet::contactAnglePaint(subject.surface);
+    }
+    return render;
+}
+
+}  // namespace
+
+void declarePreview(CommandLine& line)
+{
+    line.add("Picture", "--preview", "FILE", "write a picture of it, PNG; - is standard output");
+    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
+    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+    line.add("Picture", "--ground", "PICTURE",
+             "what it stands on: laid as the footprint's picture is,\n"
+             "or on the object of --onto [a table with a ruling]");
+    line.add("Picture", "--colour", "NAME",
+             "look; or contours of heights, or contact-angle along\n"
+             "the rim, with a legend [look]");
+    line.add("Picture", "--turntable", "N", "N pictures of a whole turn, FILE-001.png and so on");
+}
+
+std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings)
+{
+    PreviewOptions options;
+    if (const auto view = line.value("--view")) {
+        options.view = choice<droplet::View>(*view, {{"three-quarter", droplet::View::ThreeQuarter},
+                                                     {"top", droplet::View::Top},
+                                                     {"side", droplet::View::Side}});
+    }
+    if (const auto size = line.value("--preview-size")) {
+        readSize(*size, options);
+    }
+    const auto ground = line.value("--ground");
+    if (ground) {
+        options.ground = ground->text;
+    }
+    if (const auto colour = line.value("--colour")) {
+        options.colouring = choice<Colouring>(
+            *colour,
+            {{"look", Colouring::Look}, {"contours", Colouring::Contours}, {"contact-angle", Colouring::ContactAngle}});
+    }
+    if (const auto turns = line.value("--turntable")) {
+        options.turns = count(*turns, kMostTurns, "360");
+    }
+    const auto preview = line.value("--preview");
+    if (!preview) {
+        for (const char* option : {"--view", "--preview-size", "--ground", "--colour", "--turntable"}) {
+            if (line.value(option)) {
+                warnings.push_back(std::string(option) + " has no effect without --preview");
+            }
+        }
+        return std::nullopt;
+    }
+    options.path = preview->text;
+    std::string extension = std::filesystem::path(options.path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (!isStream(options.path) && extension != ".png") {
+        refuse(*preview, "a file that ends in .png, or -");
+    }
+    if (isStream(options.path) && options.turns) {
+        refuse("--turntable writes several files, and --preview - is one; name a file");
+    }
+    if (options.colouring != Colouring::Look) {
+        if (ground) {
+            warnings.push_back("--ground has no effect with --colour " + line.value("--colour")->text);
+            options.ground.reset();
+        }
+        if (options.colouring == Colouring::Contours && line.value("--onto")) {
+            refuse("--colour contours and --onto exclude each other: heights are counted from flat ground");
+        }
+    }
+    return options;
+}
+
+std::vector<NamedFile> previewPaths(const PreviewOptions& options)
+{
+    std::vector<NamedFile> files;
+    for (const std::string& path : paths(options)) {
+        files.push_back({"--preview", path});
+    }
+    return files;
+}
+
+std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject)
+{
+    std::vector<OutputFile> files;
+    const std::vector<std::string> names = paths(options);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        files.push_back({names[k], [&options, &subject, k](std::ostream& out) {
+                             const auto render = renderOptions(options, subject, k);
+                             droplet::writePng(droplet::render(subject.surface, render), out);
+                         }});
+    }
+    return files;
+}
+
+}  // namespace cli
