@@ -106,7 +106,7 @@ public:
     void addArguments(const char* name, const std::string& description)
     {
         // CLI11 wants to know how many at most.
-        app_.add_option(name)->description(description)->expected(0, 1 << 29);
+        app_.add_option(name)->description(description)->expected(0, 1 << 29)->allow_extra_args()->take_all();
     }
 
     void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }
