@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "animate_command.h"
 #include "batch_command.h"
 #include "compare_command.h"
 #include "droplet/error.h"
@@ -60,8 +61,10 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{
-        {"batch", cli::runBatch}, {"compare", cli::runCompare}, {"glyphs", cli::runGlyphs}};
+    static const std::vector<Command> all{{"animate", cli::runAnimate},
+                                          {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},
+                                          {"glyphs", cli::runGlyphs}};
     return all;
 }
 

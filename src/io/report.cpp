@@ -11,11 +11,12 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "io/report_sections.h"
 
 namespace droplet {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = ReportJson;
 
 const char* nameOf(Channel channel)
 {
@@ -41,17 +42,6 @@ const char* nameOf(FillBy by)
             return "contact_angle_deg";
     }
     throw Error(ErrorCode::InvalidArgument, "report: fill.by is no way to fill");
-}
-
-const char* nameOf(Model model)
-{
-    switch (model) {
-        case Model::Linear:
-            return "linear";
-        case Model::Exact:
-            return "exact";
-    }
-    throw Error(ErrorCode::InvalidArgument, "report: model is none");
 }
 
 const char* nameOf(GroundKind kind)
@@ -178,6 +168,30 @@ Json outputSection(const OutputReport& output)
             {"boundary_loops", output.topology.boundary_loops}};
 }
 
+Json ontoSection(const ObjectReport& onto)
+{
+    return {{"path", onto.path},
+            {"droplets_laid", onto.droplets_laid},
+            {"droplets_left_out", onto.droplets_left_out},
+            {"flipped_charts", onto.flipped_charts},
+            {"overlapping_charts", onto.overlapping_charts},
+            {"least_scale", onto.least_scale},
+            {"most_scale", onto.most_scale}};
+}
+
+}  // namespace
+
+const char* nameOf(Model model)
+{
+    switch (model) {
+        case Model::Linear:
+            return "linear";
+        case Model::Exact:
+            return "exact";
+    }
+    throw Error(ErrorCode::InvalidArgument, "report: model is none");
+}
+
 Json fillSection(const Fill& fill, const std::optional<FillRange>& range)
 {
     return {{"by", nameOf(fill.by)},
@@ -214,18 +228,6 @@ Json groundSection(const GroundReport& ground)
             {"axis_deg", orNull(degrees(ground.axis))}};
 }
 
-Json ontoSection(const ObjectReport& onto)
-{
-    return {{"path", onto.path},
-            {"droplets_laid", onto.droplets_laid},
-            {"droplets_left_out", onto.droplets_left_out},
-            {"flipped_charts", onto.flipped_charts},
-            {"overlapping_charts", onto.overlapping_charts},
-            {"least_scale", onto.least_scale},
-            {"most_scale", onto.most_scale}};
-}
-
-/// What all droplets together and every one of them have in common.
 Json shapeSection(const ShapeFigures& figures, const Json& pressure, const std::optional<Retention>& retention,
                   bool would_slide)
 {
@@ -257,6 +259,20 @@ Json dropletRow(const DropletReport& droplet)
                             droplet.retention && droplet.retention->wouldSlide()));
     return row;
 }
+
+void refuseNonFinite(const Json& value, const std::string& key)
+{
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) {
+        throw Error(ErrorCode::NoSuchDroplet, "report: " + key + " is not finite");
+    }
+    if (value.is_structured()) {
+        for (const auto& [name, member] : value.items()) {
+            refuseNonFinite(member, key.empty() ? name : std::string(key).append(".").append(name));
+        }
+    }
+}
+
+namespace {
 
 Json sections(const Report& report)
 {
@@ -297,19 +313,6 @@ Json sections(const Report& report)
     json["time_s"]["total"] = report.time_total;
     json["peak_memory_bytes"] = report.peak_memory;
     return json;
-}
-
-/// JSON has no NaN and no infinity; the library would write null, which a script would take for "not there".
-void refuseNonFinite(const Json& value, const std::string& key)
-{
-    if (value.is_number_float() && !std::isfinite(value.get<double>())) {
-        throw Error(ErrorCode::NoSuchDroplet, "report: " + key + " is not finite");
-    }
-    if (value.is_structured()) {
-        for (const auto& [name, member] : value.items()) {
-            refuseNonFinite(member, key.empty() ? name : std::string(key).append(".").append(name));
-        }
-    }
 }
 
 }  // namespace

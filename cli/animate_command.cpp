@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "animate_command.h"
+
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "animate_options.h"
+#include "droplet/error.h"
+#include "droplet/io/animation.h"
+#include "droplet/io/sequence_report.h"
+#include "droplet/units.h"
+#include "droplet_report.h"
+#include "files.h"
+#include "frames.h"
+#include "progress_display.h"
+#include "stage_clock.h"
+#include "surroundings.h"
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+using droplet::Frame;
+using droplet::Stage;
+
+/// What is known to fail fails before any work is done.
+void check(const AnimateOptions& options, const Frames& frames)
+{
+    std::vector<NamedFile> inputs;
+    for (const std::string& file : frames.files()) {
+        inputs.push_back({"INPUT", file});
+    }
+    if (options.run.config) {
+        inputs.push_back({"--config", *options.run.config});
+    }
+    if (options.settings.ground.path) {
+        inputs.push_back({"--surface", *options.settings.ground.path});
+    }
+    std::vector<NamedFile> outputs;
+    if (options.files) {
+        // A video's frames are counted only as they come; the first stands for them.
+        const std::vector<std::size_t> numbers = frames.numbers();
+        for (const std::size_t number : numbers.empty() ? std::vector<std::size_t>{1} : numbers) {
+            outputs.push_back({"OUTPUT", options.files->at(number)});
+        }
+    } else {
+        outputs.push_back({"OUTPUT", options.output});
+    }
+    if (options.json) {
+        outputs.push_back({"--json", *options.json});
+    }
+    checkFiles(inputs, outputs, options.run.files);
+}
+
+/// The sequence on its way to files and report.
+class Sequence {
+public:
+    Sequence(const AnimateOptions& options, Frames& frames, const droplet::Progress& progress)
+        : options_(options), frames_(frames), progress_(progress), around_(readSurroundings(options.settings))
+    {
+        report_.inputs = options.inputs;
+        report_.output = options.output;
+        report_.format = options.format;
+        report_.volume_mode = options.volume_mode;
+        report_.frames_per_second =
+            options.frames_per_second.value_or(frames.framesPerSecond().value_or(report_.frames_per_second));
+        report_.warnings = options.settings.warnings;
+        if (!options.files) {
+            animation_.emplace(droplet::AnimationOptions{.frames_per_second = report_.frames_per_second,
+                                                         .material = options.settings.material,
+                                                         .closed = !options.settings.droplet.open,
+                                                         .frames = frames.count()});
+        }
+    }
+
+    droplet::SequenceReport make()
+    {
+        progress_(Stage::Read);
+        while (const auto picture = frames_.next(options_.footprint.mask)) {
+            try {
+                add(*picture);
+            } catch (const Error& error) {
+                if (error.code() == ErrorCode::InvalidInput || error.code() == ErrorCode::NoSuchDroplet) {
+                    throw Error(error.code(), picture->name + ": " + error.what());
+                }
+                throw;
+            }
+            progress_(Stage::Read);
+        }
+        progress_(Stage::Write);
+        save();
+        return std::move(report_);
+    }
+
+private:
+    void begin(const FramePicture& picture)
+    {
+        const droplet::Mask& mask = picture.mask;
+        sequence_.volume_mode = options_.volume_mode;
+        sequence_.droplet = options_.settings.droplet;
+        sequence_.droplet.trace = options_.footprint.trace;
+        const auto& trace = sequence_.droplet.trace;
+        const double pixel = trace.pixel_size.value_or(trace.width / mask.width);
+        sequence_.droplet.solve.ground =
+            groundOf(options_.settings, around_, {pixel * mask.width, pixel * mask.height});
+        channel_ = mask.channel;
+        inverted_ = mask.inverted;
+        report_.width_px = mask.width;
+        report_.height_px = mask.height;
+        report_.pixel_size = pixel;
+        report_.physics = sequence_.droplet.solve;
+        report_.ground = options_.settings.ground;
+    }
+
+    void add(const FramePicture& picture)
+    {
+        if (report_.frames.empty()) {
+            begin(picture);
+        } else if ((picture.mask.channel != channel_ || picture.mask.inverted != inverted_) && !told_channel_) {
+            told_channel_ = true;
+            report_.warnings.push_back(picture.name +
+                                       " is read by another channel or the other way round than the "
+                                       "first frame; --channel settles it");
+        }
+        progress_(Stage::Trace);
+        droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
+        frame_ = frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
+                        : firstFrame(std::move(outline), sequence_, progress_);
+        droplet::FrameReport report = reportOf(*frame_, sequence_);
+        report.input = picture.name;
+        for (const std::string& warning : frame_->droplet.warnings) {
+            warn(picture.name, warning);
+        }
+        if (options_.files) {
+            progress_(Stage::Write);
+            report.output = options_.files->at(picture.number);
+            report_.bytes += droplet::writeWhole(
+                *report.output,
+                [&](std::ostream& out) {
+                    writeSurface(frame_->droplet.surface, out, options_.format,
+                                 {options_.settings.material, report.closed});
+                },
+                options_.run.files);
+        } else {
+            animation_->add(frame_->droplet.surface, frame_->continues);
+        }
+        report_.frames.push_back(std::move(report));
+    }
+
+    /// Frames tend to have the same to complain of; once is enough.
+    void warn(const std::string& name, const std::string& warning)
+    {
+        const std::string kind = warning.substr(0, warning.find_first_of("0123456789"));
+        if (told_.insert(kind).second) {
+            report_.warnings.push_back(name + ": " + warning);
+        }
+    }
+
+    void save()
+    {
+        std::vector<OutputFile> files;
+        if (!options_.files) {
+            files.push_back({options_.output, [&](std::ostream& out) { report_.bytes = animation_->write(out); }});
+        }
+        if (options_.json) {
+            files.push_back({*options_.json, [&](std::ostream& out) {
+                                 finish();
+                                 writeSequenceReport(out, report_);
+                             }});
+        }
+        writeTogether(files, options_.run.files);
+        finish();
+    }
+
+    void finish()
+    {
+        report_.time_total = clock_.total();
+        report_.peak_memory = peakMemory();
+    }
+
+    const AnimateOptions& options_;
+    Frames& frames_;
+    const droplet::Progress& progress_;
+    StageClock clock_;
+    Surroundings around_;
+    droplet::SequenceOptions sequence_;
+    std::optional<droplet::Animation> animation_;
+    std::optional<Frame> frame_;
+    droplet::Channel channel_ = droplet::Channel::Luma;
+    bool inverted_ = false;
+    bool told_channel_ = false;
+    std::set<std::string> told_;
+    droplet::SequenceReport report_;
+};
+
+std::string inMicrolitres(double volume)
+{
+    std::ostringstream text;
+    text << std::setprecision(4) << volume / droplet::kMicrolitre << " uL";
+    return text.str();
+}
+
+std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
+{
+    std::ostringstream text;
+    const std::size_t count = report.frames.size();
+    const auto& first = report.frames.front();
+    const auto& last = report.frames.back();
+    if (verbose) {
+        for (const droplet::FrameReport& frame : report.frames) {
+            text << frame.input << ": " << frame.droplets.size()
+                 << (frame.droplets.size() == 1 ? " droplet, " : " droplets, ") << inMicrolitres(frame.total.volume)
+                 << ", " << std::setprecision(4) << frame.total.height_max / droplet::kMillimetre << " mm high"
+                 << (frame.continues ? ", continues" : "") << "\n";
+        }
+    }
+    text << count << (count == 1 ? " frame, " : " frames, ") << inMicrolitres(first.total.volume);
+    if (report.volume_mode == droplet::VolumeMode::Track) {
+        double gained = 0.0;
+        double lost = 0.0;
+        for (const droplet::FrameReport& frame : report.frames) {
+            gained += frame.volume_gained;
+            lost += frame.volume_lost;
+        }
+        text << " at first, " << inMicrolitres(last.total.volume) << " at last, " << inMicrolitres(gained) << " came, "
+             << inMicrolitres(lost) << " went";
+    }
+    if (count > 1) {
+        text << "; vertices kept in " << report.kept() << " of " << count - 1 << " steps";
+    }
+    text << "\n" << report.output << ": " << report.bytes << " bytes\n";
+    return text.str();
+}
+
+void tell(const droplet::SequenceReport& report, const RunOptions& run)
+{
+    if (run.verbosity == Verbosity::Quiet) {
+        return;
+    }
+    if (run.progress == ProgressMode::Json) {
+        for (const std::string& warning : report.warnings) {
+            std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false,
+                                                                   nlohmann::json::error_handler_t::replace)
+                      << "\n";
+        }
+        return;
+    }
+    std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose);
+    for (const std::string& warning : report.warnings) {
+        std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n";
+    }
+    std::cerr << std::flush;
+}
+
+}  // namespace
+
+int runAnimate(int argc, const char* const* argv)
+{
+    const auto parsed = parseAnimate(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
+        return 0;
+    }
+    const auto& options = std::get<AnimateOptions>(parsed);
+    Frames frames(options.inputs);
+    check(options, frames);
+    std::optional<tbb::global_control> threads;
+    if (options.run.threads) {
+        threads.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);
+    }
+    ProgressDisplay progress(options.run.verbosity == Verbosity::Quiet && options.run.progress == ProgressMode::Auto
+                                 ? ProgressMode::None
+                                 : options.run.progress);
+    const droplet::Progress begin = [&](Stage stage) { progress.begin(stage); };
+    const droplet::SequenceReport report = Sequence(options, frames, begin).make();
+    progress.finish();
+    tell(report, options.run);
+    return 0;
+}
+
+}  // namespace cli

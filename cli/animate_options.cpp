@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "animate_options.h"
+
+#include <filesystem>
+
+#include "droplet/version.h"
+#include "files.h"
+
+namespace cli {
+namespace {
+
+const CommandText& commandText()
+{
+    static const CommandText text{"droplet-shape animate", "from pictures of a moving footprint to an animated droplet",
+                                  "[OPTIONS] INPUT... OUTPUT",
+                                  std::string(kUnitsText) +
+                                      "\n"
+                                      "Examples:\n"
+                                      "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
+                                      "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
+                                      "  droplet-shape animate frames/ 'out/%04d.obj'\n"
+                                      "\n"
+                                      "Exit codes:\n"
+                                      "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
+                                      "  4 output cannot be written; 5 no such droplet exists"};
+    return text;
+}
+
+void declareAnimate(CommandLine& line)
+{
+    line.addArguments("FILES",
+                      "INPUT... OUTPUT: the frames, as frames/%04d.png, as\n"
+                      "several pictures, a folder of them or a video, which\n"
+                      "takes ffmpeg; then a .glb that plays, or a file for\n"
+                      "every frame, as out/%04d.glb, .gltf, .obj, .ply, .stl");
+    line.add("Sequence", "--volume-mode", "NAME",
+             "what stays: total, the volume of all droplets, as one\n"
+             "reservoir; track, that of each, through merging and\n"
+             "splitting [total]");
+    line.add("Sequence", "--fps", "N", "frames per second [24, or the video's]");
+    declareFootprint(line);
+    declareLiquid(line);
+    declareGround(line);
+    declareSurface(line);
+    line.add("Run", "--json", "FILE", "write a report; - is standard output");
+    declareRun(line);
+}
+
+void readOutput(const CommandLine& line, AnimateOptions& options)
+{
+    const std::string subject = "OUTPUT";
+    options.files = NumberedPath::of(options.output, subject);
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    const std::string named = subject + " '" + options.output + "'";
+    if (options.output == kStandardStream) {
+        return;
+    }
+    if (extension.empty()) {
+        refuse(named + " has no extension to tell the format; an animation is a .glb");
+    }
+    options.format = forOption(named, [&] { return droplet::formatNamed(extension); });
+    const bool gltf = options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
+    if (!options.files && options.format != droplet::Format::Glb) {
+        refuse(named + " must be a .glb to hold an animation, or have a place for the frame's number, as in out/%04d" +
+               extension);
+    }
+    if (const auto material = line.value("--material"); material && !gltf) {
+        options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
+                                            droplet::name(options.format) + " files carry no material");
+    }
+    if (line.value("--fps") && options.files) {
+        options.settings.warnings.push_back("--fps has no effect: every frame has a file of its own");
+    }
+}
+
+void readSequence(const CommandLine& line, AnimateOptions& options)
+{
+    using droplet::VolumeMode;
+    if (const auto mode = line.value("--volume-mode")) {
+        options.volume_mode = choice<VolumeMode>(*mode, {{"total", VolumeMode::Total}, {"track", VolumeMode::Track}});
+    }
+    if (const auto rate = line.value("--fps")) {
+        const auto number = finiteNumber(rate->text);
+        if (!number || *number < 1e-3 || *number > 1e3) {
+            refuse(*rate, "a number from 0.001 to 1000");
+        }
+        options.frames_per_second = *number;
+    }
+    droplet::Fill& fill = options.settings.droplet.solve.fill;
+    if (options.volume_mode == VolumeMode::Total) {
+        if (line.value("--fill") && fill.sharing == droplet::FillSharing::Each) {
+            refuse("--fill each and --volume-mode total exclude each other: the total is one reservoir's");
+        }
+        fill.sharing = droplet::FillSharing::Total;
+    }
+    if (options.settings.onto) {
+        refuse("--onto has no place in a sequence");
+    }
+    if (options.settings.hysteresis) {
+        options.settings.warnings.push_back("--advancing and --receding have no effect on a sequence");
+    }
+}
+
+}  // namespace
+
+std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declareAnimate(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        return line.help();
+    }
+    if (line.flag("--version")) {
+        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    }
+    AnimateOptions options;
+    options.footprint = readFootprint(line);
+    options.settings = readDroplet(line);
+    options.run = readRun(line);
+    if (const auto json = line.value("--json")) {
+        options.json = json->text;
+    }
+    const std::vector<Given> files = line.values("FILES");
+    if (files.size() < 2) {
+        refuse(files.empty() ? "INPUT is missing" : "OUTPUT is missing");
+    }
+    for (std::size_t i = 0; i + 1 < files.size(); ++i) {
+        options.inputs.push_back(files[i].text);
+    }
+    options.output = files.back().text;
+    readSequence(line, options);
+    readOutput(line, options);
+    return options;
+}
+
+}  // namespace cli

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "droplet/error.h"
+#include "numbered_path.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using droplet::Error;
+using droplet::ErrorCode;
+
+bool isPicture(const fs::path& path)
+{
+    constexpr std::array<std::string_view, 11> kKnown{".png",  ".jpg", ".jpeg", ".bmp", ".tif", ".tiff",
+                                                      ".webp", ".pbm", ".pgm",  ".ppm", ".pnm"};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
+}
+
+/// By their names, digit runs by their number, so that frame 10 follows frame 9.
+bool before(const std::string& a, const std::string& b)
+{
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (digit(a[i]) && digit(b[j])) {
+            const auto run = [&](const std::string& text, std::size_t& at) {
+                const std::size_t begin = at;
+                while (at < text.size() && digit(text[at])) {
+                    ++at;
+                }
+                const std::string number = text.substr(begin, at - begin);
+                const auto zeros = number.find_first_not_of('0');
+                return zeros == std::string::npos ? std::string("0") : number.substr(zeros);
+            };
+            const std::string x = run(a, i);
+            const std::string y = run(b, j);
+            if (x != y) {
+                return x.size() != y.size() ? x.size() < y.size() : x < y;
+            }
+        } else if (a[i] != b[j]) {
+            return a[i] < b[j];
+        } else {
+            ++i;
+            ++j;
+        }
+    }
+    return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
+}
+
+std::vector<std::string> picturesIn(const std::string& folder)
+{
+    std::vector<std::string> names;
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+        if (isPicture(entry->path())) {
+            names.push_back(entry->path().filename().string());
+        }
+    }
+    if (failure) {
+        throw Error(ErrorCode::InvalidInput, folder + ": " + failure.message());
+    }
+    if (names.empty()) {
+        throw Error(ErrorCode::InvalidInput, folder + ": there is no picture in this folder");
+    }
+    std::sort(names.begin(), names.end(), before);
+    for (std::string& name : names) {
+        name = (fs::path(folder) / name).string();
+    }
+    return names;
+}
+
+std::string sizeOf(int width, int height)
+{
+    return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+}  // namespace
+
+Frames::Frames(const std::vector<std::string>& inputs)
+{
+    std::vector<std::string> names = inputs;
+    if (inputs.size() == 1) {
+        const std::string& input = inputs.front();
+        std::error_code ignored;
+        if (const auto pattern = NumberedPath::of(input, "INPUT")) {
+            pictures_ = pattern->existing();
+            return;
+        }
+        if (fs::is_directory(input, ignored)) {
+            names = picturesIn(input);
+        } else if (!isPicture(input)) {
+            if (!fs::exists(input, ignored)) {
+                throw Error(ErrorCode::InvalidInput, input + ": there is no such file");
+            }
+            video_path_ = input;
+            video_ = std::make_unique<Video>(input);
+            return;
+        }
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        pictures_.emplace_back(k + 1, names[k]);
+    }
+}
+
+std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
+{
+    FramePicture frame;
+    if (video_) {
+        const auto bytes = video_->next();
+        if (!bytes) {
+            if (done_ == 0) {
+                throw Error(ErrorCode::InvalidInput, video_path_ + ": there is no frame in this video");
+            }
+            return std::nullopt;
+        }
+        frame.number = done_ + 1;
+        frame.name = video_path_ + ", frame " + std::to_string(frame.number);
+        frame.mask = droplet::decodeMask(*bytes, options);
+    } else {
+        if (done_ == pictures_.size()) {
+            return std::nullopt;
+        }
+        std::tie(frame.number, frame.name) = pictures_[done_];
+        frame.mask = droplet::readMask(frame.name, options);
+    }
+    if (done_ == 0) {
+        width_ = frame.mask.width;
+        height_ = frame.mask.height;
+        first_ = frame.name;
+    } else if (frame.mask.width != width_ || frame.mask.height != height_) {
+        throw Error(ErrorCode::InvalidInput, frame.name + ": has " + sizeOf(frame.mask.width, frame.mask.height) +
+                                                 ", " + first_ + " has " + sizeOf(width_, height_) +
+                                                 "; all frames must have one size");
+    }
+    ++done_;
+    return frame;
+}
+
+std::optional<std::size_t> Frames::count() const
+{
+    return video_ ? std::nullopt : std::optional(pictures_.size());
+}
+
+std::vector<std::size_t> Frames::numbers() const
+{
+    std::vector<std::size_t> numbers;
+    for (const auto& [number, name] : pictures_) {
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+std::optional<double> Frames::framesPerSecond() const
+{
+    return video_ ? video_->framesPerSecond() : std::nullopt;
+}
+
+std::vector<std::string> Frames::files() const
+{
+    std::vector<std::string> files;
+    for (const auto& [number, name] : pictures_) {
+        files.push_back(name);
+    }
+    if (video_) {
+        files.push_back(video_path_);
+    }
+    return files;
+}
+
+}  // namespace cli

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "video.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+
+#include "droplet/error.h"
+
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+/// A program under way, with its standard output to read and its words in a file.
+struct Process {
+    pid_t id = -1;
+    std::FILE* output = nullptr;
+    std::FILE* words = nullptr;
+};
+
+/// @throws Error InvalidInput if there is no such program
+Process start(const std::vector<std::string>& command, const std::string& path)
+{
+    Process process;
+    std::array<int, 2> ends{};
+    process.words = std::tmpfile();
+    if (process.words == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        throw std::runtime_error(std::string("no pipe to ") + command[0] + ": " + std::strerror(errno));
+    }
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ::fileno(process.words), STDERR_FILENO);
+    std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
+    for (const std::string& argument : command) {
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+    }
+    arguments.push_back(nullptr);
+    const int failure = ::posix_spawnp(&process.id, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    process.output = ::fdopen(ends[0], "rb");
+    if (failure != 0) {
+        std::fclose(process.output);
+        std::fclose(process.words);
+        throw Error(ErrorCode::InvalidInput, path + ": videos are read through the program " + command[0] +
+                                                 ", which cannot be run: " + std::strerror(failure));
+    }
+    return process;
+}
+
+int waitFor(pid_t id)
+{
+    int status = 0;
+    while (::waitpid(id, &status, 0) == -1 && errno == EINTR) {
+    }
+    return status;
+}
+
+/// The first line a program wrote to standard error.
+std::string firstLine(std::FILE* words)
+{
+    std::array<char, 512> line{};
+    std::rewind(words);
+    if (std::fgets(line.data(), static_cast<int>(line.size()), words) == nullptr) {
+        return {};
+    }
+    std::string text = line.data();
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+[[noreturn]] void complain(const std::string& path, const std::string& program, std::FILE* words)
+{
+    const std::string line = firstLine(words);
+    throw Error(ErrorCode::InvalidInput, path + ": " + program + " cannot read it" + (line.empty() ? "" : ": " + line));
+}
+
+/// A file's name that no program takes for an option or a protocol.
+std::string plain(const std::string& path)
+{
+    return "file:" + path;
+}
+
+/// A number such as 25/1 or 30000/1001.
+std::optional<double> quotient(std::string_view text)
+{
+    std::array<double, 2> parts{0.0, 1.0};
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto [stop, failure] = std::from_chars(at, end, parts[i]);
+        if (failure != std::errc{}) {
+            return std::nullopt;
+        }
+        if (stop == end || *stop != '/') {
+            break;
+        }
+        at = stop + 1;
+    }
+    const double rate = parts[0] / parts[1];
+    return rate > 0.0 && rate < 1e6 ? std::optional(rate) : std::nullopt;
+}
+
+std::optional<double> rateOf(const std::string& path)
+{
+    const Process process = start({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                                   "stream=avg_frame_rate", "-of", "default=nw=1:nk=1", "-i", plain(path)},
+                                  path);
+    std::array<char, 128> text{};
+    const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
+    std::fclose(process.output);
+    const int status = waitFor(process.id);
+    std::FILE* const words = process.words;
+    if (status != 0 || count == 0) {
+        try {
+            complain(path, "ffprobe", words);
+        } catch (...) {
+            std::fclose(words);
+            throw;
+        }
+    }
+    std::fclose(words);
+    return quotient({text.data(), count});
+}
+
+}  // namespace
+
+Video::Video(const std::string& path) : path_(path), rate_(rateOf(path))
+{
+    const Process process =
+        start({"ffmpeg", "-nostdin", "-v", "error", "-xerror", "-i", plain(path), "-map", "0:v:0", "-fps_mode",
+               "passthrough", "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"},
+              path);
+    process_ = process.id;
+    frames_ = process.output;
+    words_ = process.words;
+}
+
+Video::~Video()
+{
+    if (frames_ != nullptr) {
+        std::fclose(frames_);
+    }
+    if (process_ > 0) {
+        ::kill(process_, SIGKILL);
+        waitFor(process_);
+    }
+    std::fclose(words_);
+}
+
+void Video::finish()
+{
+    std::fclose(frames_);
+    frames_ = nullptr;
+    const int status = waitFor(process_);
+    process_ = -1;
+    if (status != 0) {
+        complain(path_, "ffmpeg", words_);
+    }
+}
+
+std::optional<std::vector<std::byte>> Video::next()
+{
+    if (frames_ == nullptr) {
+        return std::nullopt;
+    }
+    // ffmpeg writes P6, a line each for size and largest value, then three bytes a pixel.
+    std::string head;
+    for (int lines = 0; lines < 3;) {
+        const int sign = std::fgetc(frames_);
+        if (sign == EOF || head.size() > 64) {
+            const bool between_frames = head.empty();
+            finish();
+            if (!between_frames) {
+                complain(path_, "ffmpeg", words_);
+            }
+            return std::nullopt;
+        }
+        head.push_back(static_cast<char>(sign));
+        lines += sign == '\n' ? 1 : 0;
+    }
+    unsigned width = 0;
+    unsigned height = 0;
+    if (std::sscanf(head.c_str(), "P6\n%9u %9u\n255\n", &width, &height) != 2) {
+        complain(path_, "ffmpeg", words_);
+    }
+    const std::size_t pixels = std::size_t{3} * width * height;
+    std::vector<std::byte> frame(head.size() + pixels);
+    std::memcpy(frame.data(), head.data(), head.size());
+    if (std::fread(frame.data() + head.size(), 1, pixels, frames_) != pixels) {
+        finish();
+        complain(path_, "ffmpeg", words_);
+    }
+    return frame;
+}
+
+}  // namespace cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// Frames of a video, decoded one after another by the program ffmpeg.
+class Video {
+public:
+    /// Starts ffmpeg, and asks ffprobe for the rate of frames.
+    /// @throws droplet::Error InvalidInput if one of them is not there or cannot read the file
+    explicit Video(const std::string& path);
+    /// Ends ffmpeg.
+    ~Video();
+    Video(const Video&) = delete;
+    Video& operator=(const Video&) = delete;
+
+    /// The next frame, as a PPM; nothing after the last one.
+    /// @throws droplet::Error InvalidInput, with ffmpeg's words, if it failed
+    std::optional<std::vector<std::byte>> next();
+
+    [[nodiscard]] std::optional<double> framesPerSecond() const { return rate_; }
+
+private:
+    /// Waits for ffmpeg; complains if it did.
+    void finish();
+
+    std::string path_;
+    std::optional<double> rate_;
+    pid_t process_ = -1;
+    std::FILE* frames_ = nullptr;
+    std::FILE* words_ = nullptr;
+};
+
+}  // namespace cli
