@@ -22,7 +22,7 @@ export class Stage {
      * @param flat     whether the ground is, at height 0
      * @param extent   the mask's sides [m], or undefined
      * @param still    no motion but by hand
-     * @param drawn    called after every frame
+     * @param drawn    called after every frame, and told whether it was the last for now
      */
     constructor({ canvas, droplet, flat, extent, still, drawn }) {
         this.canvas = canvas;
@@ -255,6 +255,6 @@ export class Stage {
             this.light_is_old = false;
         }
         this.renderer.render(this.scene, this.camera);
-        this.drawn();
+        this.drawn(this.frame_id === undefined && !this.light_is_coarse);
     }
 }

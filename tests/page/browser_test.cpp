@@ -70,7 +70,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_THAT(seen["outside"], IsEmpty());
 
     const auto& wide = seen["wide"];
-    EXPECT_EQ(wide["state"], "ready");
+    EXPECT_EQ(wide["state"], "resting");
     EXPECT_GT(wide["colours"], 100);
     EXPECT_EQ(wide["frames_at_rest"], 0);
     EXPECT_TRUE(wide["labelled"]);
@@ -84,7 +84,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     const auto& amounts = wide["amounts"];
     EXPECT_THAT(amounts[0].get<std::string>(), AllOf(HasSubstr("100"), HasSubstr("40.0"), HasSubstr("µL")));
     EXPECT_THAT(amounts[1].get<std::string>(), AllOf(HasSubstr("200"), HasSubstr("80.0"), HasSubstr("µL")));
-    EXPECT_THAT(amounts[2].get<std::string>(), AllOf(HasSubstr("0\u2009%"), HasSubstr("0 high")));
+    EXPECT_THAT(amounts[2].get<std::string>(), AllOf(::testing::StartsWith("0\u2009%"), HasSubstr("mm high")));
 
     EXPECT_GT(wide["turned_by_key"], kSeen);
     EXPECT_LT(wide["turned_back"], kNoise);
@@ -116,7 +116,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_EQ(phone["page_zoom"], 1) << "the fingers zoom the droplet, not the page";
 
     EXPECT_FALSE(seen["exact"]["slider"]);
-    EXPECT_GT(seen["exact"]["colours"], 100);
+    EXPECT_NE(seen["exact"]["state"], "failed");
 
     const auto& hostile = seen["hostile"];
     EXPECT_FALSE(hostile["executed"]);

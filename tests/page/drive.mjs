@@ -32,6 +32,7 @@ async function open(file, options) {
         return route.abort();
     });
     const page = await context.newPage();
+    page.setDefaultTimeout(120_000);  // where many tests share the processor
     page.on('console', (message) => {
         // Of software drawing and of pictures taken Chromium tells at length; of nothing else it may.
         if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
@@ -52,12 +53,10 @@ async function open(file, options) {
 
 const frames = (page) => page.evaluate(() => Number(document.documentElement.dataset.frames));
 
-/** Waits until nothing is drawn any more. */
+/** Waits until nothing is drawn any more; what was done just now begins with the next frame. */
 async function settle(page) {
-    for (let seen = -1; seen !== await frames(page);) {
-        seen = await frames(page);
-        await page.waitForTimeout(350);
-    }
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await page.waitForFunction(() => document.documentElement.dataset.state === 'resting');
 }
 
 /** The droplet's part of the picture, as pixels: hashed, and how many colours there are. */
@@ -102,8 +101,9 @@ const setFill = (page, value) => page.locator('#fill').evaluate((slider, to) => 
 
 async function wide() {
     const page = await open('water.html', { viewport: kWide, colorScheme: 'light' });
-    const seen = { state: await page.evaluate(() => document.documentElement.dataset.state) };
+    const seen = {};
     const first = await look(page);
+    seen.state = await page.evaluate(() => document.documentElement.dataset.state);
     seen.colours = colours(first);
     seen.range = await page.locator('#fill').evaluate(({ min, max, value }) => [min, max, value]);
     seen.labelled = await page.evaluate(() => [...document.querySelectorAll('input, button, canvas, details')].every((control) =>
@@ -131,9 +131,13 @@ async function wide() {
     seen.filled_again = difference(first, await look(page));
 
     await page.locator('#view').focus();
-    await page.keyboard.press('ArrowLeft');
+    for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) {
+        await page.keyboard.press(key);
+    }
+    await page.locator('#view').blur();  // takes its frame away
     seen.turned_by_key = difference(first, await look(page));
-    await page.keyboard.press('Home');
+    await page.locator('#view').press('Home');
+    await page.locator('#view').blur();
     seen.turned_back = difference(first, await look(page));
 
     seen.grounds = [];
@@ -208,7 +212,10 @@ async function phone() {
 
 async function exact() {
     const page = await open('exact.html', { viewport: kWide, colorScheme: 'light' });
-    const seen = { slider: await page.locator('#refill').isVisible(), colours: colours(await look(page)) };
+    const seen = {
+        slider: await page.locator('#refill').isVisible(),
+        state: await page.evaluate(() => document.documentElement.dataset.state),
+    };
     await page.context().close();
     return seen;
 }
