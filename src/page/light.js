@@ -6,7 +6,7 @@ import { AddEquation, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, Ha
     OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
 import { kAcross, kSun, kUpward } from './studio.js';
 
-const kTexels = 1024;
+const kTexels = 768;
 
 const kVertex = `
 #include <common>
@@ -82,7 +82,7 @@ export class GroundLight {
         const half = Math.max(box.max.x - box.min.x, box.max.z - box.min.z) / 2 + reach;
         this.centre = new Vector2(centre.x, centre.z);
         this.half = half;
-        this.count = Math.round(Math.min(24, Math.max(6, 8e5 / triangles)));
+        this.count = Math.round(Math.min(16, Math.max(6, 6e5 / triangles)));
         this.camera = new OrthographicCamera(-half, half, half, -half, 0, 2);
         this.camera.position.set(centre.x, ground + 1, centre.z);
         this.camera.up.set(0, 0, -1);

@@ -27,6 +27,7 @@ class Droplet {
         this.meshes = [];
         scene.updateMatrixWorld(true);
         scene.traverse((object) => object.isMesh && this.meshes.push(object));
+        this.places = this.meshes.map((mesh) => mesh.matrixWorld.clone());  // in the file's metres, however it is shown
         this.range = this.#fillRange();
     }
 
@@ -55,7 +56,7 @@ class Droplet {
     box(fills) {
         const box = new Box3();
         const point = new Vector3();
-        for (const mesh of this.meshes) {
+        for (const [index, mesh] of this.meshes.entries()) {
             const { position } = mesh.geometry.attributes;
             const delta = this.range && mesh.geometry.morphAttributes.position[mesh.morphTargetDictionary.volume];
             for (let i = 0; i < position.count; ++i) {
@@ -67,7 +68,7 @@ class Droplet {
                         point.y += weight * delta.getY(i);
                         point.z += weight * delta.getZ(i);
                     }
-                    box.expandByPoint(point.applyMatrix4(mesh.matrixWorld));
+                    box.expandByPoint(point.applyMatrix4(this.places[index]));
                 }
             }
         }

@@ -164,10 +164,10 @@ async function main() {
         const stage = new Stage({
             canvas: find('view'), droplet, flat, extent: report.onto ? undefined : extent(report),
             still: matchMedia('(prefers-reduced-motion: reduce)').matches,
-            drawn: () => {
+            drawn: (rests) => {
                 drawScale(stage);
                 root.dataset.frames = ++frames;
-                root.dataset.state = 'ready';
+                root.dataset.state = rests ? 'resting' : 'moving';
             },
         });
         stage.controls.addEventListener('start', () => { stage.touched = true; });

@@ -22,7 +22,7 @@ export class Stage {
      * @param flat     whether the ground is, at height 0
      * @param extent   the mask's sides [m], or undefined
      * @param still    no motion but by hand
-     * @param drawn    called after every frame
+     * @param drawn    called after every frame, and told whether it was the last for now
      */
     constructor({ canvas, droplet, flat, extent, still, drawn }) {
         this.canvas = canvas;
@@ -159,9 +159,21 @@ export class Stage {
         this.request();
     }
 
+    /** Lets the controls do that at once, and ends what still moves. */
+    #atOnce(act) {
+        const { controls } = this;
+        const damping = controls.enableDamping;
+        controls.enableDamping = false;
+        controls.update();
+        act(controls);
+        controls.update();
+        controls.enableDamping = damping;
+        this.request();
+    }
+
     /** Shows the droplet whole, from in front and above. */
     frame() {
-        const { camera, controls } = this;
+        const { camera } = this;
         const free = this.canvas.clientWidth - (this.cover ?? 0);
         const upright = this.canvas.clientHeight > free;
         const box = this.box;
@@ -185,14 +197,14 @@ export class Stage {
             target.addScaledVector(right, middle(seen.map(({ x, nearer }) => x / (distance - nearer))) * distance);
             target.addScaledVector(up, middle(seen.map(({ y, nearer }) => y / (distance - nearer))) * distance);
         }
-        controls.minDistance = 0.12 * distance;
-        controls.maxDistance = 3 * distance;
         camera.near = 0.02 * distance;
-        camera.position.copy(target).addScaledVector(direction, distance);
         camera.updateProjectionMatrix();
-        controls.target.copy(target);
-        controls.update();
-        this.request();
+        this.#atOnce((controls) => {
+            controls.minDistance = 0.12 * distance;
+            controls.maxDistance = 3 * distance;
+            camera.position.copy(target).addScaledVector(direction, distance);
+            controls.target.copy(target);
+        });
     }
 
     reset() {
@@ -204,25 +216,25 @@ export class Stage {
         if (event.ctrlKey || event.metaKey || event.altKey) {
             return;
         }
-        const { controls } = this;
         const turn = MathUtils.degToRad(6);
         const acts = {
-            ArrowLeft: () => controls.rotateLeft(turn),
-            ArrowRight: () => controls.rotateLeft(-turn),
-            ArrowUp: () => controls.rotateUp(turn),
-            ArrowDown: () => controls.rotateUp(-turn),
-            '+': () => controls.dollyIn(1.12),
-            '=': () => controls.dollyIn(1.12),
-            '-': () => controls.dollyOut(1.12),
-            Home: () => this.reset(),
+            ArrowLeft: (controls) => controls.rotateLeft(turn),
+            ArrowRight: (controls) => controls.rotateLeft(-turn),
+            ArrowUp: (controls) => controls.rotateUp(turn),
+            ArrowDown: (controls) => controls.rotateUp(-turn),
+            '+': (controls) => controls.dollyIn(1.12),
+            '=': (controls) => controls.dollyIn(1.12),
+            '-': (controls) => controls.dollyOut(1.12),
         };
-        const act = acts[event.key];
-        if (act) {
-            event.preventDefault();
-            this.touched ||= event.key !== 'Home';
-            act();
-            this.request();
+        if (event.key === 'Home') {
+            this.reset();
+        } else if (acts[event.key]) {
+            this.touched = true;
+            this.#atOnce(acts[event.key]);
+        } else {
+            return;
         }
+        event.preventDefault();
     }
 
     /** Metres per CSS pixel at the droplet. */
@@ -243,6 +255,6 @@ export class Stage {
             this.light_is_old = false;
         }
         this.renderer.render(this.scene, this.camera);
-        this.drawn();
+        this.drawn(this.frame_id === undefined && !this.light_is_coarse);
     }
 }

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page in a real browser, from disk: what it shows, what it does, and that it asks for nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "droplet/io/page.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::Gt;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::readFile;
+using testing::runDroplet;
+using testing::runProgram;
+using testing::writeFile;
+
+const std::string kHostile =
+    "</script><script>window.executed=1</script></title><img src=x onerror=\"window.executed=1\"><!-- \"'&lt;";
+
+/// What every control does to this part of the pixels at least; what changes nothing stays below kNoise.
+constexpr double kSeen = 0.02;
+constexpr double kNoise = 0.002;
+
+void makePages(const fs::path& folder)
+{
+    const auto make = [&](const std::string& html, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{(folder / "disc.pgm").string(),
+                                           (folder / "out.obj").string(),
+                                           "--html",
+                                           (folder / html).string(),
+                                           "--triangles",
+                                           "800",
+                                           "--volume",
+                                           "40uL",
+                                           "-q"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto run = runDroplet(arguments);
+        ASSERT_EQ(run.exit_code, 0) << run.error;
+    };
+    writeFile(folder / "disc.pgm", testing::discPicture(64, 24.0));
+    writeFile(folder / "picture.png", readFile(fs::path(DROPLET_SOURCE_DIR) / "data/letter_g_1bit.png"));
+    make("water.html", {"--material", "ink"});
+    make("exact.html", {"--model", "exact"});
+    std::ofstream hostile(folder / "hostile.html", std::ios::binary);
+    const nlohmann::json report{
+        {"input", {{"path", kHostile}}}, {"liquid", {{"name", kHostile}}}, {"warnings", {kHostile}}};
+    writePage(hostile, {kHostile, "glTF, but no more", report.dump()});
+}
+
+TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
+{
+    const testing::ScratchDirectory scratch;
+    makePages(scratch.path());
+    const auto run = runProgram({"node", DROPLET_PAGE_DRIVER, DROPLET_CHROMIUM, scratch.path().string()});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto seen = nlohmann::json::parse(run.output);
+    SCOPED_TRACE(seen.dump(1));
+
+    EXPECT_THAT(seen["complaints"], IsEmpty());
+    EXPECT_THAT(seen["outside"], IsEmpty());
+
+    const auto& wide = seen["wide"];
+    EXPECT_EQ(wide["state"], "resting");
+    EXPECT_GT(wide["colours"], 100);
+    EXPECT_EQ(wide["frames_at_rest"], 0);
+    EXPECT_TRUE(wide["labelled"]);
+    EXPECT_THAT(wide["scale"].get<std::string>(), HasSubstr("mm"));
+
+    // The slider: from nothing to twice the liquid, seen and told.
+    EXPECT_EQ(wide["range"], (nlohmann::json{"0", "2", "1"}));
+    EXPECT_GT(wide["full"], kSeen);
+    EXPECT_GT(wide["empty"], kSeen);
+    EXPECT_LT(wide["filled_again"], kNoise);
+    const auto& amounts = wide["amounts"];
+    EXPECT_THAT(amounts[0].get<std::string>(), AllOf(HasSubstr("100"), HasSubstr("40.0"), HasSubstr("µL")));
+    EXPECT_THAT(amounts[1].get<std::string>(), AllOf(HasSubstr("200"), HasSubstr("80.0"), HasSubstr("µL")));
+    EXPECT_THAT(amounts[2].get<std::string>(), AllOf(::testing::StartsWith("0\u2009%"), HasSubstr("mm high")));
+
+    EXPECT_GT(wide["turned_by_key"], kSeen);
+    EXPECT_LT(wide["turned_back"], kNoise);
+    ASSERT_EQ(wide["grounds"].size(), 2U);
+    EXPECT_GT(wide["grounds"][0], kSeen);
+    EXPECT_GT(wide["grounds"][1], kSeen);
+    EXPECT_GT(wide["own_picture"], kSeen);
+    EXPECT_EQ(wide["figures"]["Volume"], "40.0 µL");
+    EXPECT_EQ(wide["figures"]["Liquid"], "Water");
+    EXPECT_EQ(wide["figures"]["Picture"], "20.0 × 20.0 mm");
+    EXPECT_TRUE(wide["figures"].contains("Pressure"));
+    EXPECT_TRUE(wide["figures"].contains("Bond number"));
+
+    EXPECT_EQ(wide["download"]["name"], "disc.glb");
+    EXPECT_EQ(wide["download"]["sha256"], wide["download"]["embedded"]);
+
+    const auto& phone = seen["phone"];
+    EXPECT_GT(phone["colours"], 50);
+    EXPECT_LE(phone["overflow"], 0);
+    EXPECT_LE(phone["overflow_open"], 0);
+    EXPECT_LT(phone["panel_height"], 0.65);
+    for (const auto& [control, reachable] : phone["reachable"].items()) {
+        EXPECT_TRUE(reachable) << control;
+    }
+    EXPECT_NEAR(phone["fill"], 1.6, 0.1);
+    EXPECT_GT(phone["filled"], kSeen);
+    EXPECT_GT(phone["dragged"], kSeen);
+    EXPECT_GT(phone["pinched"], kSeen);
+    EXPECT_EQ(phone["page_zoom"], 1) << "the fingers zoom the droplet, not the page";
+
+    EXPECT_FALSE(seen["exact"]["slider"]);
+    EXPECT_NE(seen["exact"]["state"], "failed");
+
+    const auto& hostile = seen["hostile"];
+    EXPECT_FALSE(hostile["executed"]);
+    EXPECT_TRUE(hostile["forbidden"]);
+    EXPECT_EQ(hostile["title"], kHostile);
+    EXPECT_EQ(hostile["heading"], kHostile);
+    EXPECT_EQ(hostile["scripts"], 3);
+    EXPECT_EQ(hostile["images"], 0);
+    // What is no model is said, and can be had all the same.
+    EXPECT_EQ(hostile["state"], "failed");
+    EXPECT_TRUE(hostile["trouble"]);
+    EXPECT_TRUE(hostile["download"]);
+    EXPECT_THAT(seen["hostile_complaints"], ::testing::SizeIs(2))
+        << "of the model, and of the script that was kept out";
+}
+
+}  // namespace
+}  // namespace droplet
