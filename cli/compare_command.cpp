@@ -121,6 +121,9 @@ Options readOptions(const CommandLine& line)
         options.json = json->text;
     }
     if (const auto picture = line.value("--picture")) {
+        if (!isStream(picture->text) && std::filesystem::path(picture->text).extension() != ".png") {
+            refuse(*picture, "a name that ends in .png, or -");
+        }
         options.picture = picture->text;
     }
     constexpr std::size_t kMostThreads = 1024;  // as of all commands

@@ -184,6 +184,8 @@ TEST_F(CompareCommand, WhatIsNotUnderstoodIsRefused)
     expectRefused({a, a, "--normal-tolerance", "1mm"}, 2, "--normal-tolerance");
     expectRefused({a, a, "--width", "1mm"}, 2, "unknown option");
     expectRefused({a, a, "--json", a}, 2, "--json");
+    expectRefused({a, a, "--picture", "-", "--json", "-"}, 2, "--picture");
+    expectRefused({a, a, "--picture", "a.jpg"}, 2, ".png");
 }
 
 TEST_F(CompareCommand, FilesThatCannotBeReadOrWritten)
