@@ -18,6 +18,9 @@
 #include "droplet/io/comparison_report.h"
 #include "droplet/io/output.h"
 #include "droplet/io/read_surface.h"
+#include "droplet/picture/paint.h"
+#include "droplet/picture/picture.h"
+#include "droplet/picture/render.h"
 #include "droplet/surface/compare.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
@@ -53,6 +56,7 @@ struct Options {
     std::string path_b;
     droplet::Tolerances tolerances;
     std::optional<std::string> json;
+    std::optional<std::string> picture;
     std::optional<std::size_t> threads;
     droplet::OutputOptions files;
     bool quiet = false;
@@ -68,6 +72,9 @@ void declare(CommandLine& line)
     line.add(kAllowed, "--normal-tolerance", "ANGLE", "rms angle between normals");
     constexpr const char* kRun = "Run";
     line.add(kRun, "--json", "FILE", "write a report; - is standard output");
+    line.add(kRun, "--picture", "FILE",
+             "draw A with how far it lies outside B, or inside,\n"
+             "in colours: .png; - is standard output");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
     line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
     line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
@@ -112,6 +119,12 @@ Options readOptions(const CommandLine& line)
     }
     if (const auto json = line.value("--json")) {
         options.json = json->text;
+    }
+    if (const auto picture = line.value("--picture")) {
+        if (!isStream(picture->text) && std::filesystem::path(picture->text).extension() != ".png") {
+            refuse(*picture, "a name that ends in .png, or -");
+        }
+        options.picture = picture->text;
     }
     constexpr std::size_t kMostThreads = 1024;  // as of all commands
     if (const auto threads = line.value("--threads")) {
@@ -224,6 +237,9 @@ int runCompare(int argc, const char* const* argv)
     if (options.json) {
         outputs.push_back({"--json", *options.json});
     }
+    if (options.picture) {
+        outputs.push_back({"--picture", *options.picture});
+    }
     checkFiles({{"A", options.path_a}, {"B", options.path_b}}, outputs, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
@@ -239,14 +255,26 @@ int runCompare(int argc, const char* const* argv)
     report.comparison = droplet::compare(a.surface, b.surface, how);
     report.exceeded = droplet::exceeded(report.comparison, options.tolerances);
 
+    std::vector<OutputFile> files;
     if (options.json) {
-        writeTogether({{*options.json, [&](std::ostream& out) { writeComparison(out, report); }}}, options.files);
+        files.push_back({*options.json, [&](std::ostream& out) { writeComparison(out, report); }});
+    }
+    droplet::Picture picture;
+    if (options.picture) {
+        droplet::RenderOptions scene;
+        scene.paint = droplet::differencePaint(a.surface, b.surface);
+        picture = droplet::render(a.surface, scene);
+        files.push_back({*options.picture, [&](std::ostream& out) { writePng(picture, out); }});
+    }
+    if (!files.empty()) {
+        writeTogether(files, options.files);
     }
     if (!options.quiet) {
         for (const std::string& warning : report.warnings) {
             std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << '\n';
         }
-        if (!options.json || !isStream(*options.json)) {
+        const auto is_output = [](const std::optional<std::string>& path) { return path && isStream(*path); };
+        if (!is_output(options.json) && !is_output(options.picture)) {
             print(table(report.comparison));
         }
     }

@@ -26,11 +26,12 @@ _droplet_shape()
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
-            --advancing | --receding | --triangles | --edge | --fill-range | --preview-size | --turntable | --threads | -j)
+            --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
+            --fill-range | --preview-size | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --preview | --ground | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -41,6 +42,8 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
+                    compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
+                        --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
@@ -52,7 +55,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands=''
+        local commands='compare'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

@@ -15,7 +15,10 @@ const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
                                   "[OPTIONS] INPUT OUTPUT",
-                                  std::string(kUnitsText) +
+                                  "Commands:\n"
+                                  "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
+                                  "\n" +
+                                      std::string(kUnitsText) +
                                       "\n"
                                       "Examples:\n"
                                       "  droplet-shape logo.png logo.glb\n"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "droplet/surface/compare.h"
 #include "droplet/units.h"
 
 namespace droplet {
@@ -198,6 +199,25 @@ Paint contactAnglePaint(const Surface& surface)
     paint.high = middle + std::max(half, step);
     paint.unit = kDegree;
     paint.caption = "contact angle [\u00b0]";
+    return paint;
+}
+
+Paint differencePaint(const Surface& surface, const Surface& other)
+{
+    Paint paint;
+    paint.values = signedDistances(surface, other);
+    constexpr double kLeast = 1e-9;  // what a picture shows of surfaces that are the same
+    double largest = kLeast;
+    for (const double value : paint.values) {
+        largest = std::max(largest, std::abs(value));
+    }
+    const double step = roundStep(largest, 4.0);
+    paint.scale = divergingScale();
+    paint.high = step * std::ceil(largest / step - 1e-9);
+    paint.low = -paint.high;
+    const bool millimetres = largest >= 1e-3;
+    paint.unit = millimetres ? kMillimetre : 1e-6;
+    paint.caption = millimetres ? "outside [mm]" : "outside [\u00b5m]";
     return paint;
 }
 

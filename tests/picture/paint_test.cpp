@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "droplet/error.h"
 #include "droplet/units.h"
@@ -45,6 +46,25 @@ TEST(HeightPaint, CountsFromTheGroundInRoundSteps)
         EXPECT_NEAR(std::remainder(paint.high, paint.line_spacing.value()), 0.0, 1e-9 * height);
         EXPECT_EQ(paint.unit, height < 1e-3 ? 1e-6 : 1e-3);
     }
+}
+
+TEST(DifferencePaint, ShowsOutsideAndInsideAlike)
+{
+    const Surface surface = roundDroplet();
+    Surface lower = surface;
+    for (Vec3& p : lower.positions) {
+        p.z -= 3e-6;
+    }
+    for (const auto& [one, other, sign] : {std::tuple(surface, lower, 1.0), {lower, surface, -1.0}}) {
+        const Paint paint = differencePaint(one, other);
+        paint.validate(one.positions.size());
+        EXPECT_NEAR(paint.values[0], sign * 3e-6, 1e-8) << "the top, or what of a facet is nearer";
+        EXPECT_EQ(paint.low, -paint.high);
+        EXPECT_GE(paint.high, 3e-6);
+        EXPECT_LT(paint.high, 4.1e-6);
+        EXPECT_EQ(paint.unit, 1e-6);
+    }
+    differencePaint(surface, surface).validate(surface.positions.size());
 }
 
 TEST(ContactAnglePaint, ShowsAnglesAlongTheRimAlone)

@@ -52,4 +52,10 @@ Paint heightPaint(const Surface& surface);
 /// @throws Error   InvalidArgument where the surface has none
 Paint contactAnglePaint(const Surface& surface);
 
+/// How far every vertex lies outside another surface, or inside where it is less than zero, as signedDistances has it;
+/// diverging about 0, out to the largest.
+/// @param surface  valid
+/// @param other    valid
+Paint differencePaint(const Surface& surface, const Surface& other);
+
 }  // namespace droplet
