@@ -287,8 +287,8 @@ LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vecto
 
 LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells)
 {
-    constexpr float kGrain = 1.5F;         // [cells]
-    constexpr float kRaysForACell = 0.4F;  // along a side
+    constexpr float kGrain = 2.0F;         // [cells]
+    constexpr float kRaysForACell = 0.7F;  // along a side
     LightMap map;
     map.columns = map.rows = cells;
     map.cell = 1.0F / static_cast<float>(cells);

@@ -35,7 +35,7 @@ constexpr float kLeastWeight = 0.004F;  // a level of 255
 
 // Cells of the light on the plane, along its longer side, for a pixel along the picture's.
 constexpr double kLightCells = 0.36;
-constexpr double kStandCells = 0.8;  // of the light on a stand, along its texture
+constexpr double kStandCells = 0.45;  // of the light on a stand, along its texture
 constexpr int kLeastLightCells = 64;
 constexpr int kMostLightCells = 1024;
 
