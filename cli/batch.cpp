@@ -715,7 +715,7 @@ void declareBatch(CommandLine& line)
     constexpr const char* kGroup = "Batch";
     line.addFlag(kGroup, "--keep-going", "go on after an item that failed");
     line.addFlag(kGroup, "--no-resume", "make again what stands as it would be made");
-    line.add(kGroup, "--shard", "I/N", "make the I-th of N shares alone: every N-th item");
+    line.add(kGroup, "--shard", "SHARE", "2/8 makes every 8th item, from the second on");
     line.add(kGroup, "--manifest", "FILE",
              "what became of every item, as JSON\n"
              "[manifest.json in the folder of all outputs]");
