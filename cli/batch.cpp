@@ -261,6 +261,10 @@ std::string inJson(const std::string& text)
 /// @throws Error InvalidArgument if the file is something else, which must not be replaced
 std::unordered_map<std::string, Record> readManifest(const std::string& path)
 {
+    std::error_code failure;
+    if (!fs::is_regular_file(path, failure)) {
+        return {};  // none yet, or a device, which may be endless
+    }
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     std::unordered_map<std::string, Record> records;
