@@ -261,6 +261,10 @@ std::string inJson(const std::string& text)
 /// @throws Error InvalidArgument if the file is something else, which must not be replaced
 std::unordered_map<std::string, Record> readManifest(const std::string& path)
 {
+    std::error_code failure;
+    if (!fs::is_regular_file(path, failure)) {
+        return {};  // none yet, or a device, which may be endless
+    }
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     std::unordered_map<std::string, Record> records;
@@ -715,7 +719,7 @@ void declareBatch(CommandLine& line)
     constexpr const char* kGroup = "Batch";
     line.addFlag(kGroup, "--keep-going", "go on after an item that failed");
     line.addFlag(kGroup, "--no-resume", "make again what stands as it would be made");
-    line.add(kGroup, "--shard", "I/N", "make the I-th of N shares alone: every N-th item");
+    line.add(kGroup, "--shard", "SHARE", "2/8 makes every 8th item, from the second on");
     line.add(kGroup, "--manifest", "FILE",
              "what became of every item, as JSON\n"
              "[manifest.json in the folder of all outputs]");

@@ -27,11 +27,12 @@ _droplet_shape()
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --preview-size | --turntable | --threads | -j)
+            --fill-range | --preview-size | --turntable | --threads | -j | --shard)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --preview | --ground | --picture | --json | --html | --export-evolver | --config | \
+            --output | -o | --manifest) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -42,6 +43,10 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
+                    batch)
+                        choices="$picture $making $running --format --fill-range --json
+                            --output --recursive --keep-going --no-resume --shard --manifest"
+                        ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
@@ -55,7 +60,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='compare'
+        local commands='batch compare'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

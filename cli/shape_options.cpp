@@ -16,6 +16,7 @@ const CommandText& commandText()
     static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
+                                  "  batch      a droplet of each of many pictures; see droplet-shape batch --help\n"
                                   "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
                                   "\n" +
                                       std::string(kUnitsText) +
@@ -31,7 +32,8 @@ const CommandText& commandText()
                                       "\n"
                                       "Exit codes:\n"
                                       "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-                                      "  4 output cannot be written; 5 no such droplet exists"};
+                                      "  4 output cannot be written; 5 no such droplet exists;\n"
+                                      "  6 some of many failed"};
     return text;
 }
 
