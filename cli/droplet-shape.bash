@@ -23,15 +23,17 @@ _droplet_shape()
         --solver) choices='auto llt cholmod multigrid' ;;
         --view) choices='three-quarter top side' ;;
         --colour) choices='look contours contact-angle' ;;
+        --align) choices='start centre end' ;;
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --preview-size | --turntable | --threads | -j)
+            --fill-range | --preview-size | --face-index | --axis | --text | --charset | --em | --line-spacing | \
+            --shard | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --font | --output | -o | --manifest | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -42,6 +44,9 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
+                    glyphs) choices="$making $running $showing --format --fill-range --json --html --font --face-index
+                        --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
+                        --equal-height --keep-going --no-resume --shard --manifest" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
@@ -55,7 +60,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='compare'
+        local commands='compare glyphs'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

@@ -47,8 +47,7 @@ void declare(CommandLine& line)
     constexpr const char* kGroup = "Type";
     line.add(kGroup, "--font", "FILE", "TrueType, OpenType, collection, WOFF or Type 1");
     line.add(kGroup, "--face-index", "N", "which font of a collection, from 0 [0]");
-    line.addList(kGroup, "--axis", "TAG=VALUE",
-                 "of a variable font, such as wght=700; for several\naxes several times");
+    line.addList(kGroup, "--axis", "AXIS", "of a variable font, such as wght=700; for several\naxes several times");
     line.add(kGroup, "--text", "TEXT", "set a text into one file; \\n begins a new line, \\\\ is\na backslash");
     line.add(kGroup, "--charset", "SET", "or make a file for each of these characters");
     line.addFlag(kGroup, "--all", "or for every glyph of the font");

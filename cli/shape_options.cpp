@@ -17,6 +17,7 @@ const CommandText& commandText()
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
                                   "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
+                                  "  glyphs     a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
                                   "\n" +
                                       std::string(kUnitsText) +
                                       "\n"
