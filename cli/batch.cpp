@@ -419,7 +419,7 @@ public:
         }
     }
 
-    void summarise(const std::vector<Row>& rows, const std::string& manifest)
+    void summarise(const std::vector<Row>& rows, std::size_t left_out, const std::string& manifest)
     {
         eraseBar();
         if (json_ || quiet_) {
@@ -445,6 +445,9 @@ public:
         if (warned > 0) {
             text << paint("warnings", Colour::Yellow) << "   on " << warned << (warned == 1 ? " item" : " items")
                  << "\n";
+        }
+        if (left_out > 0) {
+            text << paint("left out", Colour::Bold) << "   " << left_out << ", the manifest says why\n";
         }
         text << paint("manifest", Colour::Bold) << "   " << oneLine(manifest) << "\n";
         std::cerr << text.str() << std::flush;
@@ -509,7 +512,7 @@ public:
     {
         settle();
         writeManifest();
-        teller_.summarise(rows_, options_.manifest);
+        teller_.summarise(rows_, options_.left_out.size(), options_.manifest);
         const bool failed =
             std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.status == Status::Failed; });
         return failed ? kSomeFailed : 0;
