@@ -261,7 +261,10 @@ Paths offset(Paths loops, double by)
 /// Loops that do not touch: what rounding left open is closed, then everything is made smaller by half the gap.
 Paths parted(const Paths& loops)
 {
-    for (double gap = kGap; gap < 5.0 * kGap; gap *= 1.5) {
+    // Rounding may make sides touch again; another gap rounds otherwise.
+    constexpr int kAttempts = 4;
+    double gap = kGap;
+    for (int attempt = 0; attempt < kAttempts; ++attempt, gap *= 1.5) {
         Paths result = offset(offset(loops, kMerge), -kMerge - 0.5 * gap);
         clean(result, 0.25 * gap);
         if (!touchAnywhere(result)) {

