@@ -209,10 +209,15 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         }
         uncovered.swap(rest);
     }
+    // What is opposite nothing, or a sliver that round-off left between two triangles.
+    opposite.push_back(piece.centre.found.triangle);
+    for (const Sample& corner : piece.corners) {
+        opposite.push_back(corner.found.triangle);
+    }
     for (const Polygon& polygon : uncovered) {
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t nearest = piece.centre.found.triangle;
-        for (const std::uint32_t t : near) {
+        for (const std::uint32_t t : opposite) {
             const double largest = largestFrom(polygon, to.triangles()[t]);
             if (largest < least) {
                 least = largest;

@@ -313,6 +313,25 @@ TEST(Compare, BoundsHoldWhatManySamplesFind)
     EXPECT_NEAR(found.a.area, area, 1e-12 * area);
 }
 
+TEST(Compare, NeedlesAgainstFineTriangles)
+{
+    // Three needles as long as a droplet over thousands of its triangles, cut in polygons of many corners.
+    const Surface fine = roundDroplet({.height = 1e-9, .rings = 24, .segments = 96, .open = true});
+    const Surface coarse = moved(
+        roundDroplet({.height = 1e-9, .rings = 1, .segments = 3, .open = true}),
+        [](Vec3 p) {
+            return Vec3{0.3 * p.x, 0.02 * p.y, p.z + 1e-5};
+        },
+        [](Vec3 n) { return n; });
+    const Comparison found = compare(coarse, fine);
+    // Flat to 1e-9, and inside the other's outline.
+    EXPECT_NEAR(found.from_a.lower, 1e-5, 2e-9);
+    EXPECT_NEAR(found.from_a.upper, 1e-5, 1e-5 * CompareOptions().share + 2e-9);
+    EXPECT_NEAR(found.from_a.mean, 1e-5, 2e-9);
+    EXPECT_GT(found.from_b.lower, 3e-3) << "the other way the disc's rim is far off";
+    EXPECT_LE(found.from_b.upper - found.from_b.lower, CompareOptions().share * found.from_b.upper);
+}
+
 TEST(Compare, SpikeThinnerThanAnySampling)
 {
     // A needle over the middle of one facet of a box of 12 triangles, its foot 1e-7 wide.
