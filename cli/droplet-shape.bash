@@ -20,6 +20,7 @@ _droplet_shape()
         --material) choices='water ink mercury honey plain' ;;
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
+        --volume-mode) choices='total track' ;;
         --solver) choices='auto llt cholmod multigrid' ;;
         --view) choices='three-quarter top side' ;;
         --colour) choices='look contours contact-angle' ;;
@@ -27,7 +28,7 @@ _droplet_shape()
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --preview-size | --turntable | --threads | -j)
+            --fill-range | --fps | --preview-size | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
@@ -42,6 +43,7 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
+                    animate) choices="$picture $making $running --volume-mode --fps --json" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
@@ -55,7 +57,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='compare'
+        local commands='animate compare'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }
