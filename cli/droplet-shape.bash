@@ -32,7 +32,7 @@ _droplet_shape()
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --contact-sheet | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -43,7 +43,7 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
-                    animate) choices="$picture $making $running --volume-mode --fps --json" ;;
+                    animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;

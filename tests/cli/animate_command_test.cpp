@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -221,6 +222,30 @@ TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
     EXPECT_EQ(bytesOf("out/008.obj"), bytesOf("one.obj"));
 }
 
+TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
+{
+    make({"frames", "film.glb", "--contact-sheet", "sheet.png"});
+    const auto size = [&](const std::string& file) {
+        const std::string bytes = bytesOf(file);
+        EXPECT_THAT(bytes, StartsWith("\x89PNG"));
+        const auto word = [&](std::size_t at) {
+            unsigned value = 0;
+            for (std::size_t i = at; i < at + 4; ++i) {
+                value = 256 * value + static_cast<unsigned char>(bytes.at(i));
+            }
+            return value;
+        };
+        return std::pair(word(16), word(20));
+    };
+    const auto [width, height] = size("sheet.png");
+    EXPECT_GE(width, 2 * 320U);
+    EXPECT_GE(height, 2 * 240U);
+    make({"frames/f0008.pgm", "one.glb", "--contact-sheet", "one.png", "-j", "1"});
+    EXPECT_LT(size("one.png").first, width);
+    make({"frames", "film.glb", "--contact-sheet", "again.png", "-j", "1"});
+    EXPECT_EQ(bytesOf("again.png"), bytesOf("sheet.png"));
+}
+
 TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
 {
     for (const char* mode : {"total", "track"}) {
@@ -311,6 +336,8 @@ TEST_F(AnimateTest, RefusesWhatCannotBe)
     refused({"--fps", "0"}, {"--fps", "'0'", "0.001 to 1000"});
     refused({"--fps", "fast"}, {"--fps", "'fast'"});
     refused({"--fill", "each"}, {"--fill each and --volume-mode total exclude each other"});
+    refused({"--contact-sheet", "sheet.jpg"}, {"--contact-sheet", "'sheet.jpg'", ".png"});
+    refused({"--contact-sheet", "old.glb.png", "--json", "old.glb.png"}, {"--json and --contact-sheet are the same"});
     refused({"--onto", "can.glb"}, {"--onto has no place in a sequence"});
     expectFailure({}, 2, {"INPUT is missing"});
     expectFailure({"frames"}, 2, {"OUTPUT is missing"});
