@@ -261,6 +261,10 @@ std::string inJson(const std::string& text)
 /// @throws Error InvalidArgument if the file is something else, which must not be replaced
 std::unordered_map<std::string, Record> readManifest(const std::string& path)
 {
+    std::error_code failure;
+    if (!fs::is_regular_file(path, failure)) {
+        return {};  // none yet, or a device, which may be endless
+    }
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     std::unordered_map<std::string, Record> records;
@@ -415,7 +419,7 @@ public:
         }
     }
 
-    void summarise(const std::vector<Row>& rows, const std::string& manifest)
+    void summarise(const std::vector<Row>& rows, std::size_t left_out, const std::string& manifest)
     {
         eraseBar();
         if (json_ || quiet_) {
@@ -441,6 +445,9 @@ public:
         if (warned > 0) {
             text << paint("warnings", Colour::Yellow) << "   on " << warned << (warned == 1 ? " item" : " items")
                  << "\n";
+        }
+        if (left_out > 0) {
+            text << paint("left out", Colour::Bold) << "   " << left_out << ", the manifest says why\n";
         }
         text << paint("manifest", Colour::Bold) << "   " << oneLine(manifest) << "\n";
         std::cerr << text.str() << std::flush;
@@ -505,7 +512,7 @@ public:
     {
         settle();
         writeManifest();
-        teller_.summarise(rows_, options_.manifest);
+        teller_.summarise(rows_, options_.left_out.size(), options_.manifest);
         const bool failed =
             std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.status == Status::Failed; });
         return failed ? kSomeFailed : 0;
@@ -715,7 +722,7 @@ void declareBatch(CommandLine& line)
     constexpr const char* kGroup = "Batch";
     line.addFlag(kGroup, "--keep-going", "go on after an item that failed");
     line.addFlag(kGroup, "--no-resume", "make again what stands as it would be made");
-    line.add(kGroup, "--shard", "I/N", "make the I-th of N shares alone: every N-th item");
+    line.add(kGroup, "--shard", "SHARE", "2/8 makes every 8th item, from the second on");
     line.add(kGroup, "--manifest", "FILE",
              "what became of every item, as JSON\n"
              "[manifest.json in the folder of all outputs]");

@@ -24,15 +24,18 @@ _droplet_shape()
         --solver) choices='auto llt cholmod multigrid' ;;
         --view) choices='three-quarter top side' ;;
         --colour) choices='look contours contact-angle' ;;
+        --align) choices='start centre end' ;;
         --progress) choices='auto none json' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --fps | --preview-size | --turntable | --threads | -j)
+            --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
+            --line-spacing | --shard | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --contact-sheet | --preview | --ground | --picture | --json | --html | --export-evolver | --config) ;;
+        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | \
+            --picture | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -44,6 +47,13 @@ _droplet_shape()
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
                     animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
+                    batch)
+                        choices="$picture $making $running --format --fill-range --json
+                            --output --recursive --keep-going --no-resume --shard --manifest"
+                        ;;
+                    glyphs) choices="$making $running $showing --format --fill-range --json --html --font --face-index
+                        --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
+                        --equal-height --keep-going --no-resume --shard --manifest" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
@@ -57,7 +67,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='animate compare'
+        local commands='animate batch compare glyphs'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

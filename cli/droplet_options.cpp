@@ -240,7 +240,7 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
 void declareFootprint(CommandLine& line)
 {
     constexpr const char* kGroup = "Footprint";
-    line.add(kGroup, "--width", "LENGTH", "width of the picture [20mm]");
+    line.add(kGroup, "--width", "LENGTH", "width of the picture; SVG's own if stated [20mm]");
     line.add(kGroup, "--pixel-size", "LENGTH", "or edge of one pixel");
     line.add(kGroup, "--channel", "NAME",
              "what shows the liquid: alpha, luma, or auto: alpha\n"

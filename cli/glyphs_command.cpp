@@ -21,6 +21,7 @@
 #include "output_pattern.h"
 #include "shape_command.h"
 #include "surroundings.h"
+#include "terminal.h"
 
 namespace cli {
 namespace {
@@ -214,6 +215,9 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
                     options.font + ": " + lacking(selection.missing) + ", and nothing is left");
     }
     equaliseHeights(font, selection.glyphs, options);
+    if (!selection.missing.empty()) {
+        tellWarning(lacking(selection.missing) + "; left out", options.shape.run);
+    }
     for (const char32_t character : selection.missing) {
         set.batch.left_out.push_back({droplet::shownCharacter(character), "the font has no glyph for it"});
     }
@@ -270,6 +274,7 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     return makeAll(items, set.batch);
 }
 
+/// Axes and glyphs, a line each, in columns parted by tabulators.
 void list(const Font& font, const GlyphsOptions& options)
 {
     std::ostringstream text;
@@ -277,13 +282,19 @@ void list(const Font& font, const GlyphsOptions& options)
         text << "axis\t" << axis.tag << "\t" << axis.least << ".." << axis.most << "\t" << axis.standard << "\t"
              << axis.name << "\n";
     }
+    const auto ink = [&](GlyphId glyph) {
+        try {
+            return droplet::hasInk(font, glyph, options.type.glyph) ? "ink" : "no ink";
+        } catch (const Error&) {
+            return "broken";
+        }
+    };
     const std::vector<std::string> names = fileNames(font);
     for (std::size_t i = 0; i < font.glyphCount(); ++i) {
         const auto glyph = static_cast<GlyphId>(i);
         const auto character = font.characterOf(glyph);
-        text << "glyph\t" << i << "\t" << font.nameOf(glyph) << "\t" << names[i] << "\t"
-             << (character ? codePointOf(*character) : "-") << "\t"
-             << (droplet::hasInk(font, glyph, options.type.glyph) ? "ink" : "no ink") << "\n";
+        text << "glyph\t" << i << "\t" << oneLine(font.nameOf(glyph)) << "\t" << names[i] << "\t"
+             << (character ? codePointOf(*character) : "-") << "\t" << ink(glyph) << "\n";
     }
     print(text.str());
 }

@@ -20,11 +20,12 @@ const CommandText& commandText()
     static const CommandText text{
         "droplet-shape glyphs", "from a font to a line of type, or to a droplet per glyph",
         "[OPTIONS] --font FILE (--text TEXT | --charset SET | --all | --list) -o OUTPUT",
-        std::string("A SET is characters and ranges of them, such as A-Za-z or U+0391-U+03A9, or @FILE,\n"
-                    "all characters of a text file. With --charset and --all there stand in OUTPUT and\n"
-                    "--json, of each glyph,\n"
+        std::string("A SET is characters and ranges of them, such as A-Za-z or U+0391-U+03A9, or\n"
+                    "@FILE, all characters of a text file. With --charset and --all there stand in\n"
+                    "OUTPUT and --json, of each glyph,\n"
                     "  {name} the font's name for it, safe on any file system (--list shows it),\n"
-                    "  {gid} its index, {codepoint} its character such as U+0041; {{ and }} are braces\n"
+                    "  {gid} its index, {codepoint} its character, such as U+0041;\n"
+                    "  {{ and }} are braces\n"
                     "\n") +
             kUnitsText +
             "\n"
@@ -46,8 +47,7 @@ void declare(CommandLine& line)
     constexpr const char* kGroup = "Type";
     line.add(kGroup, "--font", "FILE", "TrueType, OpenType, collection, WOFF or Type 1");
     line.add(kGroup, "--face-index", "N", "which font of a collection, from 0 [0]");
-    line.addList(kGroup, "--axis", "TAG=VALUE",
-                 "of a variable font, such as wght=700; for several\naxes several times");
+    line.addList(kGroup, "--axis", "AXIS", "of a variable font, such as wght=700; for several\naxes several times");
     line.add(kGroup, "--text", "TEXT", "set a text into one file; \\n begins a new line, \\\\ is\na backslash");
     line.add(kGroup, "--charset", "SET", "or make a file for each of these characters");
     line.addFlag(kGroup, "--all", "or for every glyph of the font");

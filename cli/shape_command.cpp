@@ -27,6 +27,7 @@
 #include "stage_clock.h"
 #include "summary.h"
 #include "surroundings.h"
+#include "terminal.h"
 
 namespace cli {
 namespace {
@@ -297,18 +298,12 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
 
 void tell(const droplet::Report& report, const RunOptions& run)
 {
-    if (run.verbosity == Verbosity::Quiet) {
-        return;
+    if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
+        std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    if (run.progress == ProgressMode::Json) {
-        for (const std::string& warning : report.warnings) {
-            std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false,
-                                                                   nlohmann::json::error_handler_t::replace)
-                      << "\n";
-        }
-        return;
+    for (const std::string& warning : report.warnings) {
+        tellWarning(warning, run);
     }
-    std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << warnings(report) << std::flush;
 }
 
 }  // namespace
@@ -384,6 +379,20 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
         inputs.push_back({"--ground", *picture});
     }
     checkFiles(inputs, outputs, options.run.files);
+}
+
+void tellWarning(const std::string& warning, const RunOptions& run)
+{
+    if (run.verbosity == Verbosity::Quiet) {
+        return;
+    }
+    if (run.progress == ProgressMode::Json) {
+        std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+                  << "\n"
+                  << std::flush;
+        return;
+    }
+    std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
 }
 
 void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)

@@ -50,6 +50,9 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkShape(const ShapeOptions& options, const std::string& input_name);
 
+/// Says a warning on standard error, unless all is to be quiet.
+void tellWarning(const std::string& warning, const RunOptions& run);
+
 /// Makes one droplet with as many threads as asked for, shows how far it is, and tells what came of it.
 /// @param make  is given whom to tell of every stage
 void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make);

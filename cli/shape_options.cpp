@@ -17,7 +17,9 @@ const CommandText& commandText()
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
                                   "  animate    frames of a moving footprint; see droplet-shape animate --help\n"
+                                  "  batch      a droplet of each of many pictures; see droplet-shape batch --help\n"
                                   "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
+                                  "  glyphs     a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
                                   "\n" +
                                       std::string(kUnitsText) +
                                       "\n"
@@ -32,7 +34,8 @@ const CommandText& commandText()
                                       "\n"
                                       "Exit codes:\n"
                                       "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-                                      "  4 output cannot be written; 5 no such droplet exists"};
+                                      "  4 output cannot be written; 5 no such droplet exists;\n"
+                                      "  6 some of many failed"};
     return text;
 }
 

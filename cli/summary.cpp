@@ -236,13 +236,4 @@ std::string summary(const Report& report, bool with_details)
     return text;
 }
 
-std::string warnings(const Report& report)
-{
-    std::string text;
-    for (const std::string& warning : report.warnings) {
-        text += paint("warning: ", Colour::Yellow) + oneLine(warning) + "\n";
-    }
-    return text;
-}
-
 }  // namespace cli

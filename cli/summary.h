@@ -10,7 +10,4 @@ namespace cli {
 /// A report in words, for people: a few lines, with `details` also the droplets one by one, times and memory.
 std::string summary(const droplet::Report& report, bool details);
 
-/// The report's warnings, a line each.
-std::string warnings(const droplet::Report& report);
-
 }  // namespace cli

@@ -218,7 +218,7 @@ TEST(Readme, ExitCodesAreTheCommands)
         const std::string row = "\n| " + entry->str(1) + " | " + entry->str(2);
         EXPECT_NE(readme.find(row), std::string::npos) << row;
     }
-    EXPECT_EQ(count, 6);
+    EXPECT_EQ(count, 7);
 }
 
 TEST(Readme, ReportHasTheKeysShown)

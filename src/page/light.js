@@ -15,6 +15,7 @@ uniform vec3 sun;
 uniform float ground;
 uniform float ior;
 uniform bool refracted;
+uniform vec2 shift;
 varying vec2 straight;
 varying vec2 bent;
 varying float facing;
@@ -35,7 +36,7 @@ void main() {
     vec2 landing = refracted ? bent : straight;
     // Not the base.
     gl_Position = normal.y < -0.5 ? vec4(2.0, 2.0, 2.0, 1.0) :
-        projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0);
+        projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0) + vec4(shift, 0.0, 0.0);
 }`;
 
 const kFragment = `
@@ -96,6 +97,7 @@ export class GroundLight {
                 ground: { value: ground },
                 ior: { value: look.ior },
                 refracted: { value: false },
+                shift: { value: new Vector2() },
                 share: { value: 1 },
                 tint: { value: look.tint ?? new Color(1, 1, 1) },
                 tint_depth: { value: look.tint_depth ?? 0 },
@@ -118,7 +120,7 @@ export class GroundLight {
     /** Draws it anew, with the droplet as it is now; `coarse` from fewer points of the window. */
     update(renderer, object, meshes, coarse) {
         const { scene, material, camera, target, look } = this;
-        const { sun, refracted, share } = material.uniforms;
+        const { sun, refracted, share, shift } = material.uniforms;
         const count = coarse ? Math.min(this.count, 6) : this.count;
         share.value = 1 / count;
         const parent = object.parent;
@@ -140,6 +142,8 @@ export class GroundLight {
             const angle = i * 2.399963;
             sun.value.copy(kSun).addScaledVector(kAcross, radius * Math.cos(angle))
                 .addScaledVector(kUpward, radius * Math.sin(angle)).normalize();
+            // Each by another part of a texel: their mean has smooth edges.
+            shift.value.set((0.754878 * i) % 1 - 0.5, (0.569840 * i) % 1 - 0.5).multiplyScalar(3 / kTexels);
             for (const bends of look.opaque ? [false] : [false, true]) {
                 refracted.value = bends;
                 material.uniformsNeedUpdate = true;

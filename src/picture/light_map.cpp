@@ -31,61 +31,29 @@ public:
             return;
         }
         add(place, grey(-beam.share));
+        bend(ray, meeting, beam.share);
+    }
+
+    // What becomes of a ray that meets liquid.
+    void bend(const RayF& ray, const Meeting& meeting, float light)
+    {
         if (medium_.clear) {
-            meetLiquid(ray, meeting, {grey(beam.share), kLeast * beam.share, false, 0});
+            meetLiquid(ray, meeting, {grey(light), kLeast * light, false, 0});
         }
     }
 
-    void finish()
+    // Where in the map a place on the ground is.
+    [[nodiscard]] Vec3f spot(const Meeting& meeting) const
+    {
+        return scene_.onPlane() ? meeting.place
+                                : Vec3f{static_cast<float>(meeting.uv.x), static_cast<float>(meeting.uv.y), 0.0F};
+    }
+
+    void finish(float before)
     {
         for (std::size_t i = 0; i < map_.values.size(); ++i) {
-            const auto value = [&](std::size_t c) { return 1.0F + static_cast<float>(sums_[3 * i + c]) / kOne; };
+            const auto value = [&](std::size_t c) { return before + static_cast<float>(sums_[3 * i + c]) / kOne; };
             map_.values[i] = {value(0), value(1), value(2)};
-        }
-    }
-
-private:
-    static constexpr int kMostMeetings = 6;
-    static constexpr float kLeast = 1e-3F;  // of a ray's light that is still followed, times its share
-
-    struct Way {
-        Vec3f light;
-        float least;  // less is not followed
-        bool inside;
-        int meetings;
-    };
-
-    void follow(const RayF& ray, Way way)
-    {
-        // Light that goes up again through the air is lost.
-        if (way.meetings > kMostMeetings || largest(way.light) < way.least ||
-            (!way.inside && ray.direction.z >= 0.0F)) {
-            return;
-        }
-        const Meeting meeting = way.inside ? scene_.fromLiquid(ray) : scene_.fromAir(ray);
-        if (meeting.what == Meeting::What::Nothing) {
-            return;
-        }
-        if (way.inside) {
-            way.light = way.light * passed(medium_, meeting.distance);
-        }
-        if (meeting.what == Meeting::What::Ground) {
-            add(meeting.place, way.light);
-            return;
-        }
-        meetLiquid(ray, meeting, way);
-    }
-
-    void meetLiquid(const RayF& ray, const Meeting& meeting, const Way& way)
-    {
-        const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
-        const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
-        const auto onward = [&](float share, bool inside) {
-            return Way{share * way.light, way.least, inside, way.meetings + 1};
-        };
-        follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
-        if (there.reflected < 1.0F) {
-            follow({meeting.place, there.transmitted}, onward(1.0F - there.reflected, !way.inside));
         }
     }
 
@@ -114,6 +82,51 @@ private:
                 addTo(sums_[at + 1], part.y);
                 addTo(sums_[at + 2], part.z);
             }
+        }
+    }
+
+private:
+    static constexpr int kMostMeetings = 6;
+    static constexpr float kLeast = 1e-3F;  // of a ray's light that is still followed, times its share
+
+    struct Way {
+        Vec3f light;
+        float least;  // less is not followed
+        bool inside;
+        int meetings;
+    };
+
+    void follow(const RayF& ray, Way way)
+    {
+        // Light that goes up again through the air is lost.
+        if (way.meetings > kMostMeetings || largest(way.light) < way.least ||
+            (!way.inside && scene_.onPlane() && ray.direction.z >= 0.0F)) {
+            return;
+        }
+        const Meeting meeting = way.inside ? scene_.fromLiquid(ray) : scene_.fromAir(ray);
+        if (meeting.what == Meeting::What::Nothing) {
+            return;
+        }
+        if (way.inside) {
+            way.light = way.light * passed(medium_, meeting.distance);
+        }
+        if (meeting.what == Meeting::What::Ground) {
+            add(spot(meeting), way.light);
+            return;
+        }
+        meetLiquid(ray, meeting, way);
+    }
+
+    void meetLiquid(const RayF& ray, const Meeting& meeting, const Way& way)
+    {
+        const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
+        const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
+        const auto onward = [&](float share, bool inside) {
+            return Way{share * way.light, way.least, inside, way.meetings + 1};
+        };
+        follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
+        if (there.reflected < 1.0F) {
+            follow({meeting.place, there.transmitted}, onward(1.0F - there.reflected, !way.inside));
         }
     }
 
@@ -227,7 +240,7 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
             }
         });
     }
-    gatherer.finish();
+    gatherer.finish(1.0F);
     if (blur > 0.0F) {
         blurMap(map, blur);
     }
@@ -270,6 +283,64 @@ LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vecto
         }
     }
     return sum;
+}
+
+LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells)
+{
+    constexpr float kGrain = 2.0F;         // [cells]
+    constexpr float kRaysForACell = 0.7F;  // along a side
+    LightMap map;
+    map.columns = map.rows = cells;
+    map.cell = 1.0F / static_cast<float>(cells);
+    map.values.resize(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+    LightMap dry = map;
+    Gatherer change(scene, medium, map);
+    Gatherer straight(scene, medium, dry);
+    const Vec3f middle = 0.5F * (scene.low() + scene.high());
+    const Vec3f size = scene.high() - scene.low();
+    const float reach = 0.52F * std::sqrt(dot(size, size));
+    const auto rays = static_cast<int>(kRaysForACell * static_cast<float>(cells));
+    for (std::size_t b = 0; b < light.beams.size(); ++b) {
+        const Beam& beam = light.beams[b];
+        const Vec3f right = unit(cross(beam.toward, {0.0F, 0.0F, 1.0F}));
+        const Vec3f up = cross(right, beam.toward);
+        const float offset = std::fmod(0.5F + 0.7548777F * static_cast<float>(b), 1.0F);
+        const float other_offset = std::fmod(0.5F + 0.5698403F * static_cast<float>(b), 1.0F);
+        tbb::parallel_for(0, rays, [&](int row) {
+            const auto across = [&](float at) { return reach * (2.0F * at / static_cast<float>(rays) - 1.0F); };
+            for (int column = 0; column < rays; ++column) {
+                const RayF ray{middle + 4.0F * beam.toward + across(static_cast<float>(column) + offset) * right +
+                                   across(static_cast<float>(row) + other_offset) * up,
+                               -1.0F * beam.toward};
+                const Meeting ground = scene.dry(ray);
+                if (ground.what != Meeting::What::Ground) {
+                    continue;
+                }
+                straight.add(straight.spot(ground), grey(beam.share));
+                const Meeting meeting = scene.fromAir(ray);
+                if (meeting.what == Meeting::What::Liquid) {
+                    change.add(change.spot(ground), grey(-beam.share));
+                    change.bend(ray, meeting, beam.share);
+                }
+            }
+        });
+    }
+    change.finish(0.0F);
+    straight.finish(0.0F);
+    blurMap(map, kGrain);
+    blurMap(dry, kGrain);
+    float most = 0.0F;
+    for (const Vec3f& value : dry.values) {
+        most = std::max(most, value.x);
+    }
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+        // Where light hardly falls its share is noise.
+        const float there = dry.values[i].x + 0.02F * most;
+        const Vec3f gain = grey(1.0F) + (1.0F / std::max(there, 1e-12F)) * map.values[i];
+        map.values[i] = {std::clamp(gain.x, 0.0F, 4.0F), std::clamp(gain.y, 0.0F, 4.0F),
+                         std::clamp(gain.z, 0.0F, 4.0F)};
+    }
+    return map;
 }
 
 }  // namespace droplet

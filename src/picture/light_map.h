@@ -52,4 +52,8 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
 /// `cells` says.
 LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells);
 
+/// How much of a light's direct share reaches a stand around and below droplets, by uv from (0,0) to (1,1): rays
+/// through the liquid against those that would have arrived without it.
+LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells);
+
 }  // namespace droplet

@@ -34,7 +34,8 @@ constexpr int kMostMeetings = 7;
 constexpr float kLeastWeight = 0.004F;  // a level of 255
 
 // Cells of the light on the plane, along its longer side, for a pixel along the picture's.
-constexpr double kLightCells = 0.4;
+constexpr double kLightCells = 0.36;
+constexpr double kStandCells = 0.45;  // of the light on a stand, along its texture
 constexpr int kLeastLightCells = 64;
 constexpr int kMostLightCells = 1024;
 
@@ -91,6 +92,16 @@ public:
             light_ = lightOnPlane(scene_, medium_, studio_.lights(),
                                   std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
                                              kLeastLightCells, kMostLightCells));
+        }
+        if (!scene_.onPlane() && options.stand && !studio_.uniform()) {
+            key_gain_ =
+                lightGainOnStand(scene_, medium_, studio_.lights().front(),
+                                 std::clamp(static_cast<int>(kStandCells * std::max(options.width, options.height)),
+                                            kLeastLightCells, kMostLightCells));
+            for (const Beam& beam : studio_.lights().front().beams) {
+                key_ = key_ + beam.share * beam.toward;
+            }
+            key_ = unit(key_);
         }
         level_ = studio_.level();
         exposure_ = kWhite * kPi / level_.y;
@@ -222,7 +233,7 @@ private:
         if (studio_.uniform()) {
             return wet ? matter * wetness(matter, (1.0F - returned_)) : matter;
         }
-        const Vec3f light = light_ ? light_->at(meeting.place) : studio_.diffuse(meeting.normal);
+        const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting);
         Vec3f seen = matter * light;
         if (options_.paint) {
             seen = (kPi / level_.y) * 0.82F * Vec3f{light.y, light.y, light.y};
@@ -235,6 +246,19 @@ private:
             seen = faded(seen, meeting.place);
         }
         return seen;
+    }
+
+    [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
+    {
+        const Vec3f light = studio_.diffuse(meeting.normal);
+        if (!key_gain_) {
+            return light;
+        }
+        const Vec3f key =
+            std::max(dot(meeting.normal, key_), 0.0F) / (kPi * key_.z) * studio_.lights().front().irradiance;
+        const Vec3f gain = key_gain_->at({static_cast<float>(meeting.uv.x), static_cast<float>(meeting.uv.y), 0.0F});
+        const Vec3f sum = light + (gain - grey(1.0F)) * key;
+        return {std::max(sum.x, 0.2F * light.x), std::max(sum.y, 0.2F * light.y), std::max(sum.z, 0.2F * light.z)};
     }
 
     // Light that scatters below a liquid's surface is in part sent back there, again and again.
@@ -274,7 +298,9 @@ private:
     Camera camera_;
     std::optional<GroundPicture> picture_;
     std::optional<Table> table_;
-    std::optional<LightMap> light_;  // on the plane
+    std::optional<LightMap> light_;     // on the plane
+    std::optional<LightMap> key_gain_;  // on a stand
+    Vec3f key_;                         // toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;
     float span_ = 1.0F;

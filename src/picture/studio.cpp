@@ -119,7 +119,7 @@ Studio::Studio(Lighting lighting, bool upright, Turn turn) : uniform_(lighting =
             box.radiance = place.radiance;
             boxes_.push_back(box);
         }
-        lights_.push_back(lightOf(boxes_[0], 4, 4));
+        lights_.push_back(lightOf(boxes_[0], 4, 3));
         for (std::size_t k = 1; k < boxes_.size(); ++k) {
             lights_.push_back(lightOf(boxes_[k], 1, 5));
         }

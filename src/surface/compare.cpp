@@ -243,8 +243,8 @@ private:
         }
         const auto& [a, b, c] = corners;
         const double area = 0.5 * length(cross(b - a, c - a));
-        static const std::array<Node, 6> kNodes = quadrature();
-        for (const Node& node : kNodes) {
+        static const std::array<Node, 6> nodes = quadrature();
+        for (const Node& node : nodes) {
             const Vec3 p = node.weights.x * a + node.weights.y * b + node.weights.z * c;
             const NearestTriangles::Found found = other_.tree.nearest(p, guess);
             guess = found.triangle;

@@ -77,7 +77,15 @@ struct Polygon {
     std::array<Vec3, kMost> corners;
     std::size_t count = 0;
 
-    void add(Vec3 p) { corners[count++] = p; }
+    void add(Vec3 p)
+    {
+        if (count < kMost) {
+            corners[count] = p;
+        }
+        ++count;
+    }
+    /// Round-off can make more corners than there should be.
+    [[nodiscard]] bool fits() const { return count <= kMost; }
 };
 
 double largestFrom(const Polygon& polygon, const Corners3& triangle)
@@ -152,14 +160,18 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         away = std::max(away, corner.found.distance);
     }
     constexpr double kMargin = 1.01;
-    const std::vector<std::uint32_t> near = to.boxesWithin(piece.centre.at, kMargin * radius + 2.0 * away);
+    const auto found = to.boxesWithin(piece.centre.at, kMargin * radius + 2.0 * away, kMostNear);
+    if (!found) {
+        return false;
+    }
+    const std::vector<std::uint32_t>& near = *found;
     const Corners3 corners = {a.at, b.at, c.at};
     std::vector<std::uint32_t> opposite;
     std::copy_if(near.begin(), near.end(), std::back_inserter(opposite), [&](std::uint32_t t) {
         const Corners3& triangle = to.triangles()[t];
         return dot(to.facet(t), normal) > 0.0 && !apart(corners, triangle, normal) && !apart(triangle, corners, normal);
     });
-    if (opposite.size() > kMostTriangles || near.size() > kMostNear) {
+    if (opposite.size() > kMostTriangles) {
         return false;
     }
     std::vector<Polygon> uncovered(1);
@@ -174,13 +186,18 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         }
         rest.clear();
         for (Polygon polygon : uncovered) {
-            if (polygon.count + 3 > Polygon::kMost || beyond(polygon, triangle[0], outward[0]) ||
-                beyond(polygon, triangle[1], outward[1]) || beyond(polygon, triangle[2], outward[2])) {
+            if (beyond(polygon, triangle[0], outward[0]) || beyond(polygon, triangle[1], outward[1]) ||
+                beyond(polygon, triangle[2], outward[2])) {
                 rest.push_back(polygon);
                 continue;
             }
             for (std::size_t k = 0; k < 3 && polygon.count > 2; ++k) {
                 const Halves halves = split(polygon, triangle[k], outward[k]);
+                if (!halves.inside.fits() || !halves.outside.fits()) {
+                    rest.push_back(polygon);
+                    polygon.count = 0;
+                    break;
+                }
                 if (halves.outside.count > 2) {
                     rest.push_back(halves.outside);
                 }

@@ -208,7 +208,7 @@ std::vector<std::uint32_t> NearestTriangles::within(Vec3 p, double most) const
     return found;
 }
 
-std::vector<std::uint32_t> NearestTriangles::boxesWithin(Vec3 p, double most) const
+std::optional<std::vector<std::uint32_t>> NearestTriangles::boxesWithin(Vec3 p, double most, std::size_t limit) const
 {
     std::vector<std::uint32_t> found;
     auto visitor = [&](std::uint32_t triangle) {
@@ -217,12 +217,15 @@ std::vector<std::uint32_t> NearestTriangles::boxesWithin(Vec3 p, double most) co
             return std::max({0.0, std::min({u, v, w}) - x, x - std::max({u, v, w})});
         };
         const Vec3 away{gap(p.x, a.x, b.x, c.x), gap(p.y, a.y, b.y, c.y), gap(p.z, a.z, b.z, c.z)};
-        if (dot(away, away) <= most * most) {
+        if (found.size() <= limit && dot(away, away) <= most * most) {
             found.push_back(triangle);
         }
-        return most;
+        return found.size() <= limit ? most : 0.0;
     };
     visit(p, most, visitor);
+    if (found.size() > limit) {
+        return std::nullopt;
+    }
     std::sort(found.begin(), found.end());
     return found;
 }

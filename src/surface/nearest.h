@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -53,7 +54,8 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> within(Vec3 p, double most) const;
 
     /// Triangles whose boxes are no farther from p than `most`, in rising order: all that `within` finds, and more.
-    [[nodiscard]] std::vector<std::uint32_t> boxesWithin(Vec3 p, double most) const;
+    /// Nothing where there are over `limit` of them.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> boxesWithin(Vec3 p, double most, std::size_t limit) const;
 
 private:
     struct Tree;

@@ -133,6 +133,36 @@ TEST(LightMap, IsTheSameAtAnyNumberOfThreads)
     EXPECT_EQ(std::memcmp(one.values.data(), several.values.data(), one.values.size() * sizeof(Vec3f)), 0);
 }
 
+// On a stand that is the plane itself the map by uv says what the map on the plane says.
+TEST(LightMap, OnAStandIsAsOnThePlane)
+{
+    const Surface surface = roundDroplet({.height = 1e-3, .rings = 24, .segments = 96});
+    TexturedMesh plane;
+    for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        plane.positions.push_back({8e-3 * x, 8e-3 * y, 0.0});
+        plane.normals.push_back({0.0, 0.0, 1.0});
+        plane.uvs.push_back({0.5 + 8e-3 * x / testing::kExtent, 0.5 - 8e-3 * y / testing::kExtent});
+    }
+    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const Scene on_plane(surface, nullptr, {testing::kExtent, testing::kExtent});
+    const Scene on_stand(surface, &plane, {testing::kExtent, testing::kExtent});
+    const Medium medium{true, 1.333F, {}};
+    const LightMap expected = lightGain(on_plane, medium, slanted(), 300, 2.0F);
+    const LightMap gain = lightGainOnStand(on_stand, medium, slanted(), 300);
+    double error = 0.0;
+    double change = 0.0;
+    for (double x = -3.4e-3; x < 3.5e-3; x += 0.4e-3) {
+        for (double y = -3.4e-3; y < 3.5e-3; y += 0.4e-3) {
+            const auto there = static_cast<double>(expected.at(on_plane.toScene({x, y, 0.0})).y);
+            const Vec3f uv{static_cast<float>(0.5 + x / testing::kExtent),
+                           static_cast<float>(0.5 - y / testing::kExtent), 0.0F};
+            error += std::abs(static_cast<double>(gain.at(uv).y) - there);
+            change += std::abs(1.0 - there);
+        }
+    }
+    EXPECT_LT(error, 0.25 * change);
+}
+
 TEST(DiffuseReflectance, IsAsTabulated)
 {
     // W. G. Egan, T. W. Hilgeman, "Optical Properties of Inhomogeneous Materials" (1979): 0.0919 at n = 1.5.

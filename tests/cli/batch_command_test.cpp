@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Many pictures: the same bytes as one by one, whatever the threads and shares; what fails fails alone; what stands is
+// not made again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "droplet/version.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::AllOf;
+using testing::canRespectPermissions;
+using testing::CommandOptions;
+using testing::CommandResult;
+using testing::discPicture;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::readFile;
+using testing::runDroplet;
+using testing::runProgram;
+using testing::writeFile;
+
+const std::string kDrawing =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><path d="M1 1h8v3h-8z"/></svg>)";
+
+class BatchTest : public ::testing::Test {
+protected:
+    BatchTest()
+    {
+        fs::create_directories(directory() / "masks/more");
+        writeFile(directory() / "masks/a.pgm", discPicture(20, 7.0));
+        writeFile(directory() / "masks/b.SVG", kDrawing);
+        writeFile(directory() / "masks/c.pgm", discPicture(24, 9.0));
+        writeFile(directory() / "masks/.hidden.pgm", "not looked at");
+        writeFile(directory() / "masks/notes.txt", "not looked at");
+        writeFile(directory() / "masks/more/d.pgm", discPicture(16, 5.0));
+    }
+
+    [[nodiscard]] fs::path directory() const { return scratch_.path(); }
+
+    [[nodiscard]] CommandResult run(std::vector<std::string> arguments, CommandOptions options = {}) const
+    {
+        arguments.insert(arguments.end(), {"--triangles", "200"});
+        options.directory = directory();
+        return runDroplet(arguments, options);
+    }
+
+    [[nodiscard]] CommandResult batch(std::vector<std::string> arguments, const CommandOptions& options = {}) const
+    {
+        arguments.insert(arguments.begin(), {"batch", "masks", "-o", "out/{stem}.glb"});
+        return run(arguments, options);
+    }
+
+    [[nodiscard]] json manifest(const std::string& name = "out/manifest.json") const
+    {
+        return json::parse(readFile(directory() / name));
+    }
+
+    /// The manifest without its times.
+    [[nodiscard]] json timeless(const std::string& name = "out/manifest.json") const
+    {
+        json all = manifest(name);
+        all["totals"].erase("time_s");
+        for (json& row : all["items"]) {
+            row.erase("time_s");
+        }
+        return all;
+    }
+
+    [[nodiscard]] std::vector<std::string> statuses(const std::string& name = "out/manifest.json") const
+    {
+        std::vector<std::string> all;
+        const json whole = manifest(name);
+        for (const json& row : whole["items"]) {
+            all.push_back(row["status"]);
+        }
+        return all;
+    }
+
+    /// Names and contents of everything in a folder but manifests.
+    [[nodiscard]] std::map<std::string, std::string> files(const std::string& folder) const
+    {
+        std::map<std::string, std::string> all;
+        for (const auto& entry : fs::recursive_directory_iterator(directory() / folder)) {
+            const std::string name = entry.path().lexically_relative(directory() / folder).string();
+            if (entry.is_regular_file() && name.find("manifest") == std::string::npos) {
+                all[name] = readFile(entry.path());
+            }
+        }
+        return all;
+    }
+
+private:
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(BatchTest, EveryFileIsTheMainCommandsToTheByte)
+{
+    const auto result = batch({"--contact-angle", "60deg"});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.error, HasSubstr("3 of 3"));
+    const auto made = files("out");
+    ASSERT_EQ(made.size(), 3U);
+    for (const char* name : {"a.pgm", "b.SVG", "c.pgm"}) {
+        ASSERT_EQ(run({"masks/" + std::string(name), "one.glb", "--contact-angle", "60deg"}).exit_code, 0);
+        EXPECT_EQ(made.at(fs::path(name).stem().string() + ".glb"), readFile(directory() / "one.glb")) << name;
+    }
+}
+
+TEST_F(BatchTest, ManifestHasARowForEveryPicture)
+{
+    ASSERT_EQ(batch({"--recursive", "--liquid", "glycerol", "-q"}).exit_code, 0);
+    const json all = manifest();
+    EXPECT_EQ(all["schema"], "droplet-shape.manifest/1");
+    EXPECT_EQ(all["version"], kVersion);
+    EXPECT_EQ(all["options"], json({{"liquid", "glycerol"}, {"triangles", "200"}}));
+    EXPECT_TRUE(all["shard"].is_null());
+    ASSERT_EQ(all["items"].size(), 4U);
+    const std::vector<std::string> inputs{"masks/a.pgm", "masks/b.SVG", "masks/c.pgm", "masks/more/d.pgm"};
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const json& row = all["items"][i];
+        EXPECT_EQ(row["index"], i + 1);
+        EXPECT_EQ(row["name"], inputs[i]);
+        EXPECT_EQ(row["input"], inputs[i]);
+        EXPECT_EQ(row["output"], "out/" + fs::path(inputs[i]).stem().string() + ".glb");
+        EXPECT_EQ(row["status"], "made");
+        EXPECT_TRUE(row["error"].is_null());
+        EXPECT_EQ(row["exit_code"], 0);
+        EXPECT_EQ(row["closed"], true);
+        EXPECT_GT(row["volume_m3"], 0.0);
+        EXPECT_GT(row["height_max_m"], 0.0);
+        EXPECT_TRUE(row["warnings"].is_array());
+        const fs::path output = directory() / row["output"].get<std::string>();
+        EXPECT_EQ(row["bytes"], fs::file_size(output));
+        bytes += row["bytes"].get<std::size_t>();
+        const auto sum = runProgram({"sha256sum", output.string()});
+        EXPECT_EQ(row["sha256"], sum.output.substr(0, 64));
+    }
+    EXPECT_EQ(all["totals"]["items"], 4);
+    EXPECT_EQ(all["totals"]["made"], 4);
+    EXPECT_EQ(all["totals"]["bytes"], bytes);
+}
+
+TEST_F(BatchTest, ThreadsChangeNothing)
+{
+    writeFile(directory() / "masks/aa_broken.pgm", "P5");
+    for (const char* way : {"--keep-going", "--no-resume"}) {  // the second is the same as nothing here
+        ASSERT_EQ(batch({way, "-j", "1"}).exit_code, 6);
+        const auto one = files("out");
+        const json rows = timeless();
+        for (const char* threads : {"2", "5"}) {
+            fs::remove_all(directory() / "out");
+            const auto result = batch({way, "-j", threads});
+            EXPECT_EQ(result.exit_code, 6);
+            EXPECT_EQ(result.errorLines().front(),
+                      "droplet-shape: masks/aa_broken.pgm: not an image this program reads (PNG, "
+                      "JPEG, BMP, TIFF, WebP, PBM/PGM/PPM, SVG)");
+            EXPECT_EQ(timeless(), rows) << threads;
+            for (const auto& [name, content] : one) {
+                EXPECT_EQ(files("out")[name], content) << name;
+            }
+        }
+        fs::remove_all(directory() / "out");
+    }
+}
+
+TEST_F(BatchTest, FailureEndsTheBatchOrNot)
+{
+    writeFile(directory() / "masks/b.pgm", "P5");
+    writeFile(directory() / "masks/bb.pgm", discPicture(20, 0.0));
+    fs::remove(directory() / "masks/b.SVG");
+    auto result = batch({"-j", "2"});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(statuses(), ElementsAre("made", "failed", "not started", "not started"));
+    EXPECT_THAT(result.error, AllOf(HasSubstr("masks/b.pgm: "), Not(HasSubstr("bb.pgm"))));
+    EXPECT_EQ(manifest()["items"][1]["exit_code"], 3);
+    EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("b.pgm"));
+    EXPECT_TRUE(manifest()["items"][1]["bytes"].is_null());
+
+    result = batch({"--keep-going"});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "failed", "failed", ::testing::AnyOf("made", "skipped")));
+    EXPECT_THAT(result.error, AllOf(HasSubstr("masks/b.pgm: "), HasSubstr("masks/bb.pgm: ")));
+    EXPECT_EQ(files("out").size(), 2U);
+    EXPECT_EQ(manifest()["totals"]["failed"], 2);
+}
+
+TEST_F(BatchTest, OutOfMemoryIsOnePicturesFault)
+{
+    // Two gigabytes of coverage, should it come to that.
+    writeFile(directory() / "masks/b.pbm", "P4\n16000 16000\n" + std::string(std::size_t{2000} * 16000, '\x55'));
+    fs::remove(directory() / "masks/b.SVG");
+    CommandOptions options;
+    options.directory = directory();
+    const auto result = runProgram(
+        {"sh", "-c", "ulimit -v 600000; exec \"$0\" batch masks -o 'out/{stem}.glb' --triangles 200 --keep-going -j 1",
+         DROPLET_COMMAND},
+        options);
+    EXPECT_EQ(result.exit_code, 6) << result.error;
+    EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
+    EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("memory"));
+}
+
+TEST_F(BatchTest, WhatStandsIsNotMadeAgain)
+{
+    ASSERT_EQ(batch({}).exit_code, 0);
+    const auto first = files("out");
+    const json rows = timeless().at("items");
+    const auto result = batch({});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.error, HasSubstr("3 skipped"));
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped"));
+    // What is known of the files is still known.
+    for (std::size_t i = 0; i < 3; ++i) {
+        json row = timeless().at("items")[i];
+        row["status"] = "made";
+        EXPECT_EQ(row, rows[i]);
+    }
+
+    fs::remove(directory() / "out/a.glb");
+    ASSERT_EQ(batch({}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "skipped", "skipped"));
+
+    std::string changed = first.at("b.glb");
+    changed[changed.size() / 2] ^= 1;
+    writeFile(directory() / "out/b.glb", changed);
+    ASSERT_EQ(batch({}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "made", "skipped"));
+    EXPECT_EQ(files("out"), first);
+
+    // Another date is not another picture.
+    fs::last_write_time(directory() / "masks/a.pgm", fs::file_time_type::clock::now());
+    writeFile(directory() / "masks/c.pgm", discPicture(24, 8.0));
+    ASSERT_EQ(batch({}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "made"));
+
+    ASSERT_EQ(batch({"--contact-angle", "50deg"}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
+    ASSERT_EQ(batch({"--contact-angle", "50deg", "-j", "1", "-v", "--progress", "none"}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped"));
+    ASSERT_EQ(batch({"--contact-angle", "50deg", "--no-resume"}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
+}
+
+TEST_F(BatchTest, FilesReadBesideThePictureCountToo)
+{
+    writeFile(directory() / "ground.pgm", discPicture(8, 3.0));
+    const std::vector<std::string> options{"--surface", "ground.pgm", "--surface-depth", "0.1mm"};
+    ASSERT_EQ(batch(options).exit_code, 0);
+    ASSERT_EQ(batch(options).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped"));
+    writeFile(directory() / "ground.pgm", discPicture(8, 2.0));
+    ASSERT_EQ(batch(options).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
+}
+
+TEST_F(BatchTest, ReportsAreMadeAlong)
+{
+    ASSERT_EQ(batch({}).exit_code, 0);
+    const std::vector<std::string> with_reports{"--json", "reports/{stem}.json"};
+    ASSERT_EQ(batch(with_reports).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
+    const json report = json::parse(readFile(directory() / "reports/c.json"));
+    EXPECT_EQ(report["schema"], "droplet-shape.report/1");
+    EXPECT_EQ(report["shape"]["volume_m3"], manifest()["items"][2]["volume_m3"]);
+    ASSERT_EQ(batch(with_reports).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped"));
+    fs::remove(directory() / "reports/a.json");
+    ASSERT_EQ(batch(with_reports).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("made", "skipped", "skipped"));
+}
+
+TEST_F(BatchTest, SharesMakeTheWhole)
+{
+    ASSERT_EQ(batch({"--recursive"}).exit_code, 0);
+    const auto whole = files("out");
+    fs::remove_all(directory() / "out");
+    for (const char* share : {"1/3", "2/3", "3/3"}) {
+        ASSERT_EQ(batch({"--recursive", "--shard", share}).exit_code, 0);
+    }
+    EXPECT_EQ(files("out"), whole);
+    EXPECT_THAT(statuses("out/manifest-1-of-3.json"), ElementsAre("made", "made"));
+    const json second = manifest("out/manifest-2-of-3.json");
+    EXPECT_EQ(second["shard"], json({{"index", 2}, {"count", 3}}));
+    ASSERT_EQ(second["items"].size(), 1U);
+    EXPECT_EQ(second["items"][0]["index"], 2);
+    EXPECT_EQ(second["items"][0]["output"], "out/b.glb");
+    // A share takes up its own work, and one without pictures is done.
+    ASSERT_EQ(batch({"--recursive", "--shard", "1/3"}).exit_code, 0);
+    EXPECT_THAT(statuses("out/manifest-1-of-3.json"), ElementsAre("skipped", "skipped"));
+    ASSERT_EQ(batch({"--shard", "7/8", "--manifest", "m.json"}).exit_code, 0);
+    EXPECT_THAT(statuses("m-7-of-8.json"), IsEmpty());
+}
+
+TEST_F(BatchTest, PlaceholdersAreFilledIn)
+{
+    const auto make = [&](const std::string& pattern) {
+        fs::remove_all(directory() / "out");
+        EXPECT_EQ(run({"batch", "masks", "masks/more/../a.pgm", "--recursive", "-o", "out/" + pattern}).exit_code, 0);
+        std::vector<std::string> names;
+        for (const auto& [name, content] : files("out")) {
+            names.push_back(name);
+        }
+        return names;
+    };
+    EXPECT_THAT(make("{dir}/{name}.{index}.stl"),
+                ElementsAre("a.pgm.1.stl", "a.pgm.5.stl", "b.SVG.2.stl", "c.pgm.3.stl", "more/d.pgm.4.stl"));
+    EXPECT_THAT(make("{{{index}}}-{ext}-{parent}-{stem}.glb"),
+                ElementsAre("{1}-pgm-masks-a.glb", "{2}-SVG-masks-b.glb", "{3}-pgm-masks-c.glb", "{4}-pgm-more-d.glb",
+                            "{5}-pgm-masks-a.glb"));
+}
+
+TEST_F(BatchTest, WhatIsKnownToFailFailsBeforeAnyWork)
+{
+    const auto expect_refused = [&](const std::vector<std::string>& arguments, int code, const std::string& words) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.exit_code, code) << words;
+        EXPECT_THAT(result.error, HasSubstr(words));
+        EXPECT_EQ(result.errorLines().size(), 1U) << result.error;
+        EXPECT_FALSE(fs::exists(directory() / "out"));
+    };
+    expect_refused({"batch", "masks"}, 2, "--output is missing");
+    expect_refused({"batch", "-o", "out/{stem}.glb"}, 2, "INPUT is missing");
+    expect_refused({"batch", "masks", "-o", "-"}, 2, "--output");
+    expect_refused({"batch", "-", "-o", "out/{stem}.glb"}, 2, "INPUT");
+    expect_refused({"batch", "masks", "-o", "out/{stem}"}, 2, "no extension");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.xyz"}, 2, ".xyz");
+    expect_refused({"batch", "masks", "-o", "out/{stm}.glb"}, 2, "{stem}, {name}");
+    expect_refused({"batch", "masks", "-o", "out/{stem.glb"}, 2, "{stem}, {name}");
+    expect_refused({"batch", "masks", "-o", "out/}.glb"}, 2, "{stem}, {name}");
+    expect_refused({"batch", "masks", "-o", "out/one.glb"}, 2, "same output");
+    expect_refused({"batch", "masks/a.pgm", "masks/../masks/a.pgm", "-o", "out/{stem}.glb"}, 2, "same output");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--json", "out/{stem}.glb"}, 2, "same output");
+    expect_refused({"batch", "masks", "-o", "masks/{name}", "--format", "stl"}, 2, "which is read");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/a.pgm"}, 2, "which is read");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/notes.txt"}, 2,
+                   "is no droplet-shape.manifest/1");
+    for (const char* share : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/0", "-1/3"}) {
+        expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--shard", share}, 2, "--shard");
+    }
+    fs::create_directory(directory() / "none");
+    expect_refused({"batch", "none", "-o", "out/{stem}.glb"}, 3, "none holds no pictures");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "/proc/none/m.json"}, 4, "/proc/none");
+    EXPECT_EQ(readFile(directory() / "masks/notes.txt"), "not looked at");
+}
+
+TEST_F(BatchTest, OutputThatCannotBeWrittenIsOneFailure)
+{
+    fs::create_directories(directory() / "out/b.glb");
+    const auto result = batch({"--keep-going"});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
+    EXPECT_EQ(manifest()["items"][1]["exit_code"], 4);
+    EXPECT_THAT(result.error, HasSubstr("out/b.glb"));
+    // Nor is what stands replaced where that is not wanted; what this batch made itself is.
+    fs::remove(directory() / "out/b.glb");
+    writeFile(directory() / "out/b.glb", "old");
+    EXPECT_EQ(batch({"--keep-going", "--no-clobber"}).exit_code, 6);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "failed", "skipped"));
+    EXPECT_EQ(readFile(directory() / "out/b.glb"), "old");
+}
+
+TEST_F(BatchTest, ManifestOnAFullDiskIsAFailedOutput)
+{
+    const auto result = batch({"--manifest", "/dev/full"});
+    EXPECT_EQ(result.exit_code, 4);
+    EXPECT_THAT(result.error, HasSubstr("/dev/full"));
+}
+
+TEST_F(BatchTest, ProgressInJsonIsALineAnItem)
+{
+    writeFile(directory() / "masks/bb.pgm", "P5");
+    const auto result = batch({"--progress", "json", "--keep-going"});
+    const auto lines = result.errorLines();
+    ASSERT_EQ(lines.size(), 4U);
+    const std::vector<std::string> expected{"made", "made", "failed", "made"};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const json line = json::parse(lines[i]);
+        EXPECT_EQ(line["item"], i + 1);
+        EXPECT_EQ(line["of"], 4);
+        EXPECT_EQ(line["status"], expected[i]);
+        EXPECT_EQ(line["error"].is_null(), i != 2);
+    }
+    EXPECT_THAT(batch({"-q"}).errorLines(), ElementsAre(HasSubstr("masks/bb.pgm")));
+    CommandOptions terminal;
+    terminal.error_is_terminal = true;
+    EXPECT_THAT(batch({"--keep-going", "--no-resume"}, terminal).error, HasSubstr("manifest"));
+}
+
+TEST_F(BatchTest, InterruptedBatchIsTakenUpWhereItEnded)
+{
+    fs::remove_all(directory() / "masks");
+    fs::create_directory(directory() / "masks");
+    for (int i = 10; i < 60; ++i) {
+        writeFile(directory() / ("masks/" + std::to_string(i) + ".pgm"), discPicture(100 + i, 40.0));
+    }
+    // The signal is sent once three droplets are there; far from all by then.
+    CommandOptions options;
+    options.directory = directory();
+    const std::string script =
+        "\"$0\" batch masks -o 'out/{stem}.glb' --triangles 30k -j 1 & "
+        "while [ ! -e out/12.glb ]; do sleep 0.01; done; kill -TERM $!; wait $!; echo $?";
+    const auto result = runProgram({"sh", "-c", script, DROPLET_COMMAND}, options);
+    EXPECT_EQ(result.output, "143\n") << result.error;
+    const auto made = files("out");
+    ASSERT_LT(made.size(), 50U);
+    const auto is_made = [](const std::string& status) { return status == "made"; };
+    const auto before = statuses();
+    EXPECT_EQ(before.size(), 50U);
+    EXPECT_EQ(static_cast<std::size_t>(std::count_if(before.begin(), before.end(), is_made)), made.size());
+    EXPECT_TRUE(std::is_partitioned(before.begin(), before.end(), is_made));
+
+    const auto rest = runDroplet({"batch", "masks", "-o", "out/{stem}.glb", "--triangles", "30k", "-q"}, options);
+    EXPECT_EQ(rest.exit_code, 0) << rest.error;
+    EXPECT_EQ(manifest()["totals"]["skipped"], made.size());
+    EXPECT_EQ(manifest()["totals"]["made"], 50 - made.size());
+    const auto all = files("out");
+    EXPECT_EQ(all.size(), 50U);
+    for (const auto& [name, content] : made) {
+        EXPECT_EQ(all.at(name), content) << name;
+    }
+}
+
+}  // namespace
+}  // namespace droplet

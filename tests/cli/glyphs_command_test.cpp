@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// droplet-shape glyphs, as it is called.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/fonts.h"
+#include "support/refusal.h"
+
+namespace droplet {
+namespace {
+
+using nlohmann::json;
+using testing::CommandOptions;
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::kSans;
+using testing::kVariable;
+using testing::readFile;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
+using testing::writeFile;
+
+class Glyphs : public testing::RefusalTest {
+protected:
+    [[nodiscard]] CommandResult glyphs(std::vector<std::string> arguments, const char* font = kSans) const
+    {
+        arguments.insert(arguments.begin(), {"glyphs", "--font", font});
+        return run(arguments);
+    }
+
+    void succeeds(const std::vector<std::string>& arguments, const char* font = kSans) const
+    {
+        const CommandResult result = glyphs(arguments, font);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+    }
+
+    void refuses(std::vector<std::string> arguments, int exit_code, const std::vector<std::string>& words,
+                 const char* font = kSans) const
+    {
+        arguments.insert(arguments.begin(), {"glyphs", "--font", font});
+        expectRefusal(arguments, exit_code, words);
+    }
+
+    [[nodiscard]] json parsed(const std::string& name) const { return json::parse(readFile(directory() / name)); }
+
+    [[nodiscard]] std::set<std::string> filesIn(const std::string& folder) const
+    {
+        std::set<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(directory() / folder)) {
+            names.insert(entry.path().filename().string());
+        }
+        return names;
+    }
+};
+
+TEST_F(Glyphs, ATextIsOneFile)
+{
+    succeeds({"--text", "Water", "-o", "water.glb", "--triangles", "3k", "--json", "water.json"});
+    EXPECT_THAT(readFile(directory() / "water.glb"), StartsWith("glTF"));
+    const json report = parsed("water.json");
+    EXPECT_EQ(report["input"]["path"], kSans);
+    EXPECT_TRUE(report["input"]["width_px"].is_null());
+    EXPECT_EQ(report["input"]["type"]["text"], "Water");
+    EXPECT_EQ(report["input"]["type"]["family"], "DejaVu Sans");
+    EXPECT_TRUE(report["input"]["type"]["glyph"].is_null());
+    EXPECT_NEAR(report["input"]["type"]["em_m"].get<double>(), 0.02, 1e-15);
+    EXPECT_EQ(report["mesh"]["droplets"], 5);
+    EXPECT_EQ(report["mesh"]["holes"], 2);
+    EXPECT_EQ(report["output"]["closed"], true);
+    EXPECT_NEAR(report["shape"]["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6) << "each letter the same";
+    for (const json& letter : report["droplets"]) {
+        EXPECT_NEAR(letter["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6);
+    }
+}
+
+TEST_F(Glyphs, TheSummaryTellsWhatWasSet)
+{
+    const CommandResult result = glyphs({"--text", "A水", "-o", "a.stl", "--triangles", "500", "--em", "1cm"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.error, HasSubstr("'A水' in DejaVu Sans Book, em 10 mm\n"));
+    EXPECT_THAT(result.error, HasSubstr("warning: the font has no glyph for U+6C34 '水'; left out\n"));
+    EXPECT_THAT(result.error, ::testing::Not(HasSubstr("pixel")));
+}
+
+TEST_F(Glyphs, EachCharacterIsAFileOfItsOwn)
+{
+    const CommandResult result = glyphs(
+        {"--charset", "A-Ca水 ", "-o", "out/{name}.stl", "--json", "out/{codepoint}_{gid}.json", "--triangles", "300"});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.error, HasSubstr("warning: the font has no glyph for U+6C34 '水'; left out\n"));
+    EXPECT_THAT(result.error, HasSubstr("made       4 of 4"));
+    EXPECT_THAT(filesIn("out"),
+                UnorderedElementsAre("A_.stl", "B_.stl", "C_.stl", "a.stl", "U+0041_36.json", "U+0042_37.json",
+                                     "U+0043_38.json", "U+0061_68.json", "manifest.json"));
+    const json manifest = parsed("out/manifest.json");
+    ASSERT_THAT(manifest["items"], SizeIs(4));
+    for (const json& row : manifest["items"]) {
+        EXPECT_EQ(row["status"], "made");
+        EXPECT_EQ(row["closed"], true);
+        EXPECT_GT(row["volume_m3"].get<double>(), 0.0);
+    }
+    EXPECT_EQ(manifest["items"][3]["name"], "glyph 'a'");
+    ASSERT_THAT(manifest["left_out"], SizeIs(1)) << "white space between is passed over";
+    EXPECT_EQ(manifest["left_out"][0]["name"], "U+6C34 '水'");
+    const json report = parsed("out/U+0041_36.json");
+    EXPECT_EQ(report["input"]["type"]["glyph"], 36);
+    EXPECT_EQ(report["input"]["type"]["glyph_name"], "A");
+    EXPECT_EQ(report["input"]["type"]["character"], "U+0041");
+    EXPECT_TRUE(report["input"]["type"]["text"].is_null());
+}
+
+TEST_F(Glyphs, OneGlyphOfManyIsTheSameAsAlone)
+{
+    succeeds({"--charset", "g&", "-o", "{name}.stl", "--triangles", "400", "-j", "2"});
+    succeeds({"--text", "g", "-o", "text.stl", "--triangles", "400"});
+    EXPECT_TRUE(readFile(directory() / "g.stl") == readFile(directory() / "text.stl"));
+}
+
+TEST_F(Glyphs, TheSameBytesAtAnyNumberOfThreads)
+{
+    for (const char* threads : {"1", "3"}) {
+        const std::string folder = std::string("j") + threads;
+        succeeds({"--charset", "a-h", "-o", folder + "/{name}.glb", "--triangles", "300", "-j", threads});
+    }
+    for (const std::string& name : filesIn("j1")) {
+        if (name != "manifest.json") {
+            EXPECT_TRUE(readFile(directory() / "j1" / name) == readFile(directory() / "j3" / name)) << name;
+        }
+    }
+}
+
+TEST_F(Glyphs, GlyphsWithoutInkAreToldAndNoError)
+{
+    succeeds({"--charset", "U+00A0 U+0021", "-o", "out/{name}.stl", "--triangles", "200"});
+    const json manifest = parsed("out/manifest.json");
+    EXPECT_THAT(manifest["items"], SizeIs(1));
+    ASSERT_THAT(manifest["left_out"], SizeIs(1));
+    EXPECT_EQ(manifest["left_out"][0]["name"], "glyph 'nonbreakingspace'");
+    EXPECT_EQ(manifest["left_out"][0]["reason"], "no ink");
+}
+
+TEST_F(Glyphs, WhatStandsIsSkippedAndWhatChangedIsMade)
+{
+    const std::vector<std::string> job{"--charset", "ab", "-o", "{name}.stl", "--triangles", "200"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), job.begin(), job.end());
+        return glyphs(more).error;
+    };
+    EXPECT_THAT(with({}), HasSubstr("made       2 of 2"));
+    EXPECT_THAT(with({}), HasSubstr("made       0 of 2, 2 skipped"));
+    EXPECT_THAT(with({"--em", "30mm"}), HasSubstr("made       2 of 2"));
+    // More glyphs: those there are stand.
+    EXPECT_THAT(glyphs({"--charset", "abc", "-o", "{name}.stl", "--triangles", "200", "--em", "30mm"}).error,
+                HasSubstr("made       1 of 3, 2 skipped"));
+}
+
+TEST_F(Glyphs, SharesTakeEveryGlyphOnce)
+{
+    for (const char* share : {"1/3", "2/3", "3/3"}) {
+        succeeds({"--charset", "a-g", "-o", "out/{name}.stl", "--triangles", "200", "--shard", share});
+    }
+    EXPECT_THAT(filesIn("out"), SizeIs(7 + 3));
+}
+
+TEST_F(Glyphs, AllOfAFontHasNamesForAnyFileSystem)
+{
+    const CommandResult listed = glyphs({"--list"});
+    EXPECT_EQ(listed.exit_code, 0);
+    std::set<std::string> names;
+    std::size_t count = 0;
+    std::istringstream lines(listed.output);
+    for (std::string line; std::getline(lines, line); ++count) {
+        std::istringstream columns(line);
+        std::vector<std::string> cells;
+        for (std::string cell; std::getline(columns, cell, '\t');) {
+            cells.push_back(cell);
+        }
+        ASSERT_THAT(cells, SizeIs(6)) << line;
+        std::string name = cells[3];
+        EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-"),
+                  std::string::npos);
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        EXPECT_TRUE(names.insert(name).second) << name;
+    }
+    EXPECT_EQ(count, 6253U);
+    EXPECT_THAT(listed.output, HasSubstr("\nglyph\t36\tA\tA_\tU+0041\tink\n"));
+    EXPECT_THAT(listed.output, HasSubstr("\nglyph\t3\tspace\tspace\tU+0020\tno ink\n"));
+    EXPECT_THAT(listed.output, StartsWith("glyph\t0\t.notdef\t_notdef\t-\tink\n"));
+    EXPECT_THAT(glyphs({"--list"}, kVariable).output, StartsWith("axis\twght\t100..900\t400\tWeight\n"));
+}
+
+TEST_F(Glyphs, EqualHeightIsThatOfTheLetterO)
+{
+    const auto height = [&](const std::string& name) { return parsed(name)["shape"]["height_max_m"].get<double>(); };
+    // The reference is solved with the default number of triangles.
+    succeeds({"--text", "o", "-o", "o.stl", "--json", "o.json", "--contact-angle", "30deg"});
+    succeeds({"--charset", "oiWm", "-o", "out/{name}.stl", "--json", "out/{name}.json", "--contact-angle", "30deg",
+              "--equal-height", "--triangles", "600"});
+    for (const char* name : {"o", "i", "W_", "m"}) {
+        EXPECT_NEAR(height("out/" + std::string(name) + ".json"), height("o.json"), 1e-9 * height("o.json")) << name;
+    }
+    succeeds({"--text", "iW", "-o", "t.stl", "--json", "t.json", "--contact-angle", "30deg", "--equal-height",
+              "--triangles", "900"});
+    for (const json& letter : parsed("t.json")["droplets"]) {
+        EXPECT_NEAR(letter["height_max_m"].get<double>(), height("o.json"), 1e-9 * height("o.json"));
+    }
+    succeeds({"--text", "iW", "-o", "t.stl", "--json", "t.json", "--height", "0.3mm", "--equal-height", "--triangles",
+              "900"});
+    for (const json& letter : parsed("t.json")["droplets"]) {
+        EXPECT_NEAR(letter["height_max_m"].get<double>(), 0.3e-3, 1e-12);
+    }
+    refuses({"--text", "a", "-o", "x.glb", "--equal-height", "--volume", "1uL"}, 2, {"--equal-height and --volume"});
+    refuses({"--text", "a", "-o", "x.glb", "--equal-height", "--fill", "total"}, 2,
+            {"--equal-height and --fill total"});
+}
+
+TEST_F(Glyphs, AxesAndSizeChangeWhatIsMade)
+{
+    const auto area = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> job{"--text", "H", "-o", "h.stl", "--json", "h.json", "--triangles", "300"};
+        job.insert(job.end(), more.begin(), more.end());
+        succeeds(job, kVariable);
+        return parsed("h.json")["mesh"]["footprint_area_m2"].get<double>();
+    };
+    const double regular = area({});
+    EXPECT_GT(area({"--axis", "wght=900", "--axis", "slnt=-5"}), 1.3 * regular);
+    EXPECT_EQ(parsed("h.json")["input"]["type"]["axes"]["wght"], 900);
+    EXPECT_NEAR(area({"--em", "40mm"}), 4 * regular, 1e-2 * regular);
+}
+
+TEST_F(Glyphs, TextsHaveLinesAndBackslashes)
+{
+    const auto droplets = [&](const char* text) {
+        succeeds({"--text", text, "-o", "t.stl", "--json", "t.json", "--triangles", "400", "--align", "centre",
+                  "--line-spacing", "1.2"});
+        return parsed("t.json")["mesh"]["droplets"].get<int>();
+    };
+    EXPECT_EQ(droplets("A\\nB"), 2);
+    EXPECT_EQ(parsed("t.json")["input"]["type"]["text"], "A\nB");
+    EXPECT_EQ(droplets("A\\\\B"), 3);
+    EXPECT_EQ(droplets("A\nB"), 2);
+}
+
+TEST_F(Glyphs, CharsetsMayComeFromAFile)
+{
+    writeFile(directory() / "words.txt", "ba-ba\n");
+    succeeds({"--charset", "@words.txt", "-o", "out/{name}.stl", "--triangles", "200"});
+    EXPECT_THAT(filesIn("out"), UnorderedElementsAre("a.stl", "b.stl", "hyphen.stl", "manifest.json"));
+    writeFile(directory() / "blank.txt", " \n");
+    refuses({"--charset", "@blank.txt", "-o", "{name}.glb"}, 3, {"--charset", "blank.txt holds no characters"});
+    refuses({"--charset", "@none.txt", "-o", "{name}.glb"}, 3, {"--charset", "none.txt cannot be read"});
+}
+
+TEST_F(Glyphs, SomeThatFailAreExitCode6)
+{
+    // A colon asks more of the exact model than its dots can hold, so that nothing stands.
+    const CommandResult result = glyphs({"--charset", ".:", "-o", "out/{name}.stl", "--triangles", "300", "--model",
+                                         "exact", "--volume", "20uL", "--keep-going"});
+    EXPECT_EQ(result.exit_code, 6);
+    const json manifest = parsed("out/manifest.json");
+    EXPECT_EQ(manifest["totals"]["failed"], 2);
+    EXPECT_EQ(manifest["items"][0]["exit_code"], 5);
+}
+
+TEST_F(Glyphs, IsRefusedWithAReason)
+{
+    refuses({"--text", "a"}, 2, {"--output is missing"});
+    refuses({"-o", "x.glb"}, 2, {"--text, --charset, --all or --list is missing"});
+    refuses({"--text", "a", "--all", "-o", "x.glb"}, 2, {"--text and --all exclude each other"});
+    refuses({"--text", "a", "-o", "x.png"}, 2, {"--output 'x.png'", "glb"});
+    refuses({"--text", "a\\t", "-o", "x.glb"}, 2, {"--text", "\\n is a new line"});
+    refuses({"--text", "a\xff", "-o", "x.glb"}, 2, {"UTF-8"});
+    refuses({"--text", " ", "-o", "x.glb"}, 3, {"the text has no ink"});
+    refuses({"--text", "水", "-o", "x.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});
+    refuses({"--charset", "水", "-o", "{name}.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});
+    refuses({"--charset", "U+00A0", "-o", "{name}.glb"}, 3, {"none of the glyphs asked for has ink"});
+    refuses({"--charset", "b-a", "-o", "{name}.glb"}, 2, {"--charset", "runs backward"});
+    refuses({"--charset", "ab", "-o", "x.glb"}, 2, {"same output, 'x.glb'"});
+    refuses({"--charset", "ab", "-o", "{nom}.glb"}, 2, {"--output", "{name}, {gid} or {codepoint}"});
+    refuses({"--charset", "ab", "-o", "-"}, 2, {"--output"});
+    refuses({"--text", "a", "-o", "x.glb", "--face-index", "1"}, 2, {"face index 1 is too large"});
+    refuses({"--text", "a", "-o", "x.glb", "--face-index", "0.5"}, 2, {"--face-index", "whole number"});
+    refuses({"--text", "a", "-o", "x.glb", "--axis", "wght=1"}, 2, {"axis 'wght': the font has no axes"});
+    refuses({"--text", "a", "-o", "x.glb", "--axis", "wght=1"}, 2, {"wght from 100 to 900"}, kVariable);
+    refuses({"--text", "a", "-o", "x.glb", "--axis", "weight"}, 2, {"--axis", "wght=700"}, kVariable);
+    refuses({"--text", "a", "-o", "x.glb", "--em", "20"}, 2, {"--em", "mm"});
+    refuses({"--text", "a", "-o", "x.glb", "--align", "left"}, 2, {"--align", "start, centre, end"});
+    refuses({"--text", "a", "-o", "x.glb", "--line-spacing", "0"}, 2, {"--line-spacing", "from 0.01"});
+    refuses({"--text", "a", "-o", "x.glb", "--shard", "1/2"}, 2, {"--shard goes with --charset or --all"});
+    refuses({"--text", "a", "-o", "x.glb", "--keep-going"}, 2, {"--keep-going goes with --charset or --all"});
+    refuses({"--all", "-o", "{name}.glb", "--onto", "can.glb"}, 2, {"--onto goes with --text alone"});
+    refuses({"--all", "-o", "{name}.glb", "--align", "end"}, 2, {"--align goes with --text alone"});
+    refuses({"--text", "a", "-o", "x.glb"}, 3, {"disc.pgm: is no font"}, "disc.pgm");
+    refuses({"--text", "a", "-o", "x.glb"}, 3, {"cannot read none.ttf"}, "none.ttf");
+    refuses({"--text", "a", "-o", "x.glb"}, 2, {"--font is missing, or no file"}, "-");
+    refuses({"--text", "a", "-o", "x.glb", "--edge", "1nm"}, 2, {"--edge", "would take"});
+    expectRefusal({"glyphs", "--text", "a", "-o", "x.glb"}, 2, {"--font is missing"});
+}
+
+TEST_F(Glyphs, TheFontIsNotReplaced)
+{
+    std::filesystem::copy_file(kSans, directory() / "font.glb");
+    refuses({"--text", "a", "-o", "font.glb"}, 2, {"and --font are the same", "font.glb"}, "font.glb");
+    refuses({"--charset", "a", "-o", "font.glb"}, 2, {"would replace 'font.glb'"}, "font.glb");
+}
+
+}  // namespace
+}  // namespace droplet

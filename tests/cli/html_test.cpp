@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// --html from the outside: what the page holds beside the other files of a run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "droplet/io/page.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::CommandOptions;
+using testing::CommandResult;
+using testing::discPicture;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::runDroplet;
+using testing::ScratchDirectory;
+using ::testing::StartsWith;
+using testing::writeFile;
+
+/// What stands in a script element.
+std::string script(const std::string& html, const std::string& id)
+{
+    const auto at = html.find("<script id=\"" + id + "\"");
+    const auto begin = html.find('>', at) + 1;
+    return at == std::string::npos ? "" : html.substr(begin, html.find("</script>", begin) - begin);
+}
+
+std::string decoded(const std::string& base64)
+{
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : base64.substr(0, base64.find('='))) {
+        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            bytes += static_cast<char>(bits >> count);
+        }
+    }
+    return bytes;
+}
+
+std::string modelOf(const std::string& html)
+{
+    return decoded(script(html, "model"));
+}
+
+json contentOf(const std::string& html)
+{
+    return json::parse(script(html, "content"));
+}
+
+/// The JSON of a GLB.
+json gltfOf(const std::string& glb)
+{
+    std::array<std::uint32_t, 5> head{};
+    EXPECT_GE(glb.size(), sizeof head);
+    std::memcpy(head.data(), glb.data(), sizeof head);
+    return json::parse(glb.substr(sizeof head, head[3]));
+}
+
+class HtmlTest : public ::testing::Test {
+protected:
+    HtmlTest()
+    {
+        if (!pageIsBuiltIn()) {
+            throw std::logic_error("--html is tested where it is built in");
+        }
+        writeFile(directory() / "disc.pgm", discPicture(64, 24.0));
+    }
+
+    [[nodiscard]] const fs::path& directory() const { return scratch_.path(); }
+    [[nodiscard]] std::string bytesOf(const std::string& name) const { return readFile(directory() / name); }
+    [[nodiscard]] std::vector<std::string> names() const { return scratch_.names(); }
+
+    [[nodiscard]] CommandResult run(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.end(), {"--triangles", "500", "-q"});
+        CommandOptions options;
+        options.directory = directory();
+        return runDroplet(arguments, options);
+    }
+
+    void make(const std::vector<std::string>& arguments) const
+    {
+        const auto result = run(arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.error;
+        EXPECT_EQ(result.output + result.error, "");
+    }
+
+private:
+    ScratchDirectory scratch_;
+};
+
+TEST_F(HtmlTest, ChangesNothingOfTheOtherFiles)
+{
+    for (const std::string extension : {".glb", ".gltf", ".obj"}) {
+        make({"disc.pgm", "plain" + extension, "--json", "plain.json"});
+        make({"disc.pgm", "beside" + extension, "--html", "page.html", "--json", "beside.json"});
+        EXPECT_EQ(bytesOf("plain" + extension), bytesOf("beside" + extension));
+        json plain = json::parse(bytesOf("plain.json"));
+        json beside = json::parse(bytesOf("beside.json"));
+        for (json* report : {&plain, &beside}) {
+            report->erase("time_s");
+            report->erase("peak_memory_bytes");
+            (*report)["output"].erase("path");
+        }
+        EXPECT_EQ(plain, beside);
+        EXPECT_TRUE(beside["fill"]["range"].is_null()) << "the slider is the page's alone";
+    }
+}
+
+TEST_F(HtmlTest, HasASliderWhereverThereCanBeOne)
+{
+    make({"disc.pgm", "disc.obj", "--html", "page.html"});
+    EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0]["extras"]["fill_range"], json({0.0, 2.0}));
+    make({"disc.pgm", "disc.obj", "--html", "page.html", "--fill-range", "0.5..3"});
+    EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0]["extras"]["fill_range"], json({0.5, 3.0}));
+    for (const std::vector<std::string>& without :
+         {std::vector<std::string>{"--model", "exact"}, std::vector<std::string>{"--no-penetration"}}) {
+        std::vector<std::string> arguments{"disc.pgm", "disc.obj", "--html", "page.html"};
+        arguments.insert(arguments.end(), without.begin(), without.end());
+        make(arguments);
+        EXPECT_FALSE(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0].contains("weights")) << without[0];
+    }
+}
+
+TEST_F(HtmlTest, ShowsTheVeryFileThatIsWritten)
+{
+    make({"disc.pgm", "disc.glb", "--html", "page.html", "--fill-range", "0..2", "--material", "honey"});
+    EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
+    make({"disc.pgm", "disc.glb", "--html", "page.html", "--model", "exact", "--open"});
+    EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
+}
+
+TEST_F(HtmlTest, MaterialIsOfUseToThePage)
+{
+    make({"disc.pgm", "disc.stl", "--html", "page.html", "--material", "mercury"});  // and no word of warning
+    EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["materials"][0]["name"], "mercury");
+}
+
+TEST_F(HtmlTest, HoldsTheReportAndThePicturesName)
+{
+    make({"disc.pgm", "out.glb", "--html", "page.html", "--json", "report.json", "--volume", "20uL"});
+    json report = json::parse(bytesOf("report.json"));
+    report.erase("time_s");
+    report.erase("peak_memory_bytes");
+    const json content = contentOf(bytesOf("page.html"));
+    EXPECT_EQ(content["title"], "disc");
+    EXPECT_EQ(content["report"], report);
+    EXPECT_NEAR(content["report"]["shape"]["volume_ul"].get<double>(), 20.0, 1e-6);
+}
+
+TEST_F(HtmlTest, OddNamesOfPicturesStayNames)
+{
+    const std::string odd = "a \"b\" <script>alert(1)<!-- & \xff.pgm";
+    writeFile(directory() / odd, discPicture(64, 24.0));
+    make({odd, "out.glb", "--html", "page.html"});
+    make({"disc.pgm", "out.glb", "--html", "plain.html"});
+    const json content = contentOf(bytesOf("page.html"));
+    EXPECT_EQ(content["title"], "a \"b\" <script>alert(1)<!-- & \xef\xbf\xbd");
+    EXPECT_EQ(content["report"]["input"]["path"], "a \"b\" <script>alert(1)<!-- & \xef\xbf\xbd.pgm");
+    const auto count = [](const std::string& text, const std::string& word) {
+        std::size_t found = 0;
+        for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+            ++found;
+        }
+        return found;
+    };
+    for (const char* word : {"<script", "<!--", "</title"}) {
+        EXPECT_EQ(count(bytesOf("page.html"), word), count(bytesOf("plain.html"), word)) << word;
+    }
+}
+
+TEST_F(HtmlTest, IsTheSameAtAnyNumberOfThreads)
+{
+    make({"disc.pgm", "out.glb", "--html", "one.html", "-j", "1"});
+    make({"disc.pgm", "out.glb", "--html", "two.html", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.html"), bytesOf("two.html"));
+}
+
+TEST_F(HtmlTest, GoesToStandardOutput)
+{
+    const auto piped = run({"disc.pgm", "out.glb", "--html", "-"});
+    ASSERT_EQ(piped.exit_code, 0) << piped.error;
+    EXPECT_THAT(piped.output, StartsWith("<!doctype html>"));
+    make({"disc.pgm", "out.glb", "--html", "page.html"});
+    EXPECT_EQ(piped.output, bytesOf("page.html"));
+}
+
+TEST_F(HtmlTest, IsRefusedWhereItWouldReplaceAnotherFile)
+{
+    const auto refused = [&](const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.exit_code, exit_code);
+        EXPECT_THAT(result.error, HasSubstr(words));
+    };
+    refused({"disc.pgm", "out.glb", "--html", "disc.pgm"}, 2, "--html and INPUT are the same");
+    refused({"disc.pgm", "out.glb", "--html", "./out.glb"}, 2, "--html and OUTPUT are the same");
+    refused({"disc.pgm", "out.glb", "--html", "x", "--json", "x"}, 2, "are the same");
+    refused({"disc.pgm", "out.glb", "--html", "nowhere/page.html"}, 4, "nowhere");
+    refused({"disc.pgm", "out.glb", "--html", "/dev/full"}, 4, "/dev/full");
+    writeFile(directory() / "page.html", "older");
+    refused({"disc.pgm", "out.glb", "--html", "page.html", "--no-clobber"}, 4, "page.html");
+    // A report that cannot be written takes the page with it.
+    refused({"disc.pgm", "out.glb", "--html", "page.html", "--json", "/dev/full"}, 4, "/dev/full");
+    EXPECT_EQ(bytesOf("page.html"), "older");
+    EXPECT_THAT(names(), ElementsAre("disc.pgm", "page.html"));
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures from the outside: files, options that fit together, and those that do not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "droplet/picture/picture.h"
+#include "support/command.h"
+#include "support/refusal.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::readFile;
+using testing::RefusalTest;
+
+class PreviewTest : public RefusalTest {
+protected:
+    /// A run on the disc with small pictures, which must do well.
+    CommandResult made(std::vector<std::string> options) const
+    {
+        std::vector<std::string> arguments = {"disc.pgm", "out.glb", "--triangles", "500", "--preview-size", "64x48"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return result;
+    }
+    [[nodiscard]] Picture pictureOf(const std::string& name) const { return readPicture(directory() / name); }
+};
+
+TEST_F(PreviewTest, WritesAPngOfTheSizeAskedFor)
+{
+    EXPECT_THAT(made({"--preview", "look.png"}).output, IsEmpty());
+    const Picture picture = pictureOf("look.png");
+    EXPECT_EQ(picture.width, 64);
+    EXPECT_EQ(picture.height, 48);
+    EXPECT_GT(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 200) << "a highlight";
+    EXPECT_TRUE(fs::exists(directory() / "out.glb"));
+}
+
+TEST_F(PreviewTest, IsTheSameAtAnyNumberOfThreads)
+{
+    made({"--preview", "one.png", "-j", "1"});
+    made({"--preview", "two.png", "-j", "2"});
+    EXPECT_EQ(readFile(directory() / "one.png"), readFile(directory() / "two.png"));
+    EXPECT_EQ(made({"--preview", "-", "-q"}).output, readFile(directory() / "one.png"));
+}
+
+TEST_F(PreviewTest, EveryOptionShowsInThePicture)
+{
+    made({"--preview", "plain.png"});
+    const Picture plain = pictureOf("plain.png");
+    const std::vector<std::vector<std::string>> changes = {
+        {"--view", "top"},        {"--view", "side"},
+        {"--material", "ink"},    {"--material", "plain"},
+        {"--colour", "contours"}, {"--colour", "contact-angle"},
+        {"--ground", "disc.pgm"}, {"--surface", "sphere:R=30mm"},
+    };
+    std::vector<Picture> seen = {plain};
+    for (const std::vector<std::string>& change : changes) {
+        std::vector<std::string> options = {"--preview", "changed.png"};
+        options.insert(options.end(), change.begin(), change.end());
+        made(options);
+        seen.push_back(pictureOf("changed.png"));
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), seen.back()), 1) << change[0] << ' ' << change[1];
+    }
+    made({"--preview", "same.png", "--view", "three-quarter", "--material", "water", "--colour", "look"});
+    EXPECT_EQ(pictureOf("same.png"), plain);
+}
+
+// A turn of a disc seen from above on ground of one colour shows the same disc, under lights that stay.
+TEST_F(PreviewTest, TurntablesAreNumberedAndTurn)
+{
+    made({"--preview", "turn.png", "--turntable", "3"});
+    for (const char* name : {"turn-001.png", "turn-002.png", "turn-003.png"}) {
+        EXPECT_EQ(pictureOf(name).width, 64) << name;
+    }
+    EXPECT_FALSE(fs::exists(directory() / "turn.png"));
+    EXPECT_FALSE(fs::exists(directory() / "turn-004.png"));
+    EXPECT_NE(pictureOf("turn-001.png"), pictureOf("turn-002.png")) << "the table's ruling";
+}
+
+TEST_F(PreviewTest, WhatHasNoEffectIsSaid)
+{
+    for (const std::vector<std::string>& option : {std::vector<std::string>{"--view", "top"},
+                                                   {"--ground", "disc.pgm"},
+                                                   {"--colour", "contours"},
+                                                   {"--turntable", "2"}}) {
+        EXPECT_THAT(made(option).error, HasSubstr("warning: " + option[0] + " has no effect without --preview"));
+    }
+    EXPECT_THAT(made({"--preview", "a.png", "--colour", "contours", "--ground", "disc.pgm"}).error,
+                HasSubstr("--ground has no effect with --colour contours"));
+    // A picture shows the material that a mesh alone would not.
+    const CommandResult stl = run({"disc.pgm", "out.stl", "--triangles", "500", "--material", "ink", "--preview",
+                                   "ink.png", "--preview-size", "32x32"});
+    EXPECT_EQ(stl.exit_code, 0);
+    EXPECT_THAT(stl.error, Not(HasSubstr("--material")));
+}
+
+TEST_F(PreviewTest, RefusesWhatCannotBe)
+{
+    const auto refused = [&](std::vector<std::string> options, int exit_code, const std::vector<std::string>& words) {
+        std::vector<std::string> arguments = {"disc.pgm", "new.glb"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expectRefusal(arguments, exit_code, words);
+    };
+    for (const char* size :
+         {"1280", "1280x", "x960", "0x0", "8x8", "8193x16", "16x8193", "64x48x3", "-64x48", "64X48"}) {
+        refused({"--preview", "a.png", "--preview-size", size}, 2, {"--preview-size", size, "from 16 to 8192"});
+    }
+    refused({"--preview", "a.jpg"}, 2, {"--preview", "a.jpg", ".png"});
+    refused({"--preview", "a.png", "--view", "below"}, 2, {"--view", "three-quarter, top, side"});
+    refused({"--preview", "a.png", "--colour", "red"}, 2, {"--colour", "look, contours, contact-angle"});
+    refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
+    refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
+    refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview -"});
+    refused({"--preview", "a.png", "--colour", "contours", "--onto", "o.glb"}, 2, {"--colour contours", "--onto"});
+    refused({"--preview", "a.png", "--ground", "missing.png"}, 3, {"missing.png"});
+    refused({"--preview", "a.png", "--ground", "old.json"}, 3, {"old.json"});
+    refused({"--preview", "nowhere/a.png"}, 4, {"nowhere"});
+    expectRefusal({"disc.pgm", "a.png", "--format", "glb", "--preview", "./a.png"}, 2, {"--preview", "OUTPUT"});
+    testing::writeFile(directory() / "ground.png", "not read yet");
+    expectRefusal({"disc.pgm", "new.glb", "--preview", "ground.png", "--ground", "ground.png"}, 2,
+                  {"--preview", "--ground"});
+    expectRefusal({"disc.pgm", "new.glb", "--preview", "-", "--json", "-"}, 2, {"--preview", "--json"});
+}
+
+// Whole or not at all, all of them together.
+TEST_F(PreviewTest, PictureThatCannotBeWrittenLeavesNothing)
+{
+    expectRefusal({"disc.pgm", "new.glb", "--triangles", "500", "--preview-size", "64x48", "--preview", "/dev/full"}, 2,
+                  {"--preview"});
+    fs::create_directory(directory() / "b-002.png");
+    expectRefusal({"disc.pgm", "new.glb", "--triangles", "500", "--preview", "b.png", "--turntable", "2"}, 4,
+                  {"b-002.png"});
+    testing::writeFile(directory() / "older.png", "older");
+    expectRefusal({"disc.pgm", "new.glb", "--preview", "older.png", "--no-clobber"}, 4, {"older.png"});
+}
+
+}  // namespace
+}  // namespace droplet
