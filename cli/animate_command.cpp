@@ -15,6 +15,8 @@
 #include "droplet/error.h"
 #include "droplet/io/animation.h"
 #include "droplet/io/sequence_report.h"
+#include "droplet/picture/contact_sheet.h"
+#include "droplet/picture/render.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
@@ -54,6 +56,9 @@ void check(const AnimateOptions& options, const Frames& frames)
         }
     } else {
         outputs.push_back({"OUTPUT", options.output});
+    }
+    if (options.contact_sheet) {
+        outputs.push_back({"--contact-sheet", *options.contact_sheet});
     }
     if (options.json) {
         outputs.push_back({"--json", *options.json});
@@ -153,7 +158,58 @@ private:
         } else {
             animation_->add(frame_->droplet.surface, frame_->continues);
         }
+        if (options_.contact_sheet) {
+            photograph(report);
+        }
         report_.frames.push_back(std::move(report));
+    }
+
+    /// So many of a sequence's frames are enough to see how it goes.
+    static constexpr std::size_t kMostTiles = 60;
+
+    /// Whether a frame is on the sheet; of a video, that is settled in the end.
+    [[nodiscard]] static bool isChosen(std::size_t frame, std::size_t count)
+    {
+        return count <= kMostTiles || frame * kMostTiles / count != (frame + 1) * kMostTiles / count;
+    }
+
+    void photograph(const droplet::FrameReport& report)
+    {
+        const std::size_t number = report_.frames.size();
+        if (!isChosen(number, frames_.count().value_or(0))) {
+            return;
+        }
+        constexpr int kWidth = 320;
+        constexpr int kHeight = 240;
+        droplet::RenderOptions render;
+        render.width = kWidth;
+        render.height = kHeight;
+        render.look = droplet::lookOf(options_.settings.material);
+        render.extent = frame_->droplet.domain.extent;
+        if (!sequence_.droplet.solve.ground.flat()) {
+            render.stand = droplet::groundMesh(sequence_.droplet.solve.ground, render.extent);
+            render.frames_stand = false;
+        }
+        std::ostringstream caption;
+        caption << "frame " << number + 1 << ": " << std::setprecision(3);
+        if (report.pressure) {
+            caption << *report.pressure << " Pa, ";
+        } else {
+            caption << report.droplets.size() << " droplets, ";
+        }
+        caption << report.total.height_max / droplet::kMillimetre << " mm high";
+        tiles_.push_back({droplet::render(frame_->droplet.surface, render), caption.str()});
+    }
+
+    [[nodiscard]] droplet::Picture sheet()
+    {
+        std::vector<droplet::Tile> chosen;
+        for (std::size_t k = 0; k < tiles_.size(); ++k) {
+            if (isChosen(k, tiles_.size())) {
+                chosen.push_back(std::move(tiles_[k]));
+            }
+        }
+        return droplet::contactSheet(chosen);
     }
 
     /// Frames tend to have the same to complain of; once is enough.
@@ -170,6 +226,9 @@ private:
         std::vector<OutputFile> files;
         if (!options_.files) {
             files.push_back({options_.output, [&](std::ostream& out) { report_.bytes = animation_->write(out); }});
+        }
+        if (options_.contact_sheet) {
+            files.push_back({*options_.contact_sheet, [&](std::ostream& out) { droplet::writePng(sheet(), out); }});
         }
         if (options_.json) {
             files.push_back({*options_.json, [&](std::ostream& out) {
@@ -199,6 +258,7 @@ private:
     bool inverted_ = false;
     bool told_channel_ = false;
     std::set<std::string> told_;
+    std::vector<droplet::Tile> tiles_;
     droplet::SequenceReport report_;
 };
 

@@ -38,6 +38,9 @@ void declareAnimate(CommandLine& line)
              "reservoir; track, that of each, through merging and\n"
              "splitting [total]");
     line.add("Sequence", "--fps", "N", "frames per second [24, or the video's]");
+    line.add("Sequence", "--contact-sheet", "FILE",
+             "write a PNG of the frames side by side, up to 60 of\n"
+             "them; - is standard output");
     declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
@@ -120,6 +123,12 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     options.run = readRun(line);
     if (const auto json = line.value("--json")) {
         options.json = json->text;
+    }
+    if (const auto sheet = line.value("--contact-sheet")) {
+        if (sheet->text != kStandardStream && std::filesystem::path(sheet->text).extension() != ".png") {
+            refuse(*sheet, "a file that ends in .png, or -");
+        }
+        options.contact_sheet = sheet->text;
     }
     const std::vector<Given> files = line.values("FILES");
     if (files.size() < 2) {

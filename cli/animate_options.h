@@ -21,7 +21,8 @@ struct AnimateOptions {
     droplet::Format format = droplet::Format::Glb;
     droplet::VolumeMode volume_mode = droplet::VolumeMode::Total;
     std::optional<double> frames_per_second;
-    std::optional<std::string> json;  ///< path or kStandardStream
+    std::optional<std::string> json;           ///< path or kStandardStream
+    std::optional<std::string> contact_sheet;  ///< path or kStandardStream
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;

@@ -20,6 +20,7 @@ _droplet_shape()
         --material) choices='water ink mercury honey plain' ;;
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
+        --volume-mode) choices='total track' ;;
         --solver) choices='auto llt cholmod multigrid' ;;
         --view) choices='three-quarter top side' ;;
         --colour) choices='look contours contact-angle' ;;
@@ -28,13 +29,13 @@ _droplet_shape()
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --preview-size | --face-index | --axis | --text | --charset | --em | --line-spacing | \
-            --shard | --turntable | --threads | -j)
+            --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
+            --line-spacing | --shard | --turntable | --threads | -j)
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --font | --output | -o | --manifest | --preview | --ground | --picture | --json | \
-            --html | --export-evolver | --config) ;;
+        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | \
+            --picture | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -45,6 +46,7 @@ _droplet_shape()
                 local showing='--preview --view --preview-size --ground --colour --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size'
                 case ${COMP_WORDS[1]} in
+                    animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
                     batch)
                         choices="$picture $making $running --format --fill-range --json
                             --output --recursive --keep-going --no-resume --shard --manifest"
@@ -65,7 +67,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='batch compare glyphs'
+        local commands='animate batch compare glyphs'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

@@ -16,6 +16,7 @@ const CommandText& commandText()
     static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
+                                  "  animate    frames of a moving footprint; see droplet-shape animate --help\n"
                                   "  batch      a droplet of each of many pictures; see droplet-shape batch --help\n"
                                   "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
                                   "  glyphs     a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"

@@ -111,6 +111,7 @@ std::vector<Overlap> overlaps(const Domain& first, const Domain& second, double 
         }
     }
     std::vector<Overlap> result;
+    result.reserve(areas.size());
     for (const auto& [pair, area] : areas) {
         result.push_back({pair.first, pair.second, area});
     }

@@ -349,6 +349,7 @@ std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const
     const Vec2 from = centroid(points);
     const Vec2 to = centroid(loop.points);
     std::vector<Vec2> moved;
+    moved.reserve(points.size());
     for (const Vec2 p : points) {
         moved.push_back(to + scale * (p - from));
     }

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sequences from the outside: frames from anywhere, animations and files, report, complaints.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::CommandOptions;
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using testing::greymap;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::readFile;
+using testing::runDroplet;
+using testing::runProgram;
+using testing::ScratchDirectory;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using testing::writeFile;
+
+/// Two discs that approach and merge in the fourth of five frames, 64 × 48 pixels, edges smooth.
+std::string picture(int frame)
+{
+    const double x = 14.0 + 4.0 * std::min(frame, 4);
+    return greymap(64, 48, [=](int i, int j) {
+        const double first = 9.0 - std::hypot(i + 0.5 - x, j + 0.5 - 24.0);
+        const double second = 11.0 - std::hypot(i + 0.5 - 46.0, j + 0.5 - 24.0);
+        return static_cast<int>(std::lround(255.0 * std::clamp(std::max(first, second) + 0.5, 0.0, 1.0)));
+    });
+}
+
+class AnimateTest : public ::testing::Test {
+protected:
+    AnimateTest()
+    {
+        fs::create_directory(directory() / "frames");
+        for (int frame = 0; frame < 5; ++frame) {
+            writeFile(directory() / "frames" / name(frame), picture(frame));
+        }
+    }
+
+    static std::string name(int frame)
+    {
+        std::string digits = std::to_string(frame + 8);
+        return "f" + std::string(4 - digits.size(), '0') + digits + ".pgm";
+    }
+
+    [[nodiscard]] const fs::path& directory() const { return scratch_.path(); }
+    [[nodiscard]] std::string bytesOf(const std::string& file) const { return readFile(directory() / file); }
+
+    [[nodiscard]] CommandResult run(std::vector<std::string> arguments, CommandOptions options = {}) const
+    {
+        arguments.insert(arguments.begin(), "animate");
+        arguments.insert(arguments.end(), {"--triangles", "800"});
+        options.directory = directory();
+        return runDroplet(arguments, options);
+    }
+
+    void make(std::vector<std::string> arguments) const
+    {
+        arguments.emplace_back("-q");
+        const auto result = run(arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.error;
+        EXPECT_THAT(result.error, IsEmpty());
+        EXPECT_THAT(result.output, IsEmpty());
+    }
+
+    [[nodiscard]] json report(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.end(), {"--json", "report.json"});
+        make(arguments);
+        return json::parse(bytesOf("report.json"));
+    }
+
+    void expectFailure(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
+                       const CommandOptions& options = {}) const
+    {
+        writeFile(directory() / "old.glb", "an older file\n");
+        const auto result = run(arguments, options);
+        EXPECT_EQ(result.exit_code, exit_code);
+        EXPECT_THAT(result.errorLines(), SizeIs(1)) << result.error;
+        for (const std::string& word : words) {
+            EXPECT_THAT(result.error, HasSubstr(word));
+        }
+        EXPECT_EQ(bytesOf("old.glb"), "an older file\n");
+    }
+
+    /// A lossless video of the frames.
+    void makeVideo() const
+    {
+        CommandOptions options;
+        options.directory = directory();
+        const auto made =
+            runProgram({"ffmpeg", "-v", "error", "-framerate", "10", "-start_number", "8", "-i", "frames/f%04d.pgm",
+                        "-c:v", "ffv1", "-pix_fmt", "gray", "-fflags", "+bitexact", "film.mkv"},
+                       options);
+        ASSERT_EQ(made.exit_code, 0) << "ffmpeg (Debian: ffmpeg) makes the video\n" << made.error;
+    }
+
+private:
+    ScratchDirectory scratch_;
+};
+
+std::vector<double> volumes(const json& report)
+{
+    std::vector<double> all;
+    for (const json& frame : report["frames"]) {
+        all.push_back(frame["volume_m3"]);
+    }
+    return all;
+}
+
+TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
+{
+    const json told = report({"frames/f%04d.pgm", "film.glb", "--volume", "20uL", "--fps", "12.5"});
+    EXPECT_THAT(bytesOf("film.glb"), StartsWith("glTF"));
+    EXPECT_EQ(told["schema"], "droplet-shape.sequence/1");
+    EXPECT_EQ(told["volume_mode"], "total");
+    EXPECT_EQ(told["output"]["frames_per_second"], 12.5);
+    EXPECT_EQ(told["output"]["bytes"], bytesOf("film.glb").size());
+    EXPECT_EQ(told["fill"]["sharing"], "total");
+    ASSERT_THAT(told["frames"], SizeIs(5));
+    for (const json& frame : told["frames"]) {
+        EXPECT_NEAR(frame["volume_ul"].get<double>(), 20.0, 20e-9);
+        EXPECT_TRUE(frame["closed"].get<bool>());
+        EXPECT_EQ(frame["volume_gained_m3"], 0.0);
+    }
+    EXPECT_EQ(told["frames"][0]["input"], "frames/f0008.pgm");
+    EXPECT_THAT(told["frames"][0]["droplets"], SizeIs(2));
+    EXPECT_THAT(told["frames"][4]["droplets"], SizeIs(1));
+    EXPECT_EQ(told["transitions"]["count"], 4);
+    EXPECT_EQ(told["transitions"]["vertices_kept"], 3);
+    EXPECT_TRUE(told["frames"][1]["continues"].get<bool>());
+    EXPECT_EQ(told["input"]["width_px"], 64);
+}
+
+TEST_F(AnimateTest, TracksDropletsThroughAMerger)
+{
+    const json told = report({"frames/f%04d.pgm", "film.glb", "--volume-mode", "track"});
+    const json& frames = told["frames"];
+    const double all = frames[0]["volume_m3"];
+    for (const double volume : volumes(told)) {
+        EXPECT_NEAR(volume / all, 1.0, 1e-9);
+    }
+    EXPECT_NEAR(frames[0]["droplets"][0]["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6);
+    EXPECT_TRUE(frames[0]["pressure_pa"].is_null());
+    const json& merged = frames[4]["droplets"];
+    ASSERT_THAT(merged, SizeIs(1));
+    EXPECT_FALSE(merged[0]["from"].empty());
+    const auto merger =
+        std::find_if(frames.begin(), frames.end(), [](const json& frame) { return frame["droplets"].size() == 1; });
+    EXPECT_THAT((*merger)["droplets"][0]["from"], SizeIs(2));
+    // The larger of the two.
+    const json& before = (*(merger - 1))["droplets"];
+    const std::size_t larger = before[0]["volume_m3"] > before[1]["volume_m3"] ? 0 : 1;
+    EXPECT_EQ((*merger)["droplets"][0]["id"], before[larger]["id"]);
+}
+
+TEST_F(AnimateTest, FramesComeFromAPatternAFolderAListOrAVideo)
+{
+    make({"frames/f%04d.pgm", "pattern.glb"});
+    make({"frames", "folder.glb"});
+    make({"frames/f0008.pgm", "frames/f0009.pgm", "frames/f0010.pgm", "frames/f0011.pgm", "frames/f0012.pgm",
+          "list.glb"});
+    EXPECT_EQ(bytesOf("folder.glb"), bytesOf("pattern.glb"));
+    EXPECT_EQ(bytesOf("list.glb"), bytesOf("pattern.glb"));
+    ASSERT_NO_FATAL_FAILURE(makeVideo());
+    const json told = report({"film.mkv", "video.glb"});
+    EXPECT_EQ(told["output"]["frames_per_second"], 10.0) << "the video's own";
+    EXPECT_EQ(told["frames"][2]["input"], "film.mkv, frame 3");
+    make({"film.mkv", "video.glb", "--fps", "24"});
+    EXPECT_EQ(bytesOf("video.glb"), bytesOf("pattern.glb"));
+}
+
+TEST_F(AnimateTest, AFolderIsInTheOrderOfItsNumbers)
+{
+    fs::create_directory(directory() / "loose");
+    for (int frame = 0; frame < 5; ++frame) {
+        writeFile(directory() / "loose" / (std::to_string(frame + 8) + ".pgm"), picture(frame));
+    }
+    writeFile(directory() / "loose" / "notes.txt", "no picture");
+    make({"frames", "frames.glb"});
+    make({"loose/", "loose.glb"});
+    EXPECT_EQ(bytesOf("loose.glb"), bytesOf("frames.glb"));
+}
+
+TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
+{
+    fs::create_directory(directory() / "out");
+    const json told = report({"frames/f%04d.pgm", "out/%03d.obj"});
+    std::vector<std::string> names;
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::directory_iterator(directory() / "out")) {
+        names.push_back(entry.path().filename().string());
+        bytes += entry.file_size();
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_THAT(names, ElementsAre("008.obj", "009.obj", "010.obj", "011.obj", "012.obj"));
+    EXPECT_EQ(told["output"]["bytes"], bytes);
+    EXPECT_EQ(told["frames"][1]["output"], "out/009.obj");
+    // Its first frame is what the main job makes of that picture.
+    CommandOptions options;
+    options.directory = directory();
+    ASSERT_EQ(
+        runDroplet({"frames/f0008.pgm", "one.obj", "--fill", "total", "--triangles", "800", "-q"}, options).exit_code,
+        0);
+    EXPECT_EQ(bytesOf("out/008.obj"), bytesOf("one.obj"));
+}
+
+TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
+{
+    make({"frames", "film.glb", "--contact-sheet", "sheet.png"});
+    const auto size = [&](const std::string& file) {
+        const std::string bytes = bytesOf(file);
+        EXPECT_THAT(bytes, StartsWith("\x89PNG"));
+        const auto word = [&](std::size_t at) {
+            unsigned value = 0;
+            for (std::size_t i = at; i < at + 4; ++i) {
+                value = 256 * value + static_cast<unsigned char>(bytes.at(i));
+            }
+            return value;
+        };
+        return std::pair(word(16), word(20));
+    };
+    const auto [width, height] = size("sheet.png");
+    EXPECT_GE(width, 2 * 320U);
+    EXPECT_GE(height, 2 * 240U);
+    make({"frames/f0008.pgm", "one.glb", "--contact-sheet", "one.png", "-j", "1"});
+    EXPECT_LT(size("one.png").first, width);
+    make({"frames", "film.glb", "--contact-sheet", "again.png", "-j", "1"});
+    EXPECT_EQ(bytesOf("again.png"), bytesOf("sheet.png"));
+}
+
+TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
+{
+    for (const char* mode : {"total", "track"}) {
+        make({"frames", "one.glb", "--volume-mode", mode, "-j", "1"});
+        make({"frames", "other.glb", "--volume-mode", mode, "-j", "2"});
+        EXPECT_EQ(bytesOf("one.glb"), bytesOf("other.glb"));
+    }
+}
+
+TEST_F(AnimateTest, ReportHasTheKeysOfTheReadme)
+{
+    const std::string readme = readFile(std::string(DROPLET_SOURCE_DIR) + "/README.md");
+    const std::string fence = "```sequence-report\n";
+    const auto begin = readme.find(fence) + fence.size();
+    const std::string block = readme.substr(begin, readme.find("```", begin) - begin);
+    make({"frames", "film.glb", "--json", "report.json"});
+    const auto told = nlohmann::ordered_json::parse(bytesOf("report.json"));
+    std::string written;
+    bool breaks = true;  // keys without others below them share a line with those next to them
+    for (const auto& [key, value] : told.items()) {
+        const auto& keyed = key == "frames" ? value.at(0) : value;
+        if (keyed.is_object()) {
+            written += (breaks ? "" : "\n") + key + ":";
+            for (const auto& member : keyed.items()) {
+                written += " " + member.key();
+            }
+            written += "\n";
+            breaks = true;
+        } else {
+            written += (breaks ? "" : " ") + key;
+            breaks = false;
+        }
+    }
+    EXPECT_EQ(block, written + "\n");
+    const auto& droplet = told["frames"][0]["droplets"][0];
+    for (const char* key : {"id", "from", "volume_m3", "pressure_pa", "height_max_m", "holes"}) {
+        EXPECT_TRUE(droplet.contains(key)) << key;
+    }
+}
+
+TEST_F(AnimateTest, SaysWhatItDid)
+{
+    const auto result = run({"frames", "film.glb", "--volume", "20uL"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.error, HasSubstr("5 frames, 20 uL; vertices kept in 3 of 4 steps"));
+    EXPECT_THAT(result.error, HasSubstr("film.glb: "));
+    const auto piped = run({"frames", "-", "-q"});
+    EXPECT_EQ(piped.exit_code, 0);
+    EXPECT_THAT(piped.output, StartsWith("glTF"));
+}
+
+TEST_F(AnimateTest, ComplainsOfFramesByTheirNames)
+{
+    expectFailure({"frames/g%04d.pgm", "old.glb"}, 3, {"frames/g%04d.pgm", "no such file"});
+    expectFailure({"nowhere/%d.pgm", "old.glb"}, 3, {"nowhere", "No such file"});
+    expectFailure({"frames/f0008.pgm", "frames/none.pgm", "old.glb"}, 3, {"frames/none.pgm"});
+    writeFile(directory() / "frames/f0010.pgm", greymap(64, 48, [](int, int) { return 0; }));
+    expectFailure({"frames", "old.glb"}, 3, {"frames/f0010.pgm", "liquid"});
+    writeFile(directory() / "frames/f0010.pgm", greymap(60, 48, [](int i, int) { return i > 30 ? 255 : 0; }));
+    expectFailure({"frames", "old.glb"}, 3, {"frames/f0010.pgm", "60 x 48", "frames/f0008.pgm", "64 x 48"});
+    fs::remove(directory() / "frames/f0010.pgm");
+    expectFailure({"frames/f%04d.pgm", "old.glb"}, 3, {"frames/f0010.pgm is missing", "from 8 to 12"});
+    fs::create_directory(directory() / "empty");
+    expectFailure({"empty", "old.glb"}, 3, {"empty", "no picture"});
+}
+
+TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)
+{
+    writeFile(directory() / "film.mkv", "no video");
+    expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe cannot read it"});
+    expectFailure({"none.mkv", "old.glb"}, 3, {"none.mkv", "no such file"});
+    ASSERT_NO_FATAL_FAILURE([&] {
+        fs::remove(directory() / "film.mkv");
+        makeVideo();
+    }());
+    CommandOptions without;
+    without.environment = {{"PATH", "/nowhere"}};
+    expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe, which cannot be run"}, without);
+}
+
+TEST_F(AnimateTest, RefusesWhatCannotBe)
+{
+    const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& words) {
+        arguments.insert(arguments.begin(), {"frames", "old.glb"});
+        expectFailure(arguments, 2, words);
+    };
+    refused({"--volume-mode", "some"}, {"--volume-mode", "'some'", "total, track"});
+    refused({"--fps", "0"}, {"--fps", "'0'", "0.001 to 1000"});
+    refused({"--fps", "fast"}, {"--fps", "'fast'"});
+    refused({"--fill", "each"}, {"--fill each and --volume-mode total exclude each other"});
+    refused({"--contact-sheet", "sheet.jpg"}, {"--contact-sheet", "'sheet.jpg'", ".png"});
+    refused({"--contact-sheet", "old.glb.png", "--json", "old.glb.png"}, {"--json and --contact-sheet are the same"});
+    refused({"--onto", "can.glb"}, {"--onto has no place in a sequence"});
+    expectFailure({}, 2, {"INPUT is missing"});
+    expectFailure({"frames"}, 2, {"OUTPUT is missing"});
+    expectFailure({"frames", "film.obj"}, 2, {"film.obj", "out/%04d.obj"});
+    expectFailure({"frames", "film"}, 2, {"film", "no extension"});
+    expectFailure({"frames", "out/%04x.glb"}, 2, {"OUTPUT", "%04d"});
+    expectFailure({"frames", "%d/%d.glb"}, 2, {"OUTPUT", "file's name"});
+    expectFailure({"frames", "nowhere/%d.glb"}, 4, {"nowhere"});
+    expectFailure({"frames/f%04d.pgm", "frames/f%04d.pgm"}, 2, {"f%04d.pgm"});
+    expectFailure({"frames", "old.glb", "--no-clobber"}, 4, {"old.glb", "exists"});
+}
+
+}  // namespace
+}  // namespace droplet
