@@ -33,7 +33,7 @@ _droplet_shape()
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --font | --output | -o | --manifest | --preview | --ground | --picture | --json | \
+        --surface | --onto | --font | --output | -o | --manifest | --preview | --contact-sheet | --ground | --picture | --json | \
             --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
@@ -47,11 +47,11 @@ _droplet_shape()
                 case ${COMP_WORDS[1]} in
                     batch)
                         choices="$picture $making $running --format --fill-range --json
-                            --output --recursive --keep-going --no-resume --shard --manifest"
+                            --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet"
                         ;;
                     glyphs) choices="$making $running $showing --format --fill-range --json --html --font --face-index
                         --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
-                        --equal-height --keep-going --no-resume --shard --manifest" ;;
+                        --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;

@@ -185,7 +185,7 @@ void refuseOthers(const CommandLine& line, bool is_text)
                 clash(option, "--charset or --all, not with --text");
             }
         }
-        for (const char* option : {"--shard", "--manifest"}) {
+        for (const char* option : {"--shard", "--manifest", "--contact-sheet"}) {
             if (line.value(option)) {
                 clash(option, "--charset or --all, not with --text");
             }
