@@ -37,6 +37,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "contact_sheet.h"
 #include "droplet/error.h"
 #include "droplet/version.h"
 #include "exit_code.h"
@@ -145,6 +146,9 @@ void refuseClashes(const std::vector<BatchItem>& items, const BatchOptions& opti
         }
     };
     add_written(options.manifest, "the manifest");
+    if (options.contact_sheet) {
+        add_written(*options.contact_sheet, "the contact sheet");
+    }
     for (const BatchItem& item : items) {
         add_written(item.output, item.name);
         for (const std::string& other : item.others) {
@@ -508,6 +512,18 @@ public:
         });
     }
 
+    /// The files that are as they were asked for, in their order.
+    [[nodiscard]] std::vector<std::string> outputs() const
+    {
+        std::vector<std::string> paths;
+        for (const Row& row : rows_) {
+            if (row.status == Status::Made || row.status == Status::Skipped) {
+                paths.push_back(items_[row.index].output);
+            }
+        }
+        return paths;
+    }
+
     int finish()
     {
         settle();
@@ -726,6 +742,7 @@ void declareBatch(CommandLine& line)
     line.add(kGroup, "--manifest", "FILE",
              "what became of every item, as JSON\n"
              "[manifest.json in the folder of all outputs]");
+    line.add(kGroup, "--contact-sheet", "FILE", "draw all of them on one picture, PNG");
 }
 
 BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern)
@@ -739,6 +756,15 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
     const auto manifest = line.value("--manifest");
     options.manifest =
         manifestPath(output_pattern, manifest ? std::optional(manifest->text) : std::nullopt, options.shard);
+    if (const auto sheet = line.value("--contact-sheet")) {
+        if (fs::path(sheet->text).extension() != ".png") {
+            refuse(*sheet, "a file that ends in .png");
+        }
+        options.contact_sheet = sheet->text;
+    }
+    if (const auto material = line.value("--material")) {
+        options.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
+    }
     options.told = decisiveOptions(line);
     if (run.config) {
         options.read.push_back(*run.config);
@@ -834,6 +860,10 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
     refuseClashes(items, options);
     makeFolder(options.manifest);
     droplet::checkWritable(options.manifest);
+    if (options.contact_sheet) {
+        makeFolder(*options.contact_sheet);
+        droplet::checkWritable(*options.contact_sheet, options.files);
+    }
     auto earlier = readManifest(options.manifest);
     std::vector<std::size_t> chosen;
     const BatchShard shard = options.shard.value_or(BatchShard{});
@@ -848,6 +878,12 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
         batch.run();
         code = batch.finish();
         signal = asked_to_end;
+        if (options.contact_sheet && signal == 0) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                            options.threads.value_or(tbb::global_control::active_value(
+                                                tbb::global_control::max_allowed_parallelism)));
+            writeContactSheet({*options.contact_sheet, options.material, batch.outputs()}, options.files);
+        }
     }
     if (signal != 0) {
         std::signal(signal, SIG_DFL);

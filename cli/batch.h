@@ -74,7 +74,9 @@ struct BatchOptions {
     bool keep_going = false;             ///< go on after an item that failed
     bool resume = true;  ///< skip items whose files are there already, made from the same input and options
     std::optional<BatchShard> shard;
-    std::optional<std::size_t> threads;  ///< items worked on at one time [all cores]
+    std::optional<std::string> contact_sheet;  ///< path of a picture of all that was made, or stood already
+    droplet::Material material = droplet::Material::Water;  ///< what they are drawn in there
+    std::optional<std::size_t> threads;                     ///< items worked on at one time [all cores]
     Verbosity verbosity = Verbosity::Normal;
     ProgressMode progress = ProgressMode::Auto;
 };
@@ -82,7 +84,7 @@ struct BatchOptions {
 /// The exit code of a batch of which some items failed.
 inline constexpr int kSomeFailed = 6;
 
-/// Declares what every batch takes: --keep-going, --no-resume, --shard, --manifest.
+/// Declares what every batch takes: --keep-going, --no-resume, --shard, --manifest, --contact-sheet.
 void declareBatch(CommandLine& line);
 
 /// Reads those.

@@ -49,11 +49,11 @@ _droplet_shape()
                     animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
                     batch)
                         choices="$picture $making $running --format --fill-range --json
-                            --output --recursive --keep-going --no-resume --shard --manifest"
+                            --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet"
                         ;;
                     glyphs) choices="$making $running $showing --format --fill-range --json --html --font --face-index
                         --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
-                        --equal-height --keep-going --no-resume --shard --manifest" ;;
+                        --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;

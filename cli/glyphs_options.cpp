@@ -185,7 +185,7 @@ void refuseOthers(const CommandLine& line, bool is_text)
                 clash(option, "--charset or --all, not with --text");
             }
         }
-        for (const char* option : {"--shard", "--manifest"}) {
+        for (const char* option : {"--shard", "--manifest", "--contact-sheet"}) {
             if (line.value(option)) {
                 clash(option, "--charset or --all, not with --text");
             }
@@ -239,12 +239,16 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     options.shape.input = options.font;
     options.shape.output = output->text;
     options.shape.html = readHtml(line);
+    std::vector<std::string> warnings;
+    if (text) {
+        options.shape.preview = readPreview(line, warnings);
+    }
     options.shape = readDroplets(line, std::move(options.shape), "--output");
+    options.shape.settings.warnings.insert(options.shape.settings.warnings.end(), warnings.begin(), warnings.end());
     const auto json = line.value("--json");
     if (text) {
         options.text = unescaped(*text);
         options.shape.json = json ? std::optional(json->text) : std::nullopt;
-        options.shape.preview = readPreview(line, options.shape.settings.warnings);
     } else {
         GlyphSetOptions set;
         if (charset) {

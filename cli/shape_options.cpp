@@ -210,8 +210,10 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
         options.evolver = evolver->text;
     }
     options.html = readHtml(line);
+    std::vector<std::string> warnings;
+    options.preview = readPreview(line, warnings);
     options = readShapes(line, std::move(options), "OUTPUT");
-    options.preview = readPreview(line, options.settings.warnings);
+    options.settings.warnings.insert(options.settings.warnings.end(), warnings.begin(), warnings.end());
     return options;
 }
 

@@ -98,6 +98,7 @@ Picture shrunk(const Picture& picture, int width, int height)
         return found;
     };
     std::vector<std::vector<Share>> across;
+    across.reserve(static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x) {
         across.push_back(shares(x, width, picture.width));
     }

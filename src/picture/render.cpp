@@ -511,7 +511,7 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
     }
     for (int j = 0; j < kCells; ++j) {
         for (int i = 0; i < kCells; ++i) {
-            const auto at = static_cast<std::size_t>(j * (kCells + 1) + i);
+            const std::size_t at = static_cast<std::size_t>(j) * (kCells + 1) + static_cast<std::size_t>(i);
             const auto a = vertices[at];
             const auto b = vertices[at + 1];
             const auto c = vertices[at + kCells + 2];

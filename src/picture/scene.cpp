@@ -57,7 +57,10 @@ struct Buffers {
     std::vector<Triangle> triangles;
 };
 
-enum Part : unsigned { kLiquid = 0, kBase = 1, kStand = 2 };
+// Parts of a scene, by their number in it.
+constexpr unsigned kLiquid = 0;
+constexpr unsigned kBase = 1;
+constexpr unsigned kStand = 2;
 
 }  // namespace
 
@@ -88,11 +91,11 @@ struct Scene::Embree {
     }
 
     // One thread builds: the order of triangles in the tree, which decides on shared edges, must not depend on chance.
-    RTCScene build(std::initializer_list<Part> wanted)
+    RTCScene build(std::initializer_list<unsigned> wanted)
     {
         RTCScene scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        for (const Part part : wanted) {
+        for (const unsigned part : wanted) {
             Buffers& buffers = parts[part];
             if (buffers.triangles.empty()) {
                 continue;

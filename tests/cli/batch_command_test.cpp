@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "droplet/picture/picture.h"
 #include "droplet/version.h"
 #include "support/command.h"
 
@@ -434,6 +435,34 @@ TEST_F(BatchTest, InterruptedBatchIsTakenUpWhereItEnded)
     EXPECT_EQ(all.size(), 50U);
     for (const auto& [name, content] : made) {
         EXPECT_EQ(all.at(name), content) << name;
+    }
+}
+
+// Of what stands: made now or before, not what failed; the same however it came about.
+TEST_F(BatchTest, ContactSheetShowsAllThatStands)
+{
+    ASSERT_EQ(batch({"--contact-sheet", "sheets/all.png"}).exit_code, 0);
+    const std::string all = readFile(directory() / "sheets/all.png");
+    const Picture picture = readPicture(directory() / "sheets/all.png");
+    EXPECT_GT(picture.width, 2 * 320);
+    ASSERT_EQ(batch({"--contact-sheet", "again.png", "-j", "1"}).exit_code, 0);
+    EXPECT_TRUE(readFile(directory() / "again.png") == all);
+    ASSERT_EQ(batch({"--contact-sheet", "ink.png", "--material", "ink"}).exit_code, 0);
+    EXPECT_FALSE(readFile(directory() / "ink.png") == all);
+
+    writeFile(directory() / "masks/broken.pgm", "no picture");
+    EXPECT_EQ(batch({"--contact-sheet", "three.png", "--keep-going", "--material", "water"}).exit_code, 6);
+    EXPECT_TRUE(readFile(directory() / "three.png") == all) << "what failed is not shown";
+}
+
+TEST_F(BatchTest, ContactSheetMustBeAPictureOfItsOwn)
+{
+    for (const auto& [name, words] :
+         {std::pair{"sheet.jpg", "a file that ends in .png"}, {"masks/a.png", "which is read"}}) {
+        writeFile(directory() / "masks/a.png", "a picture");
+        const CommandResult result = batch({"--contact-sheet", name});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.error, HasSubstr(words));
     }
 }
 
