@@ -171,7 +171,11 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
                const droplet::Report& report)
 {
     droplet::PageContent page;
-    page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
+    if (report.input.type && report.input.type->text) {
+        page.title = *report.input.type->text;
+    } else {
+        page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
+    }
     std::ostringstream glb;
     droplet::writeGltf(surface, glb, {true, options.settings.material, report.output.topology.closed});
     page.glb = std::move(glb).str();

@@ -47,10 +47,10 @@ const area = (value) => (Math.abs(value) >= 99.95e-6 && Math.abs(value) < 999.5e
 const degrees = (value) => digits(value, value >= 10 ? 2 : 1) + '°';
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** The picture's sides [m]; undefined where the report does not say. */
+/** The picture's sides [m]; undefined where the report does not say, as of type. */
 export function extent(report) {
-    const input = report?.input;
-    return input && [input.width_px * input.pixel_size_m, input.height_px * input.pixel_size_m];
+    const { width_px, height_px, pixel_size_m } = report.input ?? {};
+    return width_px && height_px && pixel_size_m ? [width_px * pixel_size_m, height_px * pixel_size_m] : undefined;
 }
 
 /** Both in the unit of the longer. */
@@ -69,7 +69,7 @@ function groundText(ground) {
 
 /** Rows of the table: a name, and its value in words. What the report does not hold is not in it. */
 export function rows(report) {
-    const { shape, liquid, mesh, ground, model, onto } = report;
+    const { input, shape, liquid, mesh, ground, model, onto } = report;
     const found = [];
     const add = (name, value, text) => {
         if (value !== null && value !== undefined) {
@@ -90,6 +90,8 @@ export function rows(report) {
     add('Bond number', shape?.bond_number, (b) => digits(b));
     add('Capillary length', liquid?.capillary_length_m, length);
     add('Picture', extent(report), sides);
+    add('Font', input?.type, ({ family, style }) => [family, style].filter(Boolean).join(' '));
+    add('Font size', input?.type?.em_m, length);
     if (mesh?.droplets > 1) {
         add('Droplets', mesh.droplets, String);
     }
