@@ -479,7 +479,7 @@ private:
 
 class Batch {
 public:
-    Batch(const std::vector<BatchItem>& items, std::vector<std::size_t> chosen, const BatchOptions& options,
+    Batch(const std::vector<BatchItem>& items, const std::vector<std::size_t>& chosen, const BatchOptions& options,
           std::unordered_map<std::string, Record> earlier)
         : items_(items), options_(options), earlier_(std::move(earlier)), teller_(chosen.size(), options)
     {
@@ -874,7 +874,7 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
     int signal = 0;
     {
         const Interruption interruption;
-        Batch batch(items, std::move(chosen), options, std::move(earlier));
+        Batch batch(items, chosen, options, std::move(earlier));
         batch.run();
         code = batch.finish();
         signal = asked_to_end;

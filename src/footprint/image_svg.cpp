@@ -303,7 +303,7 @@ Image draw(std::span<const std::byte> text, const DecodeOptions& options)
     Document document(text);
     const Document::Page page = document.page();
     const Raster raster = rasterOf(page, options);
-    if (const Raster probe = rasterOf(page, {std::min(options.max_pixels, std::size_t{kProbe * kProbe}), kProbe});
+    if (const Raster probe = rasterOf(page, {std::min(options.max_pixels, std::size_t{kProbe} * kProbe), kProbe});
         probe.width < raster.width) {
         document.draw(page, probe.scale, probe.width, probe.height);
     }

@@ -55,10 +55,10 @@ struct Mask {
 /// compressed by gzip or not, which is drawn on a transparent page.
 ///
 /// The mask of an SVG image is exactly as wide as its page and less than a pixel higher. Its longer side has
-/// vector_long_side pixels or one more, or as many as max_pixels and 32767 a side admit; more if the shorter side would have fewer
-/// than 16. The page is that of the SVG's width and height, at 96 px to the inch, or its viewBox, or just what is
-/// drawn. Nothing the image refers to is read, neither from disk nor from the network, but what it holds itself as
-/// data: URLs. Text depends on the fonts installed.
+/// vector_long_side pixels or one more, or as many as max_pixels and 32767 a side admit; more if the shorter side would
+/// have fewer than 16. The page is that of the SVG's width and height, at 96 px to the inch, or its viewBox, or just
+/// what is drawn. Nothing the image refers to is read, neither from disk nor from the network, but what it holds itself
+/// as data: URLs. Text depends on the fonts installed.
 ///
 /// The size in the file's header is checked before any pixel is decoded or memory for it taken. Levels are those
 /// stored: 8-bit v is 257 v of 65535, luma is ITU-R BT.601 of the image in front of black, so that transparent
