@@ -227,7 +227,8 @@ private:
         double size = -1.0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double side = length(corners[(k + 1) % 3] - corners[k]);
-            if (side > size) {
+            constexpr double kTie = 1.0 + 1e-9;  // round-off must not choose between sides of one length
+            if (side > kTie * size) {
                 size = side;
                 longest = k;
             }
@@ -433,7 +434,7 @@ Comparison compare(const Surface& a, const Surface& b, const CompareOptions& opt
     }
     const HausdorffBounds from_a = hausdorff(side_a.tree.triangles(), side_b.tree, search);
     const HausdorffBounds from_b = hausdorff(side_b.tree.triangles(), side_a.tree, search);
-    constexpr double kLongest = 1.0 / 50.0;  // of the box around both
+    constexpr double kLongest = 1.0 / 25.0;  // of the box around both
     const IntegralOptions quadrature_options{2.0 * std::max(from_a.upper, from_b.upper) + kSamePlace,
                                              kLongest * frame.size()};
     const Sums over_a = integrals(side_a, side_b, quadrature_options);

@@ -77,7 +77,7 @@ struct Comparison {
 ///
 /// The largest distance of a surface's points from the other is bounded from both sides over all of its points, not
 /// over vertices or samples: what is thinner than any sampling is found (Tang, Lee and Kim 2009). Means are by
-/// quadrature of degree 4 on every triangle, triangles longer than a fiftieth of the bounding box being cut.
+/// quadrature of degree 4 on every triangle, triangles longer than 1/25 of the bounding box being cut.
 ///
 /// Normals are those between the vertices' ones. They are compared with the other surface's at the nearest point of
 /// its triangles that face the same way, if there is one no farther than twice the largest distance, else of all;
