@@ -104,8 +104,8 @@ std::optional<double> quotient(std::string_view text)
     std::array<double, 2> parts{0.0, 1.0};
     const char* at = text.data();
     const char* const end = text.data() + text.size();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto [stop, failure] = std::from_chars(at, end, parts[i]);
+    for (double& part : parts) {
+        const auto [stop, failure] = std::from_chars(at, end, part);
         if (failure != std::errc{}) {
             return std::nullopt;
         }
