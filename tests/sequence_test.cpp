@@ -21,8 +21,8 @@ namespace droplet {
 namespace {
 
 using testing::disc;
-using testing::expectSound;
 using ::testing::ElementsAre;
+using testing::expectSound;
 using ::testing::HasSubstr;
 using testing::Inside;
 using ::testing::IsEmpty;

@@ -213,7 +213,8 @@ TEST(Documentation, CompletionOffersFiles)
     const std::string beginning = (scratch.path() / "my").string();
     testing::writeFile(beginning + " logo.png", "");
     EXPECT_THAT(completions({beginning}), ElementsAre(beginning + " logo.png"));
-    for (const char* option : {"--json", "--preview", "--ground", "--surface", "--onto", "--export-evolver", "--config"}) {
+    for (const char* option :
+         {"--json", "--preview", "--ground", "--surface", "--onto", "--export-evolver", "--config"}) {
         EXPECT_THAT(completions({option, beginning}), ElementsAre(beginning + " logo.png")) << option;
     }
 }
