@@ -157,8 +157,8 @@ void declareShapes(CommandLine& line)
 void declareHtml(CommandLine& line)
 {
     line.add("Run", "--html", "FILE",
-             "write a page that shows the droplet in a browser, all in\n"
-             "one file; - is standard output");
+             "write a page that shows the droplet in a browser, all\n"
+             "in one file; - is standard output");
 }
 
 std::optional<std::string> readHtml(const CommandLine& line)
