@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What three.js's own loader, run by node, makes of our files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::runDroplet;
+using testing::runProgram;
+using ::testing::SizeIs;
+using testing::writeFile;
+
+nlohmann::json played(const std::string& file, int frames = 0)
+{
+    const auto run = runProgram({"node", DROPLET_PLAYER, DROPLET_THREE, "24", std::to_string(frames), file});
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return nlohmann::json::parse(run.output, nullptr, false);
+}
+
+TEST(Three, KnowsTheSliderByItsName)
+{
+    testing::ScratchDirectory scratch;
+    const std::string file = (scratch.path() / "disc.glb").string();
+    writeFile(scratch.path() / "disc.pgm", testing::discPicture(64, 24.0));
+    const auto run = runDroplet(
+        {(scratch.path() / "disc.pgm").string(), file, "--fill-range", "0.5..3", "--triangles", "500", "-q"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto seen = played(file);
+    ASSERT_THAT(seen.at("meshes"), SizeIs(1));
+    const auto& mesh = seen.at("meshes").at(0);
+    EXPECT_EQ(mesh.at("targets"), nlohmann::json({{"volume", 0}}));
+    EXPECT_THAT(mesh.at("influences"), ElementsAre(0.0));
+    EXPECT_EQ(mesh.at("extras").at("fill_range"), nlohmann::json({0.5, 3.0}));
+    EXPECT_EQ(mesh.at("relative"), true);
+}
+
+// Every moment has one mesh, whose targets are those of the frame and add up to one, or to none at a run's first.
+TEST(Three, PlaysOneMeshAfterAnother)
+{
+    constexpr int kFrames = 12;
+    testing::ScratchDirectory scratch;
+    const std::string file = (scratch.path() / "closing.glb").string();
+    const auto run = runDroplet(
+        {"animate", DROPLET_SOURCE_DIR "/data/closing/%04d.png", file, "--fps", "24", "--triangles", "1k", "-q"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto seen = played(file, kFrames);
+    EXPECT_EQ(seen.at("clips"), 1);
+    ASSERT_THAT(seen.at("frames"), SizeIs(kFrames));
+    std::vector<std::string> order;
+    for (const auto& shown : seen.at("frames")) {
+        ASSERT_THAT(shown, SizeIs(1));
+        const std::string name = shown.at(0).at("name");
+        double sum = 0.0;
+        for (const double influence : shown.at(0).at("influences")) {
+            sum += influence;
+        }
+        if (order.empty() || order.back() != name) {
+            EXPECT_EQ(std::count(order.begin(), order.end(), name), 0) << name;
+            EXPECT_LT(sum, 0.02) << name;
+            order.push_back(name);
+        } else {
+            EXPECT_NEAR(sum, 1.0, 0.02) << name;
+        }
+    }
+    EXPECT_EQ(order.size(), seen.at("meshes").size());
+}
+
+}  // namespace
+}  // namespace droplet
