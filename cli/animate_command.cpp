@@ -22,6 +22,7 @@
 #include "files.h"
 #include "frames.h"
 #include "progress_display.h"
+#include "shape_command.h"
 #include "stage_clock.h"
 #include "surroundings.h"
 #include "terminal.h"
@@ -113,8 +114,10 @@ private:
         sequence_.volume_mode = options_.volume_mode;
         sequence_.droplet = options_.settings.droplet;
         sequence_.droplet.trace = options_.footprint.trace;
-        const auto& trace = sequence_.droplet.trace;
-        const double pixel = trace.pixel_size.value_or(trace.width / mask.width);
+        if (mask.physical_width && !options_.footprint.sized) {
+            sequence_.droplet.trace.width = *mask.physical_width;
+        }
+        const double pixel = droplet::pixelSize(mask, sequence_.droplet.trace);
         sequence_.droplet.solve.ground =
             groundOf(options_.settings, around_, {pixel * mask.width, pixel * mask.height});
         channel_ = mask.channel;
@@ -138,6 +141,7 @@ private:
         }
         progress_(Stage::Trace);
         droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
+        refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
         frame_ = frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
                         : firstFrame(std::move(outline), sequence_, progress_);
         droplet::FrameReport report = reportOf(*frame_, sequence_);
@@ -340,7 +344,12 @@ int runAnimate(int argc, const char* const* argv)
     ProgressDisplay progress(options.run.verbosity == Verbosity::Quiet && options.run.progress == ProgressMode::Auto
                                  ? ProgressMode::None
                                  : options.run.progress);
-    const droplet::Progress begin = [&](Stage stage) { progress.begin(stage); };
+    const droplet::Progress begin = [&](Stage stage) {
+        if (stage == Stage::Read) {
+            progress.restart();  // the next frame
+        }
+        progress.begin(stage);
+    };
     const droplet::SequenceReport report = Sequence(options, frames, begin).make();
     progress.finish();
     tell(report, options.run);

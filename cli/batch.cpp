@@ -725,6 +725,16 @@ private:
     double interval_ = 5.0;  ///< [s]
 };
 
+/// The path that a share of a batch has: with the share in its name.
+std::string ofShard(fs::path path, const std::optional<BatchShard>& shard)
+{
+    if (shard) {
+        path.replace_filename(path.stem().string() + "-" + std::to_string(shard->index) + "-of-" +
+                              std::to_string(shard->count) + path.extension().string());
+    }
+    return path.string();
+}
+
 }  // namespace
 
 BatchFigures figuresOf(const droplet::Report& report)
@@ -760,7 +770,11 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
         if (fs::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png");
         }
-        options.contact_sheet = sheet->text;
+        options.contact_sheet = ofShard(sheet->text, options.shard);
+        const auto format = line.value("--format");
+        if (format && fs::path(output_pattern).extension() != "." + format->text) {
+            refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);
+        }
     }
     if (const auto material = line.value("--material")) {
         options.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
@@ -795,12 +809,7 @@ std::string manifestPath(const std::string& output_pattern, const std::optional<
                          const std::optional<BatchShard>& shard)
 {
     const std::string fixed = output_pattern.substr(0, output_pattern.find_first_of("{%"));
-    fs::path path = given ? fs::path(*given) : fs::path(fixed.substr(0, fixed.rfind('/') + 1)) / "manifest.json";
-    if (shard) {
-        path.replace_filename(path.stem().string() + "-" + std::to_string(shard->index) + "-of-" +
-                              std::to_string(shard->count) + path.extension().string());
-    }
-    return path.string();
+    return ofShard(given ? fs::path(*given) : fs::path(fixed.substr(0, fixed.rfind('/') + 1)) / "manifest.json", shard);
 }
 
 BatchShard shardOf(const std::string& text, const std::string& subject)
@@ -872,22 +881,24 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
     }
     int code = 0;
     int signal = 0;
+    std::vector<std::string> outputs;
     {
         const Interruption interruption;
         Batch batch(items, chosen, options, std::move(earlier));
         batch.run();
         code = batch.finish();
         signal = asked_to_end;
-        if (options.contact_sheet && signal == 0) {
-            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                            options.threads.value_or(tbb::global_control::active_value(
-                                                tbb::global_control::max_allowed_parallelism)));
-            writeContactSheet({*options.contact_sheet, options.material, batch.outputs()}, options.files);
-        }
+        outputs = batch.outputs();
     }
     if (signal != 0) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
+    }
+    if (options.contact_sheet) {
+        const tbb::global_control limit(
+            tbb::global_control::max_allowed_parallelism,
+            options.threads.value_or(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+        writeContactSheet({*options.contact_sheet, options.material, std::move(outputs)}, options.files);
     }
     return code;
 }

@@ -2,8 +2,6 @@
 #include "batch_command.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -64,16 +62,6 @@ struct Picture {
     fs::path below;  ///< its folder, from the folder given on the command line
 };
 
-bool isPicture(const fs::path& path)
-{
-    constexpr std::array<std::string_view, 13> kExtensions{".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
-                                                           ".pbm", ".pgm", ".ppm",  ".pnm", ".svg", ".svgz"};
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
 /// Every picture in a folder by name, then those in its folders; what begins with a dot is hidden.
 void addFolder(const fs::path& folder, const fs::path& below, bool recursive, std::vector<Picture>& pictures)
 {
@@ -114,7 +102,8 @@ std::vector<Picture> readInputs(const CommandLine& line)
         if (given.text.empty() || isStream(given.text)) {
             refuse(given, "a picture's file or a folder");
         }
-        if (!fs::is_directory(given.text)) {
+        std::error_code ignored;
+        if (!fs::is_directory(given.text, ignored)) {
             pictures.push_back({given.text, {}});
             continue;
         }

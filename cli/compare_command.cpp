@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,7 +80,7 @@ void declare(CommandLine& line)
     line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
     line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
     line.add(kRun, "--config", "FILE",
-             "take options from lines such as width = \"8cm\";\n"
+             "take options from lines such as tolerance = \"0.01mm\";\n"
              "the command line goes before them");
     line.addFlag(kRun, "-h,--help", "print this help");
     line.addFlag(kRun, "--version", "print the version");
@@ -217,6 +218,19 @@ std::string table(const droplet::Comparison& found)
     return lines;
 }
 
+/// A surface as a body on the table: what repeats in its file is no rim.
+droplet::Surface standing(droplet::Surface surface)
+{
+    std::iota(surface.weld.begin(), surface.weld.end(), 0U);
+    const auto lowest = std::min_element(surface.positions.begin(), surface.positions.end(),
+                                         [](const droplet::Vec3& a, const droplet::Vec3& b) { return a.z < b.z; });
+    const double ground = lowest->z;
+    for (droplet::Vec3& place : surface.positions) {
+        place.z -= ground;
+    }
+    return surface;
+}
+
 }  // namespace
 
 int runCompare(int argc, const char* const* argv)
@@ -240,7 +254,11 @@ int runCompare(int argc, const char* const* argv)
     if (options.picture) {
         outputs.push_back({"--picture", *options.picture});
     }
-    checkFiles({{"A", options.path_a}, {"B", options.path_b}}, outputs, options.files);
+    std::vector<NamedFile> inputs{{"A", options.path_a}, {"B", options.path_b}};
+    if (const auto config = line.value("--config")) {
+        inputs.push_back({"--config", config->text});
+    }
+    checkFiles(inputs, outputs, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
@@ -263,7 +281,7 @@ int runCompare(int argc, const char* const* argv)
     if (options.picture) {
         droplet::RenderOptions scene;
         scene.paint = droplet::differencePaint(a.surface, b.surface);
-        picture = droplet::render(a.surface, scene);
+        picture = droplet::render(standing(a.surface), scene);
         files.push_back({*options.picture, [&](std::ostream& out) { writePng(picture, out); }});
     }
     if (!files.empty()) {

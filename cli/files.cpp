@@ -5,11 +5,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <ostream>
 #include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "droplet/error.h"
 
@@ -20,14 +28,57 @@ namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
 
-bool sameFile(const std::string& a, const std::string& b)
-{
-    std::error_code ignored;
-    const auto place = [&](const std::string& path) {
-        return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-    };
-    return a == b || fs::equivalent(a, b, ignored) || place(a) == place(b);
-}
+/// Files by their place and, whatever they are called, by what they are.
+class KnownFiles {
+public:
+    explicit KnownFiles(const std::vector<NamedFile>& files = {})
+    {
+        for (const NamedFile& file : files) {
+            add(file);
+        }
+    }
+
+    void add(const NamedFile& file)
+    {
+        places_.try_emplace(placeOf(file), &file);
+        if (const auto node = nodeOf(file)) {
+            nodes_.try_emplace(*node, &file);
+        }
+    }
+
+    /// The file that this one is; none if it is new.
+    [[nodiscard]] const NamedFile* find(const NamedFile& file) const
+    {
+        if (const auto place = places_.find(placeOf(file)); place != places_.end()) {
+            return place->second;
+        }
+        const auto node = nodeOf(file);
+        const auto known = node ? nodes_.find(*node) : nodes_.end();
+        return known == nodes_.end() ? nullptr : known->second;
+    }
+
+private:
+    using Node = std::pair<dev_t, ino_t>;
+
+    static fs::path placeOf(const NamedFile& file)
+    {
+        std::error_code ignored;
+        return isStream(file.path) ? fs::path(file.path)
+                                   : fs::weakly_canonical(fs::absolute(file.path, ignored), ignored);
+    }
+
+    static std::optional<Node> nodeOf(const NamedFile& file)
+    {
+        struct stat status = {};
+        if (isStream(file.path) || stat(file.path.c_str(), &status) != 0) {
+            return std::nullopt;
+        }
+        return Node(status.st_dev, status.st_ino);
+    }
+
+    std::map<fs::path, const NamedFile*> places_;
+    std::map<Node, const NamedFile*> nodes_;
+};
 
 /// `program - out < out` would read what it is about to replace.
 bool isStandardInput(const std::string& path)
@@ -72,22 +123,35 @@ bool isStream(const std::string& path)
 void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                 const droplet::OutputOptions& options)
 {
-    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-        for (auto other = outputs.begin(); other != output; ++other) {
-            if (sameFile(other->path, output->path)) {
-                refuseClash(output->name, other->name, other->path);
-            }
+    const KnownFiles read(inputs);
+    const auto stream = std::find_if(inputs.begin(), inputs.end(), [](const NamedFile& f) { return isStream(f.path); });
+    KnownFiles written;
+    for (const NamedFile& output : outputs) {
+        if (const NamedFile* other = written.find(output)) {
+            refuseClash(output.name, other->name, other->path);
         }
-        if (isStream(output->path)) {
+        written.add(output);
+        if (isStream(output.path)) {
             continue;
         }
-        for (const NamedFile& input : inputs) {
-            if (isStream(input.path) ? isStandardInput(output->path) : sameFile(input.path, output->path)) {
-                refuseClash(output->name, input.name, output->path);
-            }
+        if (const NamedFile* input = read.find(output)) {
+            refuseClash(output.name, input->name, output.path);
         }
-        droplet::checkWritable(output->path, options);
+        if (stream != inputs.end() && isStandardInput(output.path)) {
+            refuseClash(output.name, stream->name, output.path);
+        }
+        droplet::checkWritable(output.path, options);
     }
+}
+
+bool isPicture(const std::string& path)
+{
+    constexpr std::array<std::string_view, 13> kExtensions{".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
+                                                           ".pbm", ".pgm", ".ppm",  ".pnm", ".svg", ".svgz"};
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
 std::vector<std::byte> readStandardInput(std::size_t max_pixels)

@@ -16,6 +16,9 @@ inline constexpr const char* kStandardStream = "-";
 
 bool isStream(const std::string& path);
 
+/// Whether a file is a picture of the formats we read, by its extension.
+bool isPicture(const std::string& path);
+
 /// A file that an option or argument names.
 struct NamedFile {
     std::string name;  ///< of the option or argument, for messages

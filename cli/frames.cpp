@@ -2,13 +2,13 @@
 #include "frames.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 
 #include "droplet/error.h"
+#include "files.h"
 #include "numbered_path.h"
 
 namespace cli {
@@ -17,16 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
-
-bool isPicture(const fs::path& path)
-{
-    constexpr std::array<std::string_view, 11> kKnown{".png",  ".jpg", ".jpeg", ".bmp", ".tif", ".tiff",
-                                                      ".webp", ".pbm", ".pgm",  ".ppm", ".pnm"};
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
-}
 
 /// By their names, digit runs by their number, so that frame 10 follows frame 9.
 bool before(const std::string& a, const std::string& b)
@@ -128,7 +118,11 @@ std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
         }
         frame.number = done_ + 1;
         frame.name = video_path_ + ", frame " + std::to_string(frame.number);
-        frame.mask = droplet::decodeMask(*bytes, options);
+        try {
+            frame.mask = droplet::decodeMask(*bytes, options);
+        } catch (const Error& error) {
+            throw Error(error.code(), frame.name + ": " + error.what());
+        }
     } else {
         if (done_ == pictures_.size()) {
             return std::nullopt;

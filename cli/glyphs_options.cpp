@@ -192,7 +192,8 @@ void refuseOthers(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--html"}) {
+    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
+                               "--ground", "--colour", "--turntable", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }

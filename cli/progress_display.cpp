@@ -63,6 +63,12 @@ void ProgressDisplay::begin(droplet::Stage stage)
     }
 }
 
+void ProgressDisplay::restart()
+{
+    const std::lock_guard lock(mutex_);
+    stage_.reset();
+}
+
 void ProgressDisplay::finish()
 {
     stop();

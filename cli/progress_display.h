@@ -24,6 +24,9 @@ public:
 
     void begin(droplet::Stage stage);
 
+    /// What follows is told anew: the same stages of another item.
+    void restart();
+
     /// The run is over and went well.
     void finish();
 

@@ -100,35 +100,10 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
     return settings;
 }
 
-/// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
-/// @param area  of the footprint [m²]
-void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
-{
-    if (!options.mesh.edge) {
-        return;
-    }
-    const double edge = *options.mesh.edge;
-    const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
-    const double triangles = area / equilateral;
-    if (triangles > static_cast<double>(kMostTriangles)) {
-        std::ostringstream message;
-        message << std::setprecision(3) << "--edge: " << edge / droplet::kMillimetre << "mm would take " << triangles
-                << " triangles on this footprint, must be at least "
-                << edge * std::sqrt(triangles / static_cast<double>(kMostTriangles)) / droplet::kMillimetre << "mm";
-        throw Error(ErrorCode::InvalidArgument, message.str());
-    }
-}
-
 double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
 {
     const double pixel = droplet::pixelSize(mask, options);
     return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
-}
-
-double coveredArea(const droplet::Outline& outline)
-{
-    return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
-                           [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
 }
 
 droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline,
@@ -311,6 +286,29 @@ void tell(const droplet::Report& report, const RunOptions& run)
 }
 
 }  // namespace
+
+void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
+{
+    if (!options.mesh.edge) {
+        return;
+    }
+    const double edge = *options.mesh.edge;
+    const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
+    const double triangles = area / equilateral;
+    if (triangles > static_cast<double>(kMostTriangles)) {
+        std::ostringstream message;
+        message << std::setprecision(3) << "--edge: " << edge / droplet::kMillimetre << "mm would take " << triangles
+                << " triangles on this footprint, must be at least "
+                << edge * std::sqrt(triangles / static_cast<double>(kMostTriangles)) / droplet::kMillimetre << "mm";
+        throw Error(ErrorCode::InvalidArgument, message.str());
+    }
+}
+
+double coveredArea(const droplet::Outline& outline)
+{
+    return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
+                           [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
+}
 
 std::optional<std::string> groundPicture(const ShapeOptions& options)
 {

@@ -15,6 +15,14 @@
 
 namespace cli {
 
+/// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
+/// @param area             of the footprint [m²]
+/// @throws droplet::Error  InvalidArgument
+void refuseTooShortEdge(double area, const droplet::DropletOptions& options);
+
+/// Area of the liquid on the ground [m²].
+double coveredArea(const droplet::Outline& outline);
+
 /// The path of the picture that is to be seen below the droplets, where one is asked for.
 std::optional<std::string> groundPicture(const ShapeOptions& options);
 

@@ -57,8 +57,9 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// more than the other. What belongs together, directly or by way of others, is a group, whose volume is conserved. Of
 /// a group that ends as one droplet, that has all of it. One that ends as several was one liquid at one pressure until
 /// it broke, so they get what they held then: volumes in proportion to what one pressure would give them, by the linear
-/// model on level flat ground, which is exact for that, in proportion elsewhere. The largest part keeps the id of the
-/// droplet that gave the most. Overlap with nothing: a new droplet, filled as droplet.solve.fill says, or a lost one.
+/// model on level flat ground, which is exact for that, in proportion elsewhere. Of the parts of the droplet that gave
+/// the most, the one that covers most of its ground keeps its id. Overlap with nothing: a new droplet, filled as
+/// droplet.solve.fill says, or a lost one.
 ///
 /// Where every droplet goes on as one droplet with as many holes, meshes move along (mesh/follow.h), and droplets stand
 /// in the order they had.

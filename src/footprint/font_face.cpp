@@ -19,6 +19,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <initializer_list>
 #include <sstream>
 #include <system_error>
@@ -64,6 +65,8 @@ struct Drawing {
     std::vector<Contour> contours;
     Flatness flatness;
     double unit = 0.0;
+    std::size_t points = 0;     ///< of contours before the last
+    std::exception_ptr thrown;  ///< not through FreeType
 
     [[nodiscard]] Vec2 at(const FT_Vector* p) const
     {
@@ -71,50 +74,59 @@ struct Drawing {
     }
 };
 
-/// FreeType stops at any other value than 0.
-int followed(bool good)
-{
-    return good ? 0 : 1;
-}
-
 bool isNear(std::initializer_list<Vec2> points)
 {
     return std::all_of(points.begin(), points.end(),
                        [](Vec2 p) { return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest; });
 }
 
+/// Lets add(drawing) draw to places that are near, and says what FreeType wants to hear: it stops at any other value
+/// than 0.
+template <typename Add>
+int follow(void* user, std::initializer_list<const FT_Vector*> places, const Add& add)
+{
+    constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // of a glyph; broken data ask for more
+    auto& drawing = *static_cast<Drawing*>(user);
+    const bool near =
+        std::all_of(places.begin(), places.end(), [&drawing](const FT_Vector* p) { return isNear({drawing.at(p)}); });
+    const std::size_t last = drawing.contours.empty() ? 0 : drawing.contours.back().size();
+    if (!near || drawing.points + last > kMostPoints) {
+        return 1;
+    }
+    try {
+        add(drawing);
+        return 0;
+    } catch (...) {
+        drawing.thrown = std::current_exception();
+        return 1;
+    }
+}
+
 int moveTo(const FT_Vector* to, void* user)
 {
-    auto& drawing = *static_cast<Drawing*>(user);
-    drawing.contours.push_back({drawing.at(to)});
-    return followed(isNear({drawing.at(to)}));
+    return follow(user, {to}, [&](Drawing& drawing) {
+        drawing.points += drawing.contours.empty() ? 0 : drawing.contours.back().size();
+        drawing.contours.push_back({drawing.at(to)});
+    });
 }
 
 int lineTo(const FT_Vector* to, void* user)
 {
-    auto& drawing = *static_cast<Drawing*>(user);
-    drawing.contours.back().push_back(drawing.at(to));
-    return followed(isNear({drawing.at(to)}));
+    return follow(user, {to}, [&](Drawing& drawing) { drawing.contours.back().push_back(drawing.at(to)); });
 }
 
 int conicTo(const FT_Vector* control, const FT_Vector* to, void* user)
 {
-    auto& drawing = *static_cast<Drawing*>(user);
-    if (!isNear({drawing.at(control), drawing.at(to)})) {
-        return followed(false);
-    }
-    addConic(drawing.contours.back(), drawing.at(control), drawing.at(to), drawing.flatness);
-    return followed(true);
+    return follow(user, {control, to}, [&](Drawing& drawing) {
+        addConic(drawing.contours.back(), drawing.at(control), drawing.at(to), drawing.flatness);
+    });
 }
 
 int cubicTo(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* user)
 {
-    auto& drawing = *static_cast<Drawing*>(user);
-    if (!isNear({drawing.at(first), drawing.at(second), drawing.at(to)})) {
-        return followed(false);
-    }
-    addCubic(drawing.contours.back(), drawing.at(first), drawing.at(second), drawing.at(to), drawing.flatness);
-    return followed(true);
+    return follow(user, {first, second, to}, [&](Drawing& drawing) {
+        addCubic(drawing.contours.back(), drawing.at(first), drawing.at(second), drawing.at(to), drawing.flatness);
+    });
 }
 
 /// The name of an axis is left out where it is not plain ASCII.
@@ -208,12 +220,14 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
     if (!(lines_.ascender - lines_.descender > kLeastLine && isNear({{lines_.ascender, lines_.descender}}))) {
         lines_ = {0.8, -0.2, 1.2};
     }
-    lines_.pitch = lines_.pitch > kLeastLine ? lines_.pitch : lines_.ascender - lines_.descender;
+    lines_.pitch =
+        lines_.pitch > kLeastLine && lines_.pitch < kFarthest ? lines_.pitch : lines_.ascender - lines_.descender;
 
     FT_UInt glyph = 0;
-    for (FT_ULong c = FT_Get_First_Char(face_.get(), &glyph); glyph != 0;
+    // Broken tables may go on for ever beyond the last character there is.
+    for (FT_ULong c = FT_Get_First_Char(face_.get(), &glyph); glyph != 0 && c <= 0x10ffff;
          c = FT_Get_Next_Char(face_.get(), c, &glyph)) {
-        if (static_cast<FT_Long>(glyph) < face_->num_glyphs && c <= 0x10ffff) {
+        if (static_cast<FT_Long>(glyph) < face_->num_glyphs) {
             glyph_of_.emplace(static_cast<char32_t>(c), glyph);
             character_of_.emplace(glyph, static_cast<char32_t>(c));
         }
@@ -301,7 +315,9 @@ std::string FontFace::nameOf(GlyphId glyph) const
 
 DrawnGlyph FontFace::draw(GlyphId glyph, const Flatness& flatness) const
 {
-    Drawing drawing{{}, flatness, unit_};
+    Drawing drawing;
+    drawing.flatness = flatness;
+    drawing.unit = unit_;
     DrawnGlyph drawn;
     bool good = false;
     {
@@ -312,9 +328,12 @@ DrawnGlyph FontFace::draw(GlyphId glyph, const Flatness& flatness) const
             good = FT_Outline_Decompose(&face_->glyph->outline, &pen, &drawing) == 0 && isNear({{drawn.advance, 0.0}});
         }
     }
+    if (drawing.thrown) {
+        std::rethrow_exception(drawing.thrown);
+    }
     if (!good) {
-        throw Error(ErrorCode::InvalidInput,
-                    "glyph " + std::to_string(glyph) + " ('" + nameOf(glyph) + "') is broken in the font");
+        throw Error(ErrorCode::InvalidInput, "glyph " + std::to_string(glyph) + " ('" +
+                                                 plainName(nameOf(glyph).c_str()) + "') is broken in the font");
     }
     drawn.contours = std::move(drawing.contours);
     return drawn;
@@ -327,6 +346,8 @@ std::vector<ShapedGlyph> FontFace::shape(const std::u32string& text, const TextR
     // The whole line, so that letters at a run's ends join with what stands beside them.
     hb_buffer_add_codepoints(buffer.get(), characters.data(), static_cast<int>(characters.size()),
                              static_cast<unsigned>(run.begin), static_cast<int>(run.end - run.begin));
+    // A mark that the font lacks must not be taken for the letter it stands on.
+    hb_buffer_set_cluster_level(buffer.get(), HB_BUFFER_CLUSTER_LEVEL_MONOTONE_CHARACTERS);
     hb_buffer_set_direction(buffer.get(), run.leftward ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer.get(), static_cast<hb_script_t>(run.script));
     // Otherwise the locale's.

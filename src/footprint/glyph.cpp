@@ -45,7 +45,8 @@ void requireGlyph(const Font& font, GlyphId glyph)
 
 Flatness flatnessOf(const GlyphOptions& options)
 {
-    return {options.tolerance ? *options.tolerance / options.em : kTolerance, kSpacing};
+    constexpr double kFinest = 0x1p-26;  // to which points are rounded
+    return {options.tolerance ? std::max(*options.tolerance / options.em, kFinest) : kTolerance, kSpacing};
 }
 
 /// A loop with its corners, straight sides divided.

@@ -99,19 +99,19 @@ std::vector<std::string> exceeded(const Comparison& comparison, const Tolerances
         lines.push_back("topology is not the same: " + inWords(comparison.a.topology) + "; " +
                         inWords(comparison.b.topology));
     }
-    if (tolerances.distance && comparison.symmetric.upper > *tolerances.distance) {
+    if (tolerances.distance && !(comparison.symmetric.upper <= *tolerances.distance)) {
         lines.push_back("the largest distance of " + digits(comparison.symmetric.upper / kMillimetre) + " mm is over " +
                         digits(*tolerances.distance / kMillimetre) + " mm");
     }
     const std::optional<double> volume = comparison.relativeVolume();
     const bool volumes_differ =
-        volume ? std::abs(*volume) > tolerances.volume.value_or(0.0) : comparison.b.volume != 0.0;
+        volume ? !(std::abs(*volume) <= tolerances.volume.value_or(0.0)) : comparison.b.volume != 0.0;
     if (tolerances.volume && volumes_differ) {
         lines.push_back("the difference in volume of " +
                         (volume ? digits(100.0 * *volume) + " %" : "something from nothing") + " is over " +
                         digits(100.0 * *tolerances.volume) + " %");
     }
-    if (tolerances.normals && comparison.normals.rms > *tolerances.normals) {
+    if (tolerances.normals && !(comparison.normals.rms <= *tolerances.normals)) {
         lines.push_back("the rms angle between normals of " + digits(comparison.normals.rms / kDegree) +
                         " deg is over " + digits(*tolerances.normals / kDegree) + " deg");
     }

@@ -304,6 +304,9 @@ struct PlyElement {
 
 void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, Content& content)
 {
+    if (!content.positions.empty()) {
+        throw Damage("it has two elements of vertices");
+    }
     const auto has = [&](const char* name) {
         return std::any_of(element.properties.begin(), element.properties.end(),
                            [&](const PlyProperty& p) { return p.name == name && !p.count; });

@@ -102,7 +102,7 @@ export function rows(report) {
         add('Gravity', liquid.gravity_m_per_s2, (g) => `${digits(g)}${kSpace}m/s²`);
     }
     if (liquid?.tilt_deg) {
-        add('Tilt', liquid.tilt_deg, degrees);
+        add('Tilt', liquid.tilt_deg, (value) => digits(value) + '°');
     }
     if (ground && ground.kind !== 'flat') {
         add('Ground', ground, groundText);

@@ -260,9 +260,10 @@ std::string fitted(std::string_view text, double size, double width)
     std::string shorter(text);
     while (!shorter.empty()) {
         // No character of several bytes is cut.
-        do {
+        for (bool inner = true; inner && !shorter.empty();) {
+            inner = (static_cast<unsigned char>(shorter.back()) & 0xc0U) == 0x80U;
             shorter.pop_back();
-        } while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xc0U) == 0x80U);
+        }
         if (textWidth(shorter + "...", size) <= width) {
             return shorter + "...";
         }

@@ -223,14 +223,15 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
     for (std::size_t b = 0; b < light.beams.size(); ++b) {
         const Beam& beam = light.beams[b];
         // Rays that can meet the box around the liquid, slid along the beam onto the plane.
-        const Vec3f slide = -(scene.high().z / beam.toward.z) * beam.toward;
+        const Vec3f far = -(scene.high().z / beam.toward.z) * beam.toward;
+        const Vec3f near = -(scene.low().z / beam.toward.z) * beam.toward;
         const auto cells_from = [&](float a, float from) {
             return static_cast<int>(std::floor((a - from) / map.cell));
         };
-        const int first_column = cells_from(scene.low().x + std::min(slide.x, 0.0F), map.low.x);
-        const int last_column = cells_from(scene.high().x + std::max(slide.x, 0.0F), map.low.x);
-        const int first_row = cells_from(scene.low().y + std::min(slide.y, 0.0F), map.low.y);
-        const int last_row = cells_from(scene.high().y + std::max(slide.y, 0.0F), map.low.y);
+        const int first_column = cells_from(scene.low().x + std::min(far.x, near.x), map.low.x);
+        const int last_column = cells_from(scene.high().x + std::max(far.x, near.x), map.low.x);
+        const int first_row = cells_from(scene.low().y + std::min(far.y, near.y), map.low.y);
+        const int last_row = cells_from(scene.high().y + std::max(far.y, near.y), map.low.y);
         // Every beam's grid lies elsewhere within the cells, so that together they are denser than one.
         const float offset_x = std::fmod(0.5F + 0.7548777F * static_cast<float>(b), 1.0F);
         const float offset_y = std::fmod(0.5F + 0.5698403F * static_cast<float>(b), 1.0F);

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -467,6 +468,11 @@ Picture render(const Surface& surface, const RenderOptions& options)
 {
     options.validate();
     surface.validate();
+    const Vec3& first = surface.positions.front();
+    if (std::all_of(surface.positions.begin(), surface.positions.end(),
+                    [&first](const Vec3& p) { return p.x == first.x && p.y == first.y && p.z == first.z; })) {
+        throw Error(ErrorCode::InvalidArgument, "surface must have an extent; all of it is at one place");
+    }
     if (options.paint) {
         options.paint->validate(surface.positions.size());
     }

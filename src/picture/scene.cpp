@@ -115,6 +115,9 @@ struct Scene::Embree {
             rtcReleaseGeometry(geometry);
         }
         tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
+        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+            throw std::bad_alloc();
+        }
         return scene;
     }
 };

@@ -65,7 +65,8 @@ public:
         }
         int exponent = 0;
         std::frexp(largest, &exponent);
-        scale_ = largest > 0.0 ? std::ldexp(1.0, exponent) : 1.0;
+        // Its inverse must be finite, too.
+        scale_ = largest > 0.0 ? std::ldexp(1.0, std::max(exponent, -1000)) : 1.0;
         size_ = 2.0 * largest / scale_;
     }
 

@@ -326,6 +326,38 @@ TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)
     expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe, which cannot be run"}, without);
 }
 
+TEST_F(AnimateTest, DrawingsAreFramesInTheirOwnSize)
+{
+    fs::create_directory(directory() / "drawn");
+    for (int frame = 1; frame < 3; ++frame) {
+        writeFile(directory() / "drawn" / (std::to_string(frame) + ".svg"),
+                  R"(<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="4mm" viewBox="0 0 8 4"><circle cx=")" +
+                      std::to_string(1 + frame) + R"(" cy="2" r="1"/></svg>)");
+    }
+    const json drawn = report({"drawn", "out.glb"});
+    ASSERT_THAT(drawn["frames"], SizeIs(2));
+    EXPECT_NEAR(drawn["input"]["pixel_size_m"].get<double>() * drawn["input"]["width_px"].get<double>(), 8e-3, 1e-12);
+}
+
+TEST_F(AnimateTest, ProgressIsToldOfEveryFrame)
+{
+    const std::string told = run({"frames", "out.glb", "--progress", "json"}).error;
+    std::size_t solved = 0;
+    for (auto at = told.find("solve"); at != std::string::npos; at = told.find("solve", at + 1)) {
+        ++solved;
+    }
+    EXPECT_GE(solved, 5U) << told;
+}
+
+TEST_F(AnimateTest, EdgesTooShortAreRefusedBeforeMemoryIsFull)
+{
+    CommandOptions options;
+    options.directory = directory();
+    const CommandResult result = runDroplet({"animate", "frames", "out.glb", "--edge", "100nm"}, options);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.error, HasSubstr("--edge"));
+}
+
 TEST_F(AnimateTest, RefusesWhatCannotBe)
 {
     const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& words) {

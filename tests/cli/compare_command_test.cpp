@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "droplet/io/output.h"
+#include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/surfaces.h"
 
@@ -102,6 +104,26 @@ TEST_F(CompareCommand, EveryFormatIsTheSameDroplet)
         const CommandResult result = compare({first, file(name, roundDroplet()), "--tolerance", "1um"});
         EXPECT_EQ(result.exit_code, 0) << result.error;
     }
+}
+
+// Every facet of an STL stands alone; its picture must have the colours of the same surface in one piece.
+TEST_F(CompareCommand, PictureOfFacetsHasItsColours)
+{
+    const auto coloured = [&](const std::string& extension) {
+        const std::string a = file("a" + extension, roundDroplet());
+        const std::string b = file("b" + extension, roundDroplet({.height = 1.1e-3}));
+        EXPECT_EQ(compare({a, b, "--picture", (scratch_.path() / "difference.png").string(), "-q"}).exit_code, 0);
+        const Picture picture = readPicture(scratch_.path() / "difference.png");
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+            const auto [least, most] = std::minmax({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
+            count += most - least > 40 ? 1 : 0;
+        }
+        return count;
+    };
+    const std::size_t whole = coloured(".obj");
+    EXPECT_GT(whole, 10'000U);
+    EXPECT_NEAR(static_cast<double>(coloured(".stl")), static_cast<double>(whole), 0.2 * static_cast<double>(whole));
 }
 
 TEST_F(CompareCommand, ReportHasEveryKey)

@@ -14,7 +14,8 @@ namespace droplet {
 /// How outlines of a font become outlines of droplets.
 struct GlyphOptions {
     double em = 20e-3;                ///< edge of the em square, the font's size [m], > 0
-    std::optional<double> tolerance;  ///< farthest a curve's straight pieces may lie from it [m], > 0 [em/20000]
+    std::optional<double> tolerance;  ///< farthest a curve's straight pieces may lie from it [m], > 0 [em/20000];
+                                      ///< no finer than em/2²⁶
     double speck_size = 1e-5;         ///< loops that enclose less than this are dropped [em²], ≥ 0
 
     /// @throws Error InvalidArgument

@@ -47,7 +47,7 @@ double roundStep(double span, double parts);
 /// @param surface  valid
 Paint heightPaint(const Surface& surface);
 
-/// Contact angles in a band along the rim, on plain grey; diverging about their mean by length.
+/// Contact angles in a band along the rim, on plain grey; diverging about a round number near their mean.
 /// @param surface  valid, with contact angles
 /// @throws Error   InvalidArgument where the surface has none
 Paint contactAnglePaint(const Surface& surface);
