@@ -35,6 +35,11 @@ constexpr std::array kAngles{Unit{"deg", std::numbers::pi, 180}, Unit{"rad", 1, 
 constexpr std::array kTensions{Unit{"mN/m", 1, 1e3}, Unit{"N/m", 1, 1}, Unit{"dyn/cm", 1, 1e3}};
 constexpr std::array kDensities{Unit{"kg/m3", 1, 1}, Unit{"g/cm3", 1e3, 1}, Unit{"g/mL", 1e3, 1}};
 constexpr std::array kAccelerations{Unit{"m/s2", 1, 1}, Unit{"mm/s2", 1, 1e3}, Unit{"g", kStandardGravity, 1}};
+constexpr std::array kSpeeds{Unit{"mm/s", 1, 1e3}, Unit{"m/s", 1, 1}, Unit{"km/h", 1e3, 3600},
+                             Unit{"mph", 1609.344, 3600}};
+constexpr std::array kDurations{Unit{"ms", 1, 1e3}, Unit{"s", 1, 1}, Unit{"min", 60, 1}, Unit{"h", 3600, 1}};
+constexpr std::array kRainfalls{Unit{"mm/h", 1, 3.6e6}, Unit{"in/h", 254, 3.6e7}};
+constexpr std::array kViscosities{Unit{"mPa.s", 1, 1e3}, Unit{"Pa.s", 1, 1}};
 
 Kind kindOf(Dimension dimension)
 {
@@ -51,6 +56,14 @@ Kind kindOf(Dimension dimension)
             return {"a density", "998kg/m3", kDensities};
         case Dimension::Acceleration:
             return {"an acceleration", "9.81m/s2", kAccelerations};
+        case Dimension::Speed:
+            return {"a speed", "11m/s", kSpeeds};
+        case Dimension::Duration:
+            return {"a duration", "10s", kDurations};
+        case Dimension::Rainfall:
+            return {"a rainfall", "5mm/h", kRainfalls};
+        case Dimension::Viscosity:
+            return {"a viscosity", "0.5Pa.s", kViscosities};
     }
     throw Error(ErrorCode::InvalidArgument, "dimension: no such kind of quantity");
 }
@@ -58,12 +71,13 @@ Kind kindOf(Dimension dimension)
 /// The unit with the typographic signs people paste written as the plain characters of the tables.
 std::string plainUnit(std::string_view unit)
 {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSigns{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns{{
         {"\u00b5", "u"},    // micro sign
         {"\u03bc", "u"},    // Greek mu
         {"\u00b2", "2"},    // superscript two
         {"\u00b3", "3"},    // superscript three
         {"\u00b0", "deg"},  // degree sign
+        {"\u00b7", "."},    // middle dot
     }};
     std::string plain(unit);
     for (const auto& [sign, replacement] : kSigns) {

@@ -54,6 +54,18 @@ TEST(ParseQuantity, KnowsEveryUnitToTheLastBit)
         {"9.81m/s2", Dimension::Acceleration, 9.81},
         {"5mm/s2", Dimension::Acceleration, 5e-3},
         {"2g", Dimension::Acceleration, 2 * kStandardGravity},
+        {"110mm/s", Dimension::Speed, 0.11},
+        {"11.3m/s", Dimension::Speed, 11.3},
+        {"90km/h", Dimension::Speed, 25.0},
+        {"10mph", Dimension::Speed, 4.4704},
+        {"40ms", Dimension::Duration, 0.04},
+        {"10s", Dimension::Duration, 10.0},
+        {"2min", Dimension::Duration, 120.0},
+        {"1h", Dimension::Duration, 3600.0},
+        {"3.6mm/h", Dimension::Rainfall, 1e-6},
+        {"1in/h", Dimension::Rainfall, 25.4 * kMillimetrePerHour},
+        {"45mPa.s", Dimension::Viscosity, 0.045},
+        {"0.5Pa·s", Dimension::Viscosity, 0.5},
     };
     for (const Case& c : cases) {
         EXPECT_DOUBLE_EQ(parseQuantity(c.text, c.dimension), c.expected) << c.text;
@@ -134,8 +146,9 @@ TEST(ParseQuantity, KeepsItsMessageToOneShortLine)
 
 TEST(UnitsOf, ListsOnlyUnitsThatAreRead)
 {
-    for (const Dimension dimension : {Dimension::Length, Dimension::Volume, Dimension::Angle, Dimension::SurfaceTension,
-                                      Dimension::Density, Dimension::Acceleration}) {
+    for (const Dimension dimension :
+         {Dimension::Length, Dimension::Volume, Dimension::Angle, Dimension::SurfaceTension, Dimension::Density,
+          Dimension::Acceleration, Dimension::Speed, Dimension::Duration, Dimension::Rainfall, Dimension::Viscosity}) {
         std::istringstream words(unitsOf(dimension));
         int units = 0;
         for (std::string word; words >> word;) {
