@@ -33,10 +33,9 @@ Backdrop::Backdrop(int width, int height, float half_width, float half_height)
         w = (w + 1) / 2;
         h = (h + 1) / 2;
         pixel *= 2.0F;
-        Level level{
-            w, h, static_cast<float>(width) / pixel / 65536.0F, static_cast<float>(height) / pixel / 65536.0F, {}};
-        level.light.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), four(0.0F));
-        levels_.push_back(std::move(level));
+        levels_.push_back({w, h, static_cast<float>(width) / pixel / 65536.0F,
+                           static_cast<float>(height) / pixel / 65536.0F, light_.size()});
+        light_.resize(light_.size() + static_cast<std::size_t>(w) * static_cast<std::size_t>(h), four(0.0F));
     } while (w > 1 || h > 1);
 }
 
@@ -45,7 +44,7 @@ void Backdrop::take(const Picture& picture)
     static const std::array<float, 256> kLight = brightened();
     const auto width = static_cast<std::size_t>(picture.width);
     const auto height = static_cast<std::size_t>(picture.height);
-    Level& first = levels_.front();
+    const Level& first = levels_.front();
     const auto forRows = [](const Level& level, const auto& work) {
         constexpr int kRowsWorthAThread = 16;
         tbb::parallel_for(tbb::blocked_range<int>(0, level.height, kRowsWorthAThread), [&](const auto& rows) {
@@ -57,7 +56,7 @@ void Backdrop::take(const Picture& picture)
     forRows(first, [&](std::size_t y) {
         const std::uint8_t* const upper = picture.rgb.data() + 3 * width * (2 * y);
         const std::uint8_t* const lower = 2 * y + 1 < height ? upper + 3 * width : upper;
-        Four* to = first.light.data() + y * static_cast<std::size_t>(first.width);
+        Four* const to = light_.data() + y * static_cast<std::size_t>(first.width);
         for (std::size_t x = 0; x < static_cast<std::size_t>(first.width); ++x) {
             const std::size_t a = 6 * x;
             const std::size_t b = 2 * x + 1 < width ? a + 3 : a;
@@ -69,11 +68,11 @@ void Backdrop::take(const Picture& picture)
     });
     for (std::size_t k = 1; k < levels_.size(); ++k) {
         const Level& from = levels_[k - 1];
-        Level& level = levels_[k];
+        const Level& level = levels_[k];
         forRows(level, [&](std::size_t y) {
-            const Four* const upper = from.light.data() + 2 * y * static_cast<std::size_t>(from.width);
+            const Four* const upper = light_.data() + from.first + 2 * y * static_cast<std::size_t>(from.width);
             const Four* const lower = 2 * y + 1 < static_cast<std::size_t>(from.height) ? upper + from.width : upper;
-            Four* to = level.light.data() + y * static_cast<std::size_t>(level.width);
+            Four* const to = light_.data() + level.first + y * static_cast<std::size_t>(level.width);
             for (std::size_t x = 0; x < static_cast<std::size_t>(level.width); ++x) {
                 const std::size_t a = 2 * x;
                 const std::size_t b = a + 1 < static_cast<std::size_t>(from.width) ? a + 1 : a;

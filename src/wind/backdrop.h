@@ -62,6 +62,7 @@ public:
     [[nodiscard]] Four at(PlaceInPicture place, std::uint8_t level) const
     {
         const Level& own = levels_[level];
+        const Four* const light = light_.data() + own.first;
         const float x = std::max(own.across * static_cast<float>(place.x) - 0.5F, 0.0F);
         const float y = std::max(own.down * static_cast<float>(place.y) - 0.5F, 0.0F);
         const int column = std::min(static_cast<int>(x), own.width - 1);
@@ -69,17 +70,26 @@ public:
         const float right = x - static_cast<float>(column);
         const float below = y - static_cast<float>(row);
         const std::size_t next = column + 1 < own.width ? 1 : 0;
-        const Four* const upper = own.light.data() +
-                                  static_cast<std::size_t>(row) * static_cast<std::size_t>(own.width) +
-                                  static_cast<std::size_t>(column);
+        const Four* const upper = light + row * own.width + column;
         const Four* const lower = row + 1 < own.height ? upper + own.width : upper;
         const Four above = upper[0] + four(right) * (upper[next] - upper[0]);
         const Four under = lower[0] + four(right) * (lower[next] - lower[0]);
         return above + four(below) * (under - above);
     }
 
+    /// The pixel of a level that a place lies in, among those of all levels.
+    [[nodiscard]] std::uint32_t pixelAt(PlaceInPicture place, std::uint8_t level) const
+    {
+        const Level& own = levels_[level];
+        const int column = std::min(static_cast<int>(own.across * static_cast<float>(place.x)), own.width - 1);
+        const int row = std::min(static_cast<int>(own.down * static_cast<float>(place.y)), own.height - 1);
+        return static_cast<std::uint32_t>(own.first) + static_cast<std::uint32_t>(row * own.width + column);
+    }
+
+    [[nodiscard]] Four at(std::uint32_t pixel) const { return light_[pixel]; }
+
     /// Mean of all of it.
-    [[nodiscard]] Four mean() const { return levels_.back().light.front(); }
+    [[nodiscard]] Four mean() const { return light_.back(); }
 
 private:
     struct Level {
@@ -87,12 +97,13 @@ private:
         int height = 0;
         float across = 0.0F;  ///< pixels in a 65536th of the picture
         float down = 0.0F;
-        std::vector<Four> light;
+        std::size_t first = 0;  ///< of its pixels
     };
 
     float half_width_;
     float half_height_;
     std::vector<Level> levels_;  ///< the first is half the picture
+    std::vector<Four> light_;    ///< of all levels
 };
 
 }  // namespace droplet

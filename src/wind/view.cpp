@@ -61,11 +61,10 @@ Vec3f fromFrame(const Frame& frame, Vec3f v)
 
 /// What a ray through a still droplet shows. Kept as long as the droplet is there, whatever is behind the glass.
 struct StillSample {
-    PlaceInPicture place;
-    std::uint8_t pixel = 0;  ///< of the tile
-    std::uint8_t light = 0;  ///< share of it that gets through, in 255ths
-    std::uint8_t level = 0;  ///< of the backdrop
-    std::uint8_t cover = 0;  ///< in 255ths
+    std::uint32_t outside = 0;  ///< pixel of the backdrop
+    std::uint8_t pixel = 0;     ///< of the tile
+    std::uint8_t light = 0;     ///< share of it that gets through, in 255ths
+    std::uint8_t cover = 0;     ///< in 255ths
 };
 static_assert(kTilePixels == 256, "a pixel's number in its tile is a byte");
 
@@ -88,8 +87,9 @@ struct Drawn {
     Frame frame;  ///< x along the motion
     Capsule capsule;
     float contact = 0.0F;
-    std::uint8_t level = 0;
-    int left = 0;  ///< pixels it may reach
+    std::uint8_t level = 0;       ///< of the backdrop
+    std::uint8_t calm_level = 0;  ///< where there is one ray a pixel
+    int left = 0;                 ///< pixels it may reach
     int right = -1;
     int top = 0;
     int bottom = -1;
@@ -131,16 +131,13 @@ struct DriversView::Content {
         bare.width = options.width;
         bare.height = options.height;
         bare.rgb.assign(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height), 0);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double share = c == 0   ? options.glass_colour.x
-                                 : c == 1 ? options.glass_colour.y
-                                          : options.glass_colour.z;
-            for (std::size_t level = 0; level < 256; ++level) {
-                through_pane[c][level] = encoded(static_cast<float>(share) * displayLevels()[level]);
-            }
+        // What dims light by a share dims levels by its 2.4th root, sRGB's but for the darkest.
+        const std::array<double, 3> shares{options.glass_colour.x, options.glass_colour.y, options.glass_colour.z};
+        for (std::size_t i = 0; i < through_pane.size(); ++i) {
+            through_pane[i] = static_cast<std::uint16_t>(std::lround(256.0 * std::pow(shares[i % 3], 1.0 / 2.4)));
         }
-        pane = {static_cast<float>(options.glass_colour.x), static_cast<float>(options.glass_colour.y),
-                static_cast<float>(options.glass_colour.z), 1.0F};
+        pane = Four{static_cast<float>(options.glass_colour.x), static_cast<float>(options.glass_colour.y),
+                    static_cast<float>(options.glass_colour.z), 1.0F};
     }
 
     // ------------------------------------------------------------------------------------ where the eye's rays go
@@ -436,9 +433,9 @@ struct DriversView::Content {
                         sample.pixel = static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
                         sample.cover = static_cast<std::uint8_t>(seen.cover());
                         sample.light = static_cast<std::uint8_t>(255.0F * (1.0F - out.reflected) + 0.5F);
-                        sample.level = levelFor(2.0F * seen.radius() * texel / tile.pixel);
                         if (out.reflected < 1.0F) {
-                            sample.place = backdrop.placeOf(fromFrame(tile.frame, out.transmitted));
+                            sample.outside = backdrop.pixelAt(backdrop.placeOf(fromFrame(tile.frame, out.transmitted)),
+                                                              levelFor(2.0F * seen.radius() * texel / tile.pixel));
                         }
                         tile.samples.push_back(sample);
                     }
@@ -521,7 +518,9 @@ struct DriversView::Content {
         const Tile& tile =
             tiles[static_cast<std::size_t>((one.top + one.bottom) / 2 / kTile) * static_cast<std::size_t>(columns) +
                   static_cast<std::size_t>((one.left + one.right) / 2 / kTile)];
-        one.level = levelFor(tile.on_glass ? 2.0F * one.contact / tile.pixel : right_most - left_most);
+        const float diameter = tile.on_glass ? 2.0F * one.contact / tile.pixel : right_most - left_most;
+        one.level = levelFor(diameter);
+        one.calm_level = levelFor(diameter / static_cast<float>(options.samples));
         return one;
     }
 
@@ -533,9 +532,8 @@ struct DriversView::Content {
         light.fill(four(0.0F));
         const float share = 1.0F / (255.0F * static_cast<float>(options.samples * options.samples));
         for (const StillSample& sample : tile.samples) {
-            light[sample.pixel] +=
-                four(share * static_cast<float>(sample.cover)) *
-                seen(backdrop.at(sample.place, sample.level), static_cast<float>(sample.light) / 255.0F);
+            light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
+                                   seen(backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
         for (const std::uint32_t k : tile.droplets) {
             shineOne(drawn[k], tile, column, row, light);
@@ -545,8 +543,7 @@ struct DriversView::Content {
     /// What is seen along a ray of which a share gets out and the rest is led back inside.
     [[nodiscard]] Four seen(Four outside, float share) const
     {
-        const Four light = pane * (four(share) * outside + four(1.0F - share) * cabin);
-        return Four{light[0], light[1], light[2], 1.0F};
+        return pane * (cabin + four(share) * (outside - cabin));
     }
 
     void shineOne(const Drawn& one, const Tile& tile, int column, int row, std::array<Four, kTilePixels>& light) const
@@ -555,6 +552,8 @@ struct DriversView::Content {
         const int n = options.samples;
         const float soft = tile.pixel / static_cast<float>(n);
         const float share = 1.0F / static_cast<float>(n * n);
+        // In its middle a droplet is smooth: a ray a pixel does.
+        const float calm = 0.6F * one.contact - tile.pixel;
         for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
             for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1);
                  ++x) {
@@ -576,30 +575,34 @@ struct DriversView::Content {
                 }
                 const Vec3f inside = intoWater(toFrame(one.frame, ray(x, y)), ior);
                 Four sum = four(0.0F);
-                for (int j = 0; j < n; ++j) {
-                    for (int i = 0; i < n; ++i) {
-                        const float u = offset(i);
-                        const float v = offset(j);
-                        const float ex = dx + u * tile.right.x + v * tile.down.x;
-                        const float ey = dy + u * tile.right.y + v * tile.down.y;
-                        const float a = one.along.x * ex + one.along.y * ey;
-                        const float b = one.along.x * ey - one.along.y * ex;
-                        const float end = beyondLine(a);
-                        const float far = std::sqrt(end * end + b * b);
-                        const float cover = std::min((one.contact - far) / soft + 0.5F, 1.0F);
-                        if (cover <= 0.0F) {
-                            continue;
+                // Adds the light of a ray: so far from the pixel's middle, for a share of the pixel.
+                const auto add = [&](float u, float v, float part, std::uint8_t level) {
+                    const float ex = dx + u * tile.right.x + v * tile.down.x;
+                    const float ey = dy + u * tile.right.y + v * tile.down.y;
+                    const float a = one.along.x * ex + one.along.y * ey;
+                    const float b = one.along.x * ey - one.along.y * ex;
+                    const float end = beyondLine(a);
+                    const float cover = std::min((one.contact - std::sqrt(end * end + b * b)) / soft + 0.5F, 1.0F);
+                    if (cover <= 0.0F) {
+                        return;
+                    }
+                    const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
+                    Four outside = cabin;
+                    if (met.reflected < 1.0F) {
+                        outside = backdrop.at(backdrop.placeOf(fromFrame(one.frame, met.transmitted)), level);
+                    }
+                    sum += four(part * cover) * seen(outside, 1.0F - met.reflected);
+                };
+                if (past * past + b0 * b0 < calm * std::abs(calm)) {
+                    add(0.0F, 0.0F, 1.0F, one.calm_level);
+                } else {
+                    for (int j = 0; j < n; ++j) {
+                        for (int i = 0; i < n; ++i) {
+                            add(offset(i), offset(j), share, one.level);
                         }
-                        const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
-                        Four outside = four(0.0F);
-                        if (met.reflected < 1.0F) {
-                            outside = backdrop.at(backdrop.placeOf(fromFrame(one.frame, met.transmitted)), one.level);
-                        }
-                        sum += four(cover) * seen(outside, 1.0F - met.reflected);
                     }
                 }
                 Four& pixel = light[static_cast<std::size_t>((y % kTile) * kTile + x % kTile)];
-                sum *= four(share);
                 pixel = sum + four(1.0F - sum[3]) * pixel;
             }
         }
@@ -645,9 +648,9 @@ struct DriversView::Content {
     std::vector<Tile> tiles;
     StillMap map;
     Picture bare;
-    std::array<std::array<std::uint8_t, 256>, 3> through_pane{};
+    std::array<std::uint16_t, 48> through_pane{};  ///< of levels, in 256ths, for 16 pixels
     Four pane{};
-    Four cabin{};
+    Four cabin{0.0F, 0.0F, 0.0F, 1.0F};  ///< light of what is inside
     std::vector<Drawn> drawn;
 };
 
@@ -673,15 +676,26 @@ void DriversView::lookAt(const Picture& picture)
     }
     content.backdrop.take(picture);
     // As dark as it is behind the eye, by eye: a tenth of what is ahead.
-    content.cabin = four(0.1F) * content.backdrop.mean();
-    const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
-    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(picture.height), [&](std::size_t y) {
-        for (std::size_t i = y * row; i < (y + 1) * row; i += 3) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                content.bare.rgb[i + c] = content.through_pane[c][picture.rgb[i + c]];
+    content.cabin = Four{0.1F, 0.1F, 0.1F, 1.0F} * content.backdrop.mean();
+    const std::array<std::uint16_t, 48> shares = content.through_pane;
+    const std::uint8_t* const from = picture.rgb.data();
+    std::uint8_t* const to = content.bare.rgb.data();
+    constexpr std::size_t kRun = 48;  // as many as are done at once
+    constexpr std::size_t kRunsWorthAThread = 512;
+    const std::size_t runs = picture.rgb.size() / kRun;
+    const auto dim = [&](std::size_t at, std::size_t k) {
+        to[at + k] = static_cast<std::uint8_t>((from[at + k] * shares[k] + 128) >> 8);
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs, kRunsWorthAThread), [&](const auto& range) {
+        for (std::size_t run = range.begin(); run < range.end(); ++run) {
+            for (std::size_t k = 0; k < kRun; ++k) {
+                dim(run * kRun, k);
             }
         }
     });
+    for (std::size_t k = 0; runs * kRun + k < picture.rgb.size(); ++k) {
+        dim(runs * kRun, k);
+    }
 }
 
 void DriversView::show(const WindshieldState& state)
