@@ -108,13 +108,17 @@ DropletForces forcesOn(const ForceModel& model, const CapSize& cap)
 {
     const Wetting& wetting = model.wetting;
     const double mass = model.liquid.density * cap.volume;
+    const double weight = mass * model.gravity;
     const double slowed = windAt(model.air, 1.0, cap.height);
-    const double retention = wetting.falling_angle ? mass * model.gravity * std::sin(*wetting.falling_angle)
+    const double retention = wetting.falling_angle ? weight * std::sin(*wetting.falling_angle)
                                                    : 0.5 * kPi * cap.contact_radius * model.liquid.surface_tension *
                                                          wetting.hysteresis;  // (3.2)
     return {mass,
+            weight,
             0.5 * model.air.density * model.air.drag_coefficient * cap.frontal_area * slowed * slowed,  // (3.3)
-            retention, wetting.kinetic_fraction * retention, wetting.viscosity_factor * cap.radius};    // (3.5)
+            retention,
+            wetting.kinetic_fraction * retention,
+            wetting.viscosity_factor * cap.radius};  // (3.5)
 }
 
 DropletForces forcesOn(const ForceModel& model, double volume)
@@ -131,9 +135,9 @@ double windAt(const Air& air, double wind, double height)
     return wind * (air.profile_exponent == 0.5 ? std::sqrt(depth) : std::pow(depth, air.profile_exponent));  // (3.4)
 }
 
-double drivingForce(const DropletForces& forces, double gravity, double slope, double wind)
+double drivingForce(const DropletForces& forces, double slope, double wind)
 {
-    return forces.drag * wind * std::abs(wind) - forces.mass * gravity * std::sin(slope);
+    return forces.drag * wind * std::abs(wind) - forces.weight * std::sin(slope);
 }
 
 double acceleration(const DropletForces& forces, double driving, double velocity)

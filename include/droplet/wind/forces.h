@@ -78,6 +78,7 @@ double capVolume(double contact_radius, double contact_angle);
 /// What acts on one droplet, as far as it is its own: neither slope nor wind nor speed is in it.
 struct DropletForces {
     double mass = 0.0;              ///< m [kg]
+    double weight = 0.0;            ///< m g [N]
     double drag = 0.0;              ///< wind drag per square of the free wind's speed V, eqs. 3.3 and 3.4 [N s²/m²]
     double retention = 0.0;         ///< F_max, what holds a droplet at rest, eq. 3.2 [N]
     double sliding_friction = 0.0;  ///< what is left of it while moving [N]
@@ -99,10 +100,9 @@ double windAt(const Air& air, double wind, double height);
 /// The thesis calls the wind horizontal. In the boundary layer that eq. 3.4 describes air can only flow along the
 /// glass, so all of the wind counts, whatever the slope. The droplet's own speed, small against the wind's, is not
 /// taken from it, as in the thesis: so that the terminal speed is (|driving force| − friction) / viscous.
-/// @param gravity  g [m/s²]
-/// @param slope    α, from the horizontal [rad]
-/// @param wind     V, up the slope [m/s]
-double drivingForce(const DropletForces& forces, double gravity, double slope, double wind);
+/// @param slope  α, from the horizontal [rad]
+/// @param wind   V, up the slope [m/s]
+double drivingForce(const DropletForces& forces, double slope, double wind);
 
 /// Acceleration of a droplet under a driving force [m/s²].
 ///
