@@ -51,21 +51,24 @@ public:
 
     /// How an object becomes a glass.
     struct Developed {
-        double scale = 0.0;  ///< metres of the rolled out glass per unit of uv, both ways; 0: metresPerUv(object)
+        double scale = 0.0;     ///< metres of the rolled out glass per unit of uv, both ways; 0: metresPerUv(object)
+        Vec2 ahead{0.0, -1.0};  ///< where the vehicle drives in the object's frame, level: −y is where glTF's +Z goes
     };
 
     /// @throws Error InvalidArgument
     explicit Glass(const Cylinder& cylinder);
     Glass() : Glass(Cylinder{}) {}
 
-    /// A mesh, such as readObject gives: rolled out by its uv, times one scale, u to the right and v down; its own
-    /// bounding box in uv is the rolled out glass. Its frame is taken as the vehicle's (glTF's −z, ahead; +y up): the
-    /// origin stays where the object has it. Lengths are right where the uv are an isometry up to that scale; how far
-    /// they are from it leastStretch() and mostStretch() tell. Directions go by the isometry nearest to each triangle's
-    /// map (polar decomposition), normals are interpolated. Where triangles overlap in uv, the first one is the glass;
-    /// where there is none, there is no glass: droplets that come there have left it.
-    /// @param object  valid, with an area in uv; normals outward
-    /// @throws Error  InvalidArgument; InvalidInput if no triangle has an area in uv
+    /// A mesh, such as readObject gives: rolled out by its uv times one scale, v down the glass, u so that the driver
+    /// sees x run to the right; its bounding box in uv is the rolled out glass. The frame is turned so that the vehicle
+    /// drives towards y; the origin stays where the object has it.
+    ///
+    /// Lengths are right where the uv are an isometry up to that scale; how far they are from one, leastStretch() and
+    /// mostStretch() tell. Directions go by the isometry nearest to each triangle's map (polar decomposition), normals
+    /// are interpolated. Where triangles overlap in uv, the first one is the glass; where there is none, there is no
+    /// glass: droplets that come there have left it.
+    /// @param object  valid; normals outward
+    /// @throws Error  InvalidArgument; InvalidInput if no triangle has an area both in space and in uv
     Glass(const TexturedMesh& object, const Developed& developed);
 
     [[nodiscard]] double width() const { return width_; }    ///< of the rolled out glass [m]

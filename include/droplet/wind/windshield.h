@@ -40,7 +40,7 @@ struct StillDroplet {
 /// The still droplets, in square cells of the rolled out glass: cell (column, row) is number row · columns + column and
 /// holds at most kMost of them, in an order that is a matter of history. Memory is bounded by the glass's area.
 struct StillDroplets {
-    static constexpr std::size_t kMost = 12;  ///< what lands in a full cell joins the nearest there
+    static constexpr std::size_t kMost = 8;  ///< what lands in a full cell joins the nearest there
 
     double cell = 0.0;  ///< their width [m]
     std::uint32_t columns = 0;
@@ -92,7 +92,7 @@ struct TrackPiece {
     std::uint64_t id = 0;
     Vec2 from;  ///< [m]
     Vec2 to;
-    double radius = 0.0;  ///< of contact [m]
+    double radius = 0.0;  ///< half its width, seen from above [m]
 
     friend bool operator==(const TrackPiece&, const TrackPiece&) = default;
 };
@@ -112,7 +112,6 @@ struct WindshieldCounts {
 /// All there is to know to go on. Plain values; made by startWindshield, step and stateFromBytes.
 struct WindshieldState {
     double time = 0.0;                     ///< [s]
-    std::uint64_t steps = 0;               ///< so far
     std::vector<RunningDroplet> droplets;  ///< in the order of their ids
     StillDroplets still;                   ///< all others
     std::vector<TrackPiece> tracks;        ///< of the last step, of droplets that moved, in the order of ids
