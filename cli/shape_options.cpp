@@ -20,6 +20,7 @@ const CommandText& commandText()
                                   "  batch      a droplet of each of many pictures; see droplet-shape batch --help\n"
                                   "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
                                   "  glyphs     a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
+                                  "  windshield rain on a moving car's windshield; droplet-shape windshield --help\n"
                                   "\n" +
                                       std::string(kUnitsText) +
                                       "\n"

@@ -96,8 +96,8 @@ public:
             parameters_.vehicle = droplet::readDriveCycle(*options_.drive_cycle);
         }
         if (options_.surface) {
-            parameters_.glass = forOption(*options_.surface,
-                                          [&] { return droplet::Glass(droplet::readObject(*options_.surface), {}); });
+            const droplet::TexturedMesh object = droplet::readObject(*options_.surface);
+            parameters_.glass = forOption(*options_.surface, [&] { return droplet::Glass(object, {}); });
             constexpr double kBent = 0.02;
             if (parameters_.glass.mostStretch() > 1.0 + kBent || parameters_.glass.leastStretch() < 1.0 - kBent) {
                 std::ostringstream words;
@@ -289,6 +289,9 @@ private:
             tellProgress();
         }
         saving_.wait();
+        if (report_.balance.back().time != state_.time) {
+            noteBalance();
+        }
         report_.counts = state_.counts;
     }
 

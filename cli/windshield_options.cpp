@@ -112,7 +112,7 @@ void declare(CommandLine& line)
              "what is behind the glass: a picture, or a video, which\n"
              "takes ffmpeg [an evening road]");
     line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
-    line.add(kLooks, "--size", "WxH", "of the frame in pixels [the background's, or 1280x720]");
+    line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
     line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
     line.add(kLooks, "--samples", "N", "rays a pixel across and down, 1 to 4 [2]");

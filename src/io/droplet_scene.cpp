@@ -67,8 +67,10 @@ Net capNet(double angle)
             const Vec3 normal{std::sin(tilt) * std::cos(around(k)), std::sin(tilt) * std::sin(around(k)),
                               std::cos(tilt)};
             net.normals.push_back(normal);
-            net.positions.push_back(radius * normal +
-                                    Vec3{0.0, 0.0, ring == kRings ? centre - (radius * normal.z + centre) : centre});
+            net.positions.push_back(radius * normal + Vec3{0.0, 0.0, centre});
+            if (ring == kRings) {
+                net.positions.back().z = 0.0;  // exactly on the glass
+            }
         }
     }
     for (std::uint32_t k = 0; k < kAround; ++k) {
@@ -190,7 +192,7 @@ struct DropletScene::Content {
             const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
             const Vec3 x = yUp(along.x * place.across + along.y * place.up);
             const Vec3 y = yUp(place.normal);
-            // Tangents and normal are right-handed seen from inside or outside, whichever; the net needs a turn.
+            // across, up and normal are left-handed; a turn is made of the way, the normal and what is square to both.
             std::array<double, 4> turn = quaternion(x, y, cross(x, y));
             if (!track.keys.empty()) {
                 double cosine = 0.0;
