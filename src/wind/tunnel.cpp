@@ -107,14 +107,18 @@ std::vector<double> turningVolumes(const ForceModel& model, const Exposure& expo
     const double n = model.air.profile_exponent;
     const double slowed_drag =
         model.air.boundary_layer > 0.0 ? full_drag * std::pow(cap.height / model.air.boundary_layer, 2.0 * n) : 0.0;
-    // d/dV (D − W) V^(−1/3) = 0, with D = d V^e: V^(e − 1) = (2/3) w / ((e − 1/3) d).
-    const auto add_turn = [&](double drag, double exponent) {
-        if (exponent != 1.0) {
-            add(std::pow(2.0 / 3.0 * weight / ((exponent - 1.0 / 3.0) * drag), 1.0 / (exponent - 1.0)));
-        }
-    };
-    add_turn(slowed_drag, (2.0 + 2.0 * n) / 3.0);
-    add_turn(full_drag, 2.0 / 3.0);
+    // What goes with the volume: the weight, and retention if it does, on either side.
+    const double retention = model.wetting.falling_angle ? one.retention : 0.0;
+    for (const double held : {weight - retention, weight, weight + retention}) {
+        // d/dV (D − W) V^(−1/3) = 0, with D = d V^e: V^(e − 1) = (2/3) w / ((e − 1/3) d).
+        const auto add_turn = [&](double drag, double exponent) {
+            if (exponent != 1.0) {
+                add(std::pow(2.0 / 3.0 * held / ((exponent - 1.0 / 3.0) * drag), 1.0 / (exponent - 1.0)));
+            }
+        };
+        add_turn(slowed_drag, (2.0 + 2.0 * n) / 3.0);
+        add_turn(full_drag, 2.0 / 3.0);
+    }
     std::sort(volumes.begin(), volumes.end());
     return volumes;
 }
