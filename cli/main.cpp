@@ -19,6 +19,7 @@
 #include "glyphs_command.h"
 #include "shape_command.h"
 #include "terminal.h"
+#include "wind_tunnel_command.h"
 
 namespace {
 
@@ -64,7 +65,8 @@ const std::vector<Command>& commands()
     static const std::vector<Command> all{{"animate", cli::runAnimate},
                                           {"batch", cli::runBatch},
                                           {"compare", cli::runCompare},
-                                          {"glyphs", cli::runGlyphs}};
+                                          {"glyphs", cli::runGlyphs},
+                                          {"wind-tunnel", cli::runWindTunnel}};
     return all;
 }
 

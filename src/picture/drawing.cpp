@@ -7,7 +7,7 @@
 #include <limits>
 #include <ostream>
 #include <string_view>
-#include <type_traits>
+#include <utility>
 
 #include "droplet/error.h"
 #include "picture/lettering.h"
@@ -292,7 +292,43 @@ Text scaled(Text text, double scale)
     return text;
 }
 
+void move(std::vector<Vec2>& points, Vec2 by)
+{
+    for (Vec2& p : points) {
+        p = p + by;
+    }
+}
+
+void move(Area& area, Vec2 by)
+{
+    move(area.points, by);
+}
+
+void move(Line& line, Vec2 by)
+{
+    move(line.points, by);
+}
+
+void move(Text& text, Vec2 by)
+{
+    text.at = text.at + by;
+}
+
 }  // namespace
+
+Drawing beside(const std::vector<Drawing>& drawings)
+{
+    Drawing all;
+    for (Drawing drawing : drawings) {
+        for (auto& mark : drawing.marks) {
+            std::visit([&](auto& one) { move(one, {all.width, 0.0}); }, mark);
+            all.marks.push_back(std::move(mark));
+        }
+        all.width += drawing.width;
+        all.height = std::max(all.height, drawing.height);
+    }
+    return all;
+}
 
 void writeSvg(const Drawing& drawing, std::ostream& out)
 {

@@ -519,7 +519,15 @@ void drawShedding(Plot& plot, const std::vector<Level>& levels)
     }
     if (line.size() > 1) {
         plot.line(line, kSoft, 1.2, 3.5);
-        plot.text({"torn off, We = 7.5", line[line.size() / 12] + Vec2{-7.0, 8.0}, kSmallLetters, kSoft, Anchor::End});
+        // Beside its upper end, above the regimes' names.
+        const Vec2 end = line.back();
+        constexpr double kName = 100.0;
+        const bool is_right = end.x + kName > plot.right();
+        plot.text({"torn off, We 7.5",
+                   {end.x + (is_right ? -8.0 : 10.0), end.y + 13.0},
+                   kSmallLetters,
+                   kSoft,
+                   is_right ? Anchor::End : Anchor::Start});
     }
 }
 

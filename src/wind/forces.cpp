@@ -205,7 +205,7 @@ double fittedBoundaryLayer(const ForcePreset& preset)
 
 ForcePreset thesis()
 {
-    ForcePreset preset{"thesis", {}, 35.0 * kDegree, 30.0 * kMicrolitre, {}};
+    ForcePreset preset{"thesis", {}, 35.0 * kDegree, 30.0 * kMicrolitre, {}, {}};
     for (const double microlitres : {5.0, 10.0, 20.0, 30.0, 50.0, 100.0}) {
         preset.volumes.push_back(microlitres * kMicrolitre);
     }
@@ -220,14 +220,14 @@ ForcePreset thesis()
 
 ForcePreset hashimoto()
 {
-    ForcePreset preset{"hashimoto", {}, 35.0 * kDegree, 30.0 * kMicrolitre, {}};
+    ForcePreset preset{"hashimoto", {}, 35.0 * kDegree, 30.0 * kMicrolitre, 10.0 * kDegree, {}};
     for (const double microlitres : {15.0, 20.0, 25.0, 30.0}) {
         preset.volumes.push_back(microlitres * kMicrolitre);
     }
     ForceModel& model = preset.model;
     constexpr double kContactAngle = 105.0 * kDegree;
     model.wetting.contact_angle = kContactAngle;
-    model.wetting.hysteresis = hysteresisOf(model, 10.0 * kDegree, preset.reference_volume);
+    model.wetting.hysteresis = hysteresisOf(model, *preset.falling_angle, preset.reference_volume);
     model.wetting.viscosity_factor =
         wedgeViscosityFactor(kWaterViscosity, kContactAngle, capOf(preset.reference_volume, kContactAngle).radius);
     model.air.boundary_layer = fittedBoundaryLayer(preset);

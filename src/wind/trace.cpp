@@ -61,7 +61,7 @@ std::array<double, 5> phi(double z)
     return f;
 }
 
-struct Motion {
+struct Place {
     double position = 0.0;
     double velocity = 0.0;
 };
@@ -79,7 +79,7 @@ struct Sliding {
         return (drivingForce(*forces, slope, wind->at(time)) - direction * forces->sliding_friction) / forces->mass;
     }
 
-    [[nodiscard]] Motion after(Motion from, double time, double step) const
+    [[nodiscard]] Place after(Place from, double time, double step) const
     {
         const double g0 = push(time);
         const double g1 = push(time + 0.5 * step);
@@ -118,7 +118,7 @@ private:
 
 class Tracer {
 public:
-    Tracer(const DropletForces& forces, double slope, const Gust& wind, const TraceOptions& options)
+    Tracer(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options)
         : forces_(&forces), slope_(slope), wind_(&wind), options_(&options), motion_{0.0, options.velocity}
     {
         fastest_ = std::abs(motion_.velocity);
@@ -126,7 +126,7 @@ public:
         next_step_ = options.fixed_step.value_or(0.01 * (wind.amplitude == 0.0 ? options.duration : wind.period));
     }
 
-    Trace run()
+    Motion run()
     {
         const auto last = static_cast<std::size_t>(std::floor(options_->duration / options_->interval * (1.0 + 1e-12)));
         trace_.points.reserve(last + 1);
@@ -199,10 +199,10 @@ private:
         if (wind_->amplitude == 0.0 && !options_->fixed_step) {
             step = room;
         }
-        Motion to = sliding.after(motion_, time_, step);
+        Place to = sliding.after(motion_, time_, step);
         if (wind_->amplitude != 0.0 && !options_->fixed_step) {
-            const Motion half = sliding.after(motion_, time_, 0.5 * step);
-            const Motion twice = sliding.after(half, time_ + 0.5 * step, 0.5 * step);
+            const Place half = sliding.after(motion_, time_, 0.5 * step);
+            const Place twice = sliding.after(half, time_ + 0.5 * step, 0.5 * step);
             fastest_ = std::max({fastest_, std::abs(to.velocity), std::abs(twice.velocity)});
             // Of fourth order: the halved steps have a 16th of the error.
             const double error = std::abs(to.velocity - twice.velocity) / 15.0;
@@ -229,7 +229,7 @@ private:
     }
 
     /// Accepts a step, or the part of it until friction catches the droplet.
-    void finish(const Sliding& sliding, double step, Motion to)
+    void finish(const Sliding& sliding, double step, Place to)
     {
         const double from = time_;
         if (direction_ * to.velocity > 0.0) {
@@ -237,7 +237,7 @@ private:
             time_ = from + step;
             return;
         }
-        const Motion start = motion_;
+        const Place start = motion_;
         const auto speed = [&](double part) { return direction_ * sliding.after(start, from, part).velocity; };
         // What was let go an instant ago has no speed yet: the stop is where it is lost again.
         const double beginning = start.velocity != 0.0 ? 0.0 : firstMoving(speed, step);
@@ -266,13 +266,13 @@ private:
     const DropletForces* forces_;
     double slope_;
     const Gust* wind_;
-    const TraceOptions* options_;
-    Motion motion_;
+    const MotionOptions* options_;
+    Place motion_;
     double time_ = 0.0;
     double direction_ = 0.0;  ///< 0: at rest
     double next_step_;
     double fastest_ = 0.0;
-    Trace trace_;
+    Motion trace_;
 };
 
 }  // namespace
@@ -282,11 +282,11 @@ double Gust::at(double time) const
     return amplitude == 0.0 ? mean : mean + amplitude * std::sin(2.0 * std::numbers::pi * time / period);
 }
 
-void TraceOptions::validate() const
+void MotionOptions::validate() const
 {
     require(isPositive(duration), "duration", duration, "finite and more than 0 s");
     require(isPositive(interval), "interval", interval, "finite and more than 0 s");
-    require(duration / interval <= static_cast<double>(kMostTracePoints), "interval", interval,
+    require(duration / interval <= static_cast<double>(kMostMotionPoints), "interval", interval,
             "at least a ten-millionth of the duration");
     require(std::isfinite(velocity), "velocity", velocity, "finite");
     require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "more than 0 and less than 1");
@@ -295,7 +295,7 @@ void TraceOptions::validate() const
     }
 }
 
-Trace trace(const DropletForces& forces, double slope, const Gust& wind, const TraceOptions& options)
+Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options)
 {
     options.validate();
     require(isPositive(forces.mass), "forces.mass", forces.mass, "finite and more than 0 kg");

@@ -42,11 +42,11 @@ TEST(Trace, InASteadyWindIsTheClosedForm)
 {
     for (const double factor : {0.5, 0.045}) {
         const DropletForces forces = measured(1.0, factor);
-        const Trace found = trace(forces, kSlope, {}, {4.0, 0.1});
+        const Motion found = traceMotion(forces, kSlope, {}, {4.0, 0.1});
         const double terminal = *terminalVelocity(forces, drivingForce(forces, kSlope, 0.0));
         const double tau = forces.mass / forces.viscous;
         ASSERT_THAT(found.points, SizeIs(41));
-        for (const TracePoint& point : found.points) {
+        for (const MotionPoint& point : found.points) {
             const double share = -std::expm1(-point.time / tau);
             EXPECT_NEAR(point.velocity, terminal * share, 1e-13);
             EXPECT_NEAR(point.position, terminal * (point.time - tau * share), 1e-13);
@@ -61,7 +61,7 @@ TEST(Trace, WithoutViscosityFallsFreelyUnderFriction)
 {
     const DropletForces forces = measured(1.0, 0.0);
     const double rate = acceleration(forces, drivingForce(forces, kSlope, 0.0), 0.0);
-    const TracePoint last = trace(forces, kSlope, {}, {0.5, 0.125}).points.back();
+    const MotionPoint last = traceMotion(forces, kSlope, {}, {0.5, 0.125}).points.back();
     EXPECT_DOUBLE_EQ(last.time, 0.5);
     EXPECT_NEAR(last.velocity, 0.5 * rate, 1e-14);
     EXPECT_NEAR(last.position, 0.125 * rate, 1e-14);
@@ -70,9 +70,9 @@ TEST(Trace, WithoutViscosityFallsFreelyUnderFriction)
 TEST(Trace, InTheStillBandAPushedDropletIsCaughtWhereTheClosedFormSays)
 {
     const DropletForces forces = measured();
-    TraceOptions options{0.5, 0.01};
+    MotionOptions options{0.5, 0.01};
     options.velocity = 0.3;
-    const Trace found = trace(forces, kSlope, {9.0}, options);
+    const Motion found = traceMotion(forces, kSlope, {9.0}, options);
     // m v' = −G − c v until v = 0: t = τ ln(1 + c v₀/G).
     const double brake = forces.sliding_friction - drivingForce(forces, kSlope, 9.0);
     const double tau = forces.mass / forces.viscous;
@@ -87,24 +87,24 @@ TEST(Trace, InTheStillBandAPushedDropletIsCaughtWhereTheClosedFormSays)
 
 TEST(Trace, WhatIsThrownUpTurnsAndRunsDown)
 {
-    TraceOptions options{1.0, 0.01};
+    MotionOptions options{1.0, 0.01};
     options.velocity = 0.5;
-    const Trace found = trace(measured(), kSlope, {}, options);
+    const Motion found = traceMotion(measured(), kSlope, {}, options);
     EXPECT_THAT(found.events, IsEmpty()) << "friction does not hold it at the turn";
     EXPECT_GT(found.points[1].velocity, 0.0);
     const DropletForces forces = measured();
     EXPECT_NEAR(found.points.back().velocity, *terminalVelocity(forces, drivingForce(forces, kSlope, 0.0)), 1e-6);
     const auto highest =
         std::max_element(found.points.begin(), found.points.end(),
-                         [](const TracePoint& a, const TracePoint& b) { return a.position < b.position; });
+                         [](const MotionPoint& a, const MotionPoint& b) { return a.position < b.position; });
     EXPECT_GT(highest->position, 0.0);
 }
 
 TEST(Trace, WithinTheStillBandNothingMoves)
 {
-    const Trace found = trace(measured(), kSlope, {9.0, 0.5, 0.3}, {2.0, 0.1});
+    const Motion found = traceMotion(measured(), kSlope, {9.0, 0.5, 0.3}, {2.0, 0.1});
     EXPECT_THAT(found.events, IsEmpty());
-    for (const TracePoint& point : found.points) {
+    for (const MotionPoint& point : found.points) {
         EXPECT_EQ(point.position, 0.0);
         EXPECT_EQ(point.velocity, 0.0);
     }
@@ -138,10 +138,10 @@ TEST(Trace, InAGustConvergesWithFourthOrder)
     const DropletForces forces = measured();
     const Climbing exact{forces, {14.0, 1.0, 0.4}};
     const auto error = [&](double step) {
-        TraceOptions options{0.4, 0.1};
+        MotionOptions options{0.4, 0.1};
         options.fixed_step = step;
         double most = 0.0;
-        for (const TracePoint& point : trace(forces, kSlope, exact.wind, options).points) {
+        for (const MotionPoint& point : traceMotion(forces, kSlope, exact.wind, options).points) {
             most = std::max(most, std::abs(point.velocity - exact.velocity(point.time)));
         }
         return most;
@@ -161,12 +161,12 @@ TEST(Trace, InAGustKeepsToItsTolerance)
     const Climbing exact{forces, {14.0, 1.0, 0.4}};
     std::size_t steps = 0;
     for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-        TraceOptions options{4.0, 0.05};
+        MotionOptions options{4.0, 0.05};
         options.tolerance = tolerance;
-        const Trace found = trace(forces, kSlope, exact.wind, options);
+        const Motion found = traceMotion(forces, kSlope, exact.wind, options);
         EXPECT_GT(found.steps, steps);
         steps = found.steps;
-        for (const TracePoint& point : found.points) {
+        for (const MotionPoint& point : found.points) {
             // Viscosity forgets the errors of earlier steps, so they do not add up over many.
             EXPECT_NEAR(point.velocity, exact.velocity(point.time), 10.0 * tolerance) << tolerance;
         }
@@ -182,7 +182,7 @@ TEST(Trace, GustsMakeItStickAndSlipOncePerPeriod)
         const double period = between(random, 0.5, 2.0);
         const Gust wind{9.3, 2.0, period};  // within 7.7 and 10.5 m/s at the mean, over it at the most
         const double weight = forces.weight * std::sin(kSlope);
-        const Trace found = trace(forces, kSlope, wind, {5.0 * period, period / 200.0});
+        const Motion found = traceMotion(forces, kSlope, wind, {5.0 * period, period / 200.0});
         ASSERT_GE(found.events.size(), 9U);
         double release = 0.0;
         for (std::size_t e = 0; e < found.events.size(); ++e) {
@@ -198,7 +198,7 @@ TEST(Trace, GustsMakeItStickAndSlipOncePerPeriod)
             }
         }
         EXPECT_GT(release, 0.0);
-        for (const TracePoint& point : found.points) {
+        for (const MotionPoint& point : found.points) {
             const double drag = forces.drag * point.wind * point.wind;
             if (point.velocity == 0.0 && point.acceleration == 0.0) {
                 EXPECT_LE(std::abs(drag - weight), forces.retention * (1.0 + 1e-12));
@@ -212,8 +212,8 @@ TEST(Trace, IsTheSameAtAnyInterval)
 {
     const DropletForces forces = measured(0.7);
     const Gust wind{9.3, 3.0, 0.7};
-    const Trace often = trace(forces, kSlope, wind, {2.8, 0.01});
-    const Trace seldom = trace(forces, kSlope, wind, {2.8, 0.7});
+    const Motion often = traceMotion(forces, kSlope, wind, {2.8, 0.01});
+    const Motion seldom = traceMotion(forces, kSlope, wind, {2.8, 0.7});
     ASSERT_EQ(often.events.size(), seldom.events.size());
     for (std::size_t e = 0; e < often.events.size(); ++e) {
         EXPECT_NEAR(often.events[e].time, seldom.events[e].time, 1e-7);
@@ -232,10 +232,10 @@ TEST(Trace, TakesFewStepsHoweverViscous)
     model.wetting.hysteresis = 0.0;
     model.wetting.viscosity_factor = 0.5;
     const DropletForces forces = forcesOn(model, 1e-15);
-    const Trace found = trace(forces, kSlope, {14.0, 1.0, 0.4}, {1.0, 0.1});
+    const Motion found = traceMotion(forces, kSlope, {14.0, 1.0, 0.4}, {1.0, 0.1});
     EXPECT_LT(found.steps + found.rejected, 20'000U);
     for (std::size_t k = 1; k < found.points.size(); ++k) {
-        const TracePoint& point = found.points[k];
+        const MotionPoint& point = found.points[k];
         const double terminal = *terminalVelocity(forces, drivingForce(forces, kSlope, point.wind));
         EXPECT_NEAR(point.velocity / terminal, 1.0, 1e-4) << "quasi-steady";
     }
@@ -243,27 +243,27 @@ TEST(Trace, TakesFewStepsHoweverViscous)
 
 TEST(Trace, RefusesWhatIsOutOfRangeByName)
 {
-    const auto expect_refused = [](const std::string& field, const std::function<void(TraceOptions&, Gust&)>& spoil) {
-        TraceOptions options;
+    const auto expect_refused = [](const std::string& field, const std::function<void(MotionOptions&, Gust&)>& spoil) {
+        MotionOptions options;
         Gust wind;
         spoil(options, wind);
         try {
-            trace(measured(), kSlope, wind, options);
+            traceMotion(measured(), kSlope, wind, options);
             ADD_FAILURE() << field;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_THAT(error.what(), HasSubstr(field));
         }
     };
-    expect_refused("duration", [](TraceOptions& o, Gust&) { o.duration = 0.0; });
-    expect_refused("interval", [](TraceOptions& o, Gust&) { o.interval = -1.0; });
-    expect_refused("interval", [](TraceOptions& o, Gust&) { o.interval = 1e-9; });
-    expect_refused("velocity", [](TraceOptions& o, Gust&) { o.velocity = std::nan(""); });
-    expect_refused("tolerance", [](TraceOptions& o, Gust&) { o.tolerance = 0.0; });
-    expect_refused("fixed_step", [](TraceOptions& o, Gust&) { o.fixed_step = 0.0; });
-    expect_refused("wind.mean", [](TraceOptions&, Gust& w) { w.mean = std::nan(""); });
-    expect_refused("wind.amplitude", [](TraceOptions&, Gust& w) { w.amplitude = -1.0; });
-    expect_refused("wind.period", [](TraceOptions&, Gust& w) { w.period = 0.0; });
+    expect_refused("duration", [](MotionOptions& o, Gust&) { o.duration = 0.0; });
+    expect_refused("interval", [](MotionOptions& o, Gust&) { o.interval = -1.0; });
+    expect_refused("interval", [](MotionOptions& o, Gust&) { o.interval = 1e-9; });
+    expect_refused("velocity", [](MotionOptions& o, Gust&) { o.velocity = std::nan(""); });
+    expect_refused("tolerance", [](MotionOptions& o, Gust&) { o.tolerance = 0.0; });
+    expect_refused("fixed_step", [](MotionOptions& o, Gust&) { o.fixed_step = 0.0; });
+    expect_refused("wind.mean", [](MotionOptions&, Gust& w) { w.mean = std::nan(""); });
+    expect_refused("wind.amplitude", [](MotionOptions&, Gust& w) { w.amplitude = -1.0; });
+    expect_refused("wind.period", [](MotionOptions&, Gust& w) { w.period = 0.0; });
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ struct Drawing {
     std::vector<std::variant<Area, Line, Text>> marks;
 };
 
+/// Drawings side by side, their top edges in line.
+Drawing beside(const std::vector<Drawing>& drawings);
+
 /// Writes a drawing as SVG: letters are text, in the reader's sans-serif font.
 ///
 /// Guarantees: the same drawing gives the same bytes; the stream is left failed if it did not take everything.

@@ -18,21 +18,21 @@ struct Gust {
     [[nodiscard]] double at(double time) const;
 };
 
-struct TraceOptions {
-    double duration = 1.0;                  ///< [s], > 0
-    double interval = 0.01;                 ///< between points of the series [s], > 0; at most kMostTracePoints of them
-    double velocity = 0.0;                  ///< at the start, up the slope [m/s]
-    double tolerance = 1e-9;                ///< of the velocity in one step, as a share of the fastest yet, > 0
+struct MotionOptions {
+    double duration = 1.0;    ///< [s], > 0
+    double interval = 0.01;   ///< between points of the series [s], > 0; at most kMostMotionPoints of them
+    double velocity = 0.0;    ///< at the start, up the slope [m/s]
+    double tolerance = 1e-9;  ///< of the velocity in one step, as a share of the fastest yet, > 0
     std::optional<double> fixed_step = {};  ///< [s]: steps of this length, whatever their error
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-inline constexpr std::size_t kMostTracePoints = 10'000'000;
+inline constexpr std::size_t kMostMotionPoints = 10'000'000;
 
 /// A droplet at a time.
-struct TracePoint {
+struct MotionPoint {
     double time = 0.0;          ///< [s]
     double wind = 0.0;          ///< V [m/s]
     double position = 0.0;      ///< up the slope from where it began [m]
@@ -41,15 +41,15 @@ struct TracePoint {
 };
 
 /// A droplet begins to move, or is caught by friction.
-struct TraceEvent {
+struct MotionEvent {
     double time = 0.0;  ///< [s]
     bool moves = false;
 };
 
-struct Trace {
-    std::vector<TracePoint> points;  ///< at every multiple of the interval up to the duration, the first at 0
-    std::vector<TraceEvent> events;  ///< after time 0, in order
-    std::size_t steps = 0;           ///< accepted
+struct Motion {
+    std::vector<MotionPoint> points;  ///< at every multiple of the interval up to the duration, the first at 0
+    std::vector<MotionEvent> events;  ///< after time 0, in order
+    std::size_t steps = 0;            ///< accepted
     std::size_t rejected = 0;
 };
 
@@ -62,6 +62,6 @@ struct Trace {
 /// @param forces   of a droplet, as of forcesOn
 /// @param slope    α [rad]
 /// @throws Error   InvalidArgument
-Trace trace(const DropletForces& forces, double slope, const Gust& wind, const TraceOptions& options = {});
+Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options = {});
 
 }  // namespace droplet

@@ -80,7 +80,7 @@ struct TunnelSweep {
     void validate() const;
 };
 
-inline constexpr std::size_t kMostTunnelRows = 100'000'000;
+inline constexpr std::size_t kMostTunnelRows = 10'000'000;
 
 /// A droplet on a slope, at no wind in particular.
 struct TunnelCase {
