@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "force_options.h"
 
+#include <cctype>
+
 #include "droplet/liquid.h"
 #include "option_values.h"
 #include "value_list.h"
@@ -51,9 +53,12 @@ double viscosityFactor(const Given& given, double contact_angle)
     }
     if (given.text == "wedge") {
         // The radius counts by its logarithm alone: any droplet's that runs will do.
-        constexpr double kVolume = 30.0 * droplet::kMicrolitre;
+        constexpr double kVolume = 30e-9;
         return droplet::wedgeViscosityFactor(droplet::kWaterViscosity, contact_angle,
                                              droplet::capOf(kVolume, contact_angle).radius);
+    }
+    if (!given.text.empty() && std::isalpha(static_cast<unsigned char>(given.text.front())) != 0) {
+        refuse(given, kViscosity.words);
     }
     return quantity(given, kViscosity);
 }
@@ -71,7 +76,7 @@ void declareForces(CommandLine& line)
     line.add(kCoating, "--kinetic-fraction", "F", "of friction that is left while moving [1]");
     constexpr const char* kAir = "Air";
     line.add(kAir, "--drag-coefficient", "C", "of droplets in the wind [1]");
-    line.add(kAir, "--boundary-layer", "LENGTH", "thickness of the layer in which wind is slower\n[by preset]");
+    line.add(kAir, "--boundary-layer", "L", "thickness of the layer in which wind is slower\n[by preset]");
     line.add(kAir, "--profile-exponent", "N", "wind there goes with height to the N: 1/7 is 0.143 [0.5]");
     line.add(kAir, "--air-density", "D", "[1.204kg/m3]");
     constexpr const char* kLiquid = "Liquid";

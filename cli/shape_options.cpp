@@ -13,30 +13,30 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape", "from the picture of a footprint to a 3D droplet of liquid", "[OPTIONS] INPUT OUTPUT",
-        "Commands:\n"
-        "  animate    frames of a moving footprint; see droplet-shape animate --help\n"
-        "  batch      a droplet of each of many pictures; see droplet-shape batch --help\n"
-        "  compare    how far two surfaces differ; see droplet-shape compare --help\n"
-        "  glyphs     a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
-        "  wind-tunnel  which way droplets run in the wind; droplet-shape wind-tunnel --help\n"
-        "\n" +
-            std::string(kUnitsText) +
-            "\n"
-            "Examples:\n"
-            "  droplet-shape logo.png logo.glb\n"
-            "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
-            "  droplet-shape logo.png wall.glb --model exact --tilt 90deg\n"
-            "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
-            "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
-            "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
-            "  droplet-shape - - --format stl < logo.png > logo.stl\n"
-            "\n"
-            "Exit codes:\n"
-            "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-            "  4 output cannot be written; 5 no such droplet exists;\n"
-            "  6 some of many failed"};
+    static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
+                                  "[OPTIONS] INPUT OUTPUT",
+                                  "Commands:\n"
+                                  "  animate      frames of a moving footprint; see droplet-shape animate --help\n"
+                                  "  batch        a droplet of each of many pictures; droplet-shape batch --help\n"
+                                  "  compare      how far two surfaces differ; see droplet-shape compare --help\n"
+                                  "  glyphs       a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
+                                  "  wind-tunnel  which way droplets run in the wind; see wind-tunnel --help\n"
+                                  "\n" +
+                                      std::string(kUnitsText) +
+                                      "\n"
+                                      "Examples:\n"
+                                      "  droplet-shape logo.png logo.glb\n"
+                                      "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
+                                      "  droplet-shape logo.png wall.glb --model exact --tilt 90deg\n"
+                                      "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
+                                      "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
+                                      "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+                                      "  droplet-shape - - --format stl < logo.png > logo.stl\n"
+                                      "\n"
+                                      "Exit codes:\n"
+                                      "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
+                                      "  4 output cannot be written; 5 no such droplet exists;\n"
+                                      "  6 some of many failed"};
     return text;
 }
 

@@ -31,23 +31,30 @@ std::string text(const char* format, double value)
     return room.data();
 }
 
+std::string share(double value)
+{
+    // Rounded, so that nothing is not less than nothing.
+    const double tenths = std::round(1000.0 * value) / 10.0;
+    return text("%+.1f", tenths == 0.0 ? 0.0 : tenths) + " %";
+}
+
 std::string volume(double value)
 {
-    return text("%.4g", value / droplet::kMicrolitre) + " uL";
+    return text("%.4g", value / droplet::kMicrolitre) + " µL";
 }
 
 /// What a slope and a hysteresis have in common.
 std::string headOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
 {
     std::string line = run.preset + ": contact angle " +
-                       text("%.4g", run.swept.model.wetting.contact_angle / droplet::kDegree) + " deg, slope " +
-                       text("%.4g", of.slope / droplet::kDegree) + " deg, ";
+                       text("%.4g", run.swept.model.wetting.contact_angle / droplet::kDegree) + "°, slope " +
+                       text("%.4g", of.slope / droplet::kDegree) + "°, ";
     if (const auto& angle = run.swept.model.wetting.falling_angle) {
-        line += "falling angle " + text("%.4g", *angle / droplet::kDegree) + " deg of every droplet";
+        line += "falling angle " + text("%.4g", *angle / droplet::kDegree) + "° of every droplet";
     } else {
         line += "hysteresis " + text("%.3g", of.hysteresis);
         if (run.falling_angle) {
-            line += " (falling angle " + text("%.4g", *run.falling_angle / droplet::kDegree) + " deg of " +
+            line += " (falling angle " + text("%.4g", *run.falling_angle / droplet::kDegree) + "° of " +
                     volume(*run.falling_volume) + ")";
         }
     }
@@ -70,9 +77,8 @@ std::string lineOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
     line += found.lower ? "still from " + text("%.2f", *found.lower) + " to " : "still up to ";
     line += text("%.2f", *found.upper) + " m/s";
     if (const auto distance = run.measured ? distanceFrom(*run.measured, found) : std::nullopt) {
-        line += ", " + text("%+.1f", 100.0 * distance->lower) + " % and " + text("%+.1f", 100.0 * distance->upper) +
-                " % off the measured " + text("%.3g", run.measured->from) + " to " + text("%.3g", run.measured->to) +
-                " m/s";
+        line += ", " + share(distance->lower) + " and " + share(distance->upper) + " off the measured " +
+                text("%.3g", run.measured->from) + " to " + text("%.3g", run.measured->to) + " m/s";
     }
     return line + "\n";
 }

@@ -64,7 +64,7 @@ void declare(CommandLine& line)
              "cosine of the receding less that of the advancing\n"
              "contact angle [by preset]");
     line.add(kSweep, "--falling-angle", "ANGLE", "or the slope at which a droplet begins to run");
-    line.add(kSweep, "--falling-volume", "VOLUME", "which droplet that is, or every [30uL]");
+    line.add(kSweep, "--falling-volume", "V", "which droplet that is, or every [30uL]");
     declareForces(line);
     constexpr const char* kOut = "Charts and series";
     line.add(kOut, "--chart", "FILE", "draw acceleration over wind: .svg, .png");
@@ -216,7 +216,7 @@ void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
         return;
     }
     run.falling_angle = slope;
-    run.falling_volume = 30.0 * droplet::kMicrolitre;
+    run.falling_volume = 30e-9;
     if (volume) {
         run.falling_volume =
             quantity(*volume, {kVolume.dimension, kVolume.min, kVolume.max, "from 0.001nL to 1L, or every"});
