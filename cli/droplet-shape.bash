@@ -26,16 +26,21 @@ _droplet_shape()
         --colour) choices='look contours contact-angle' ;;
         --align) choices='start centre end' ;;
         --progress) choices='auto none json' ;;
+        --preset) choices='hashimoto thesis thesis,hashimoto' ;;
+        --viscosity-factor) choices='artistic wedge' ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
             --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
-            --line-spacing | --shard | --turntable | --threads | -j)
+            --line-spacing | --shard | --turntable | --wind | --slope | --hysteresis | --falling-angle | \
+            --falling-volume | --kinetic-fraction | --drag-coefficient | --boundary-layer | --profile-exponent | \
+            --air-density | --measured | --time | --trace-step | --initial-speed | --gust | --gust-period | \
+            --threads | -j)
             COMPREPLY=()
             return
             ;;
         --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | \
-            --picture | --json | --html | --export-evolver | --config) ;;
+            --picture | --chart | --map | --trace | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -56,6 +61,11 @@ _droplet_shape()
                         --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
+                    wind-tunnel) choices='--preset --volume --wind --slope --hysteresis --falling-angle
+                        --falling-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
+                        --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
+                        --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust
+                        --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
@@ -67,7 +77,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='animate batch compare glyphs'
+        local commands='animate batch compare glyphs wind-tunnel'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

@@ -19,6 +19,7 @@
 #include "glyphs_command.h"
 #include "shape_command.h"
 #include "terminal.h"
+#include "wind_tunnel_command.h"
 #include "windshield_command.h"
 
 namespace {
@@ -66,6 +67,7 @@ const std::vector<Command>& commands()
                                           {"batch", cli::runBatch},
                                           {"compare", cli::runCompare},
                                           {"glyphs", cli::runGlyphs},
+                                          {"wind-tunnel", cli::runWindTunnel},
                                           {"windshield", cli::runWindshield}};
     return all;
 }

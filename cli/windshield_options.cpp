@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_options.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <numbers>
 #include <set>
 
 #include "command_line.h"
-#include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "files.h"
+#include "force_options.h"
 #include "option_values.h"
+#include "value_list.h"
 #include "video_writer.h"
 
 namespace cli {
@@ -29,14 +28,7 @@ constexpr Range kStill{Dimension::Length, 1.1e-4, 2e-3, "from 0.11mm to 2mm"};
 constexpr Range kSide{Dimension::Length, 0.05, 5.0, "from 50mm to 5m"};
 constexpr Range kRadius{Dimension::Length, 0.1, 1e6, "from 0.1m to 1e6m"};
 constexpr Range kSlope{Dimension::Angle, 0.0, 90.0 * kDegree, "from 0deg to 90deg"};
-constexpr Range kContact{Dimension::Angle, 5.0 * kDegree, 175.0 * kDegree, "from 5deg to 175deg"};
-constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
-constexpr Range kDensity{Dimension::Density, 1.0, 1e5, "from 1kg/m3 to 1e5kg/m3"};
-constexpr Range kAirDensity{Dimension::Density, 0.0, 1e3, "from 0kg/m3 to 1000kg/m3"};
-constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e3, "from 0m/s2 to 1000m/s2"};
 constexpr Range kNoise{Dimension::Acceleration, 0.0, 1e3, "from 0m/s2 to 1000m/s2"};
-constexpr Range kViscosity{Dimension::Viscosity, 0.0, 1e3, "from 0Pa.s to 1000Pa.s"};
-constexpr Range kLayer{Dimension::Length, 0.0, 1.0, "from 0mm to 1m"};
 constexpr Range kFilm{Dimension::Length, 0.0, 1e-3, "from 0mm to 1mm"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
@@ -46,20 +38,21 @@ constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape windshield", "rain on the windshield of a moving car, as the driver sees it", "[OPTIONS] OUTPUT",
-        "Quantities carry a unit:\n"
-        "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
-        "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
-        "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
-        "\n"
-        "Examples:\n"
-        "  droplet-shape windshield rain.mp4 --rain 25mm/h --speed 50km/h\n"
-        "  droplet-shape windshield 'out/%05d.png' --background road.mp4 --layer\n"
-        "  droplet-shape windshield still.png --preset figure-3.12 --time 30s\n"
-        "\n"
-        "Exit codes:\n"
-        "  0 done; 1 internal error; 2 usage; 3 input unreadable; 4 output cannot be written"};
+    static const CommandText text{"droplet-shape windshield",
+                                  "rain on a moving car's windshield, as its driver sees it", "[OPTIONS] OUTPUT",
+                                  "Quantities carry a unit:\n"
+                                  "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
+                                  "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
+                                  "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape windshield rain.mp4 --rain 25mm/h --speed 50km/h\n"
+                                  "  droplet-shape windshield 'out/%05d.png' --background road.mp4 --layer\n"
+                                  "  droplet-shape windshield still.png --preset figure-3.12 --time 30s\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable;\n"
+                                  "  4 output cannot be written"};
     return text;
 }
 
@@ -70,10 +63,10 @@ void declare(CommandLine& line)
                      ".webm, which takes ffmpeg; or .png, the last frame");
     constexpr const char* kCar = "Car and rain";
     line.add(kCar, "--preset", "NAME",
-             "begin with a figure of the thesis: figure-3.10,\n"
-             "figure-3.11 or figure-3.12; other options go before it");
+             "where values are from that no option gives: the thesis's\n"
+             "figure-3.10, figure-3.11 or figure-3.12 [figure-3.12]");
     line.add(kCar, "--rain", "RAINFALL", "Marshall and Palmer's raindrops [5mm/h]");
-    line.add(kCar, "--speed", "SPEED", "of the car, through still air [11.3m/s]");
+    line.add(kCar, "--speed", "SPEED", "of the car, through still air [by preset]");
     line.add(kCar, "--drive-cycle", "FILE", "speed over time: CSV with time_s,speed_m_per_s or\nspeed_km_per_h");
     line.exclude({"--speed", "--drive-cycle"});
     line.add(kCar, "--wind", "NAME",
@@ -88,21 +81,13 @@ void declare(CommandLine& line)
     line.add(kGlass, "--radius", "LENGTH", "of its bend across [5m]");
     line.add(kGlass, "--slope", "ANGLE", "from horizontal [45deg]");
     line.add(kGlass, "--surface", "FILE", "another glass: .glb or .gltf with uv, outside out");
-    constexpr const char* kForces = "Droplets and forces";
-    line.add(kForces, "--liquid", "NAME", "water, ethanol, glycerol, mercury or honey [water]");
-    line.add(kForces, "--surface-tension", "TENSION", "instead of the liquid's");
-    line.add(kForces, "--density", "DENSITY", "instead of the liquid's");
-    line.add(kForces, "--gravity", "ACCELERATION", "downward [9.81m/s2]");
-    line.add(kForces, "--contact-angle", "ANGLE", "of the coating [105deg]");
-    line.add(kForces, "--hysteresis", "NUMBER", "cosine receding less cosine advancing [0.2]");
-    line.add(kForces, "--kinetic-fraction", "NUMBER", "of the retention that is left in motion [1]");
-    line.add(kForces, "--viscosity-factor", "VISCOSITY", "drag over radius and speed [0.5Pa.s]");
-    line.add(kForces, "--air-density", "DENSITY", "[1.204kg/m3]");
-    line.add(kForces, "--drag-coefficient", "NUMBER", "[1]");
-    line.add(kForces, "--boundary-layer", "LENGTH", "thickness of what the glass slows down [6.8mm]");
-    line.add(kForces, "--profile-exponent", "NUMBER", "of the wind in it over height [0.5]");
-    line.add(kForces, "--still-diameter", "LENGTH", "raindrops of less never move [1mm]");
-    line.add(kForces, "--film", "LENGTH", "what droplets leave behind, a film so thick [0mm]");
+    constexpr const char* kDroplets = "Droplets";
+    line.add(kDroplets, "--hysteresis", "NUMBER",
+             "cosine of the receding less that of the advancing\n"
+             "contact angle [by preset]");
+    line.add(kDroplets, "--still-diameter", "LENGTH", "raindrops of less never move [1mm]");
+    line.add(kDroplets, "--film", "LENGTH", "what droplets leave behind, a film so thick [0mm]");
+    declareForces(line);
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "to be shown; of a drive cycle its own [10s]");
     line.add(kTimes, "--warm-up", "DURATION", "of rain before the first frame [10s]");
@@ -139,28 +124,11 @@ void declare(CommandLine& line)
     line.exclude({"--resume", "--no-clobber"});
 }
 
-double number(const Given& given, double least, double most, const char* words)
-{
-    const auto value = finiteNumber(given.text);
-    if (!value || *value < least || *value > most) {
-        refuse(given, words);
-    }
-    return *value;
-}
-
 /// Sets a value, if its option is given.
 void take(const CommandLine& line, const char* option, const Range& range, double& value)
 {
     if (const auto given = line.value(option)) {
         value = quantity(*given, range);
-    }
-}
-
-void takeNumber(const CommandLine& line, const char* option, std::array<double, 2> range, const char* words,
-                double& value)
-{
-    if (const auto given = line.value(option)) {
-        value = number(*given, range[0], range[1], words);
     }
 }
 
@@ -174,10 +142,9 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
 {
     droplet::WindshieldParameters& parameters = options.parameters;
     if (const auto preset = line.value("--preset")) {
-        parameters =
-            forOption(preset->subject, [&] { return droplet::windshieldPresetNamed(preset->text).parameters; });
         options.preset = preset->text;
     }
+    parameters = forOption("--preset", [&] { return droplet::windshieldPresetNamed(options.preset).parameters; });
     take(line, "--rain", kRain, parameters.rainfall);
     if (const auto speed = line.value("--speed")) {
         parameters.vehicle = droplet::constantSpeed(quantity(*speed, kSpeed));
@@ -226,29 +193,14 @@ void readGlass(const CommandLine& line, WindshieldOptions& options)
     }
 }
 
-void readForces(const CommandLine& line, WindshieldOptions& options)
+void readDroplets(const CommandLine& line, WindshieldOptions& options)
 {
     droplet::ForceModel& forces = options.parameters.forces;
-    if (const auto liquid = line.value("--liquid")) {
-        forces.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
-    }
-    take(line, "--surface-tension", kTension, forces.liquid.surface_tension);
-    take(line, "--density", kDensity, forces.liquid.density);
-    if (!line.value("--liquid") && (line.value("--surface-tension") || line.value("--density"))) {
-        forces.liquid.name = "custom";
-    }
-    take(line, "--gravity", kGravity, forces.gravity);
-    take(line, "--contact-angle", kContact, forces.wetting.contact_angle);
-    if (line.value("--hysteresis")) {
+    forces = readForces(line, forces);
+    if (const auto hysteresis = line.value("--hysteresis")) {
+        forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
         forces.wetting.falling_angle.reset();
     }
-    takeNumber(line, "--hysteresis", {0.0, 2.0}, "a number from 0 to 2", forces.wetting.hysteresis);
-    takeNumber(line, "--kinetic-fraction", {0.0, 1.0}, "a number from 0 to 1", forces.wetting.kinetic_fraction);
-    take(line, "--viscosity-factor", kViscosity, forces.wetting.viscosity_factor);
-    take(line, "--air-density", kAirDensity, forces.air.density);
-    takeNumber(line, "--drag-coefficient", {0.0, 100.0}, "a number from 0 to 100", forces.air.drag_coefficient);
-    take(line, "--boundary-layer", kLayer, forces.air.boundary_layer);
-    takeNumber(line, "--profile-exponent", {0.0, 2.0}, "a number from 0 to 2", forces.air.profile_exponent);
     take(line, "--still-diameter", kStill, options.parameters.still_diameter);
     take(line, "--film", kFilm, options.parameters.streaks.film);
 }
@@ -363,7 +315,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     WindshieldOptions options;
     readCar(line, options);
     readGlass(line, options);
-    readForces(line, options);
+    readDroplets(line, options);
     readView(line, options);
     readOutputs(line, options);
     if (const auto duration = line.value("--time")) {
@@ -371,7 +323,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     }
     take(line, "--warm-up", kWarmUp, options.warm_up);
     if (const auto rate = line.value("--fps")) {
-        options.frames_per_second = number(*rate, 1.0, 1000.0, "a number from 1 to 1000");
+        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
     if (const auto config = line.value("--config")) {
         options.config = config->text;

@@ -19,7 +19,7 @@ struct WindshieldOptions {
     std::string output;                 ///< path
     std::optional<NumberedPath> files;  ///< where every frame gets a file
     bool is_video = false;              ///< otherwise, without files, a picture of the last frame
-    std::optional<std::string> preset;
+    std::string preset = "figure-3.12";
     droplet::WindshieldParameters parameters;  ///< but for what files tell
     droplet::Glass::Cylinder cylinder;
     std::optional<std::string> surface;

@@ -83,7 +83,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     ReportJson json;
     json["schema"] = "droplet-shape.windshield/1";
     json["version"] = kVersion;
-    json["preset"] = orNull(report.preset);
+    json["preset"] = report.preset;
     json["output"] = {{"path", report.output},
                       {"frames", report.frames},
                       {"frames_per_second", report.frames_per_second},

@@ -205,10 +205,8 @@ double fittedBoundaryLayer(const ForcePreset& preset)
 
 ForcePreset thesis()
 {
-    ForcePreset preset{"thesis", {}, 35.0 * kDegree, 30.0 * kMicrolitre, {}};
-    for (const double microlitres : {5.0, 10.0, 20.0, 30.0, 50.0, 100.0}) {
-        preset.volumes.push_back(microlitres * kMicrolitre);
-    }
+    ForcePreset preset{"thesis", {}, 35.0 * kDegree, 30e-9, {}, {}};
+    preset.volumes = {5e-9, 10e-9, 20e-9, 30e-9, 50e-9, 100e-9};
     ForceModel& model = preset.model;
     model.wetting.contact_angle = 90.0 * kDegree;
     constexpr double kRetainedShare = (kUpperSquare - kLowerSquare) / (kUpperSquare + kLowerSquare);
@@ -220,14 +218,12 @@ ForcePreset thesis()
 
 ForcePreset hashimoto()
 {
-    ForcePreset preset{"hashimoto", {}, 35.0 * kDegree, 30.0 * kMicrolitre, {}};
-    for (const double microlitres : {15.0, 20.0, 25.0, 30.0}) {
-        preset.volumes.push_back(microlitres * kMicrolitre);
-    }
+    ForcePreset preset{"hashimoto", {}, 35.0 * kDegree, 30e-9, 10.0 * kDegree, {}};
+    preset.volumes = {15e-9, 20e-9, 25e-9, 30e-9};
     ForceModel& model = preset.model;
     constexpr double kContactAngle = 105.0 * kDegree;
     model.wetting.contact_angle = kContactAngle;
-    model.wetting.hysteresis = hysteresisOf(model, 10.0 * kDegree, preset.reference_volume);
+    model.wetting.hysteresis = hysteresisOf(model, *preset.falling_angle, preset.reference_volume);
     model.wetting.viscosity_factor =
         wedgeViscosityFactor(kWaterViscosity, kContactAngle, capOf(preset.reference_volume, kContactAngle).radius);
     model.air.boundary_layer = fittedBoundaryLayer(preset);

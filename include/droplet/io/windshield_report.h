@@ -28,7 +28,7 @@ BalanceRow balanceRow(const WindshieldState& state, double speed);
 
 /// How a windshield was played.
 struct WindshieldReport {
-    std::optional<std::string> preset;
+    std::string preset;
     std::optional<std::string> drive_cycle;  ///< path
     std::optional<std::string> surface;      ///< path
     std::optional<std::string> background;   ///< path

@@ -144,9 +144,10 @@ inline constexpr WindBand kMeasuredStillBand{7.0, 11.0};
 struct ForcePreset {
     std::string name;
     ForceModel model;
-    double slope = 35.0 * kDegree;    ///< α [rad]
-    double reference_volume = 30e-9;  ///< droplets that the model was fitted to [m³]
-    std::vector<double> volumes;      ///< worth a look [m³]
+    double slope = 35.0 * kDegree;        ///< α [rad]
+    double reference_volume = 30e-9;      ///< droplets that the model was fitted to [m³]
+    std::optional<double> falling_angle;  ///< of the reference volume, where it was given [rad]
+    std::vector<double> volumes;          ///< worth a look [m³]
 };
 
 /// The presets known by name:
