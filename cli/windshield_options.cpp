@@ -63,8 +63,9 @@ void declare(CommandLine& line)
                      ".webm, which takes ffmpeg; or .png, the last frame");
     constexpr const char* kCar = "Car and rain";
     line.add(kCar, "--preset", "NAME",
-             "where values are from that no option gives: the thesis's\n"
-             "figure-3.10, figure-3.11 or figure-3.12 [figure-3.12]");
+             "where values are from that no option gives, of the\n"
+             "thesis: figure-3.10, figure-3.11 or figure-3.12\n"
+             "[figure-3.12]");
     line.add(kCar, "--rain", "RAINFALL", "Marshall and Palmer's raindrops [5mm/h]");
     line.add(kCar, "--speed", "SPEED", "of the car, through still air [by preset]");
     line.add(kCar, "--drive-cycle", "FILE", "speed over time: CSV with time_s,speed_m_per_s or\nspeed_km_per_h");
@@ -85,7 +86,7 @@ void declare(CommandLine& line)
     line.add(kDroplets, "--hysteresis", "NUMBER",
              "cosine of the receding less that of the advancing\n"
              "contact angle [by preset]");
-    line.add(kDroplets, "--still-diameter", "LENGTH", "raindrops of less never move [1mm]");
+    line.add(kDroplets, "--still-diameter", "D", "raindrops of less never move [1mm]");
     line.add(kDroplets, "--film", "LENGTH", "what droplets leave behind, a film so thick [0mm]");
     declareForces(line);
     constexpr const char* kTimes = "Time";
