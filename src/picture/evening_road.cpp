@@ -120,6 +120,9 @@ private:
         return colour + std::exp(-(x * x / 0.022F + y * y / 0.0030F)) * glow + clouds;
     }
 
+    static constexpr Vec3f kNearVerge{0.012F, 0.016F, 0.014F};
+    static constexpr Vec3f kFarVerge{0.05F, 0.045F, 0.05F};
+
     /// Share of a stripe's light, `width` wide in tangents, at a distance from its middle.
     [[nodiscard]] float stripe(float distance, float width) const
     {
@@ -134,8 +137,8 @@ private:
         const float depth = std::min(kEye / down, kFarthest);
         const float across = at.right * depth;
         // Verges are dark; the wet road mirrors the sky.
-        const Vec3f verge =
-            mix(Vec3f{0.012F, 0.016F, 0.014F}, Vec3f{0.05F, 0.045F, 0.05F}, smoothstep(30.0F, 300.0F, depth));
+        // Far verges fade into what stands at the horizon.
+        const Vec3f verge = mix(kFarVerge, kNearVerge, 1.0F - std::exp(-down / 0.05F));
         const float mirror = 0.10F + 0.55F * smoothstep(6.0F, 120.0F, depth);
         Vec3f road = Vec3f{0.018F, 0.020F, 0.025F} + mirror * sky({0.6F * at.right, 0.55F * down});
         const float edge = (spread_ + 0.02F) * depth;

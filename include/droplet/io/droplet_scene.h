@@ -15,7 +15,7 @@ namespace droplet {
 struct DropletSceneOptions {
     double frames_per_second = 30.0;  ///< > 0
     Material material = Material::Water;
-    ShapeOptions shape;  ///< of droplets
+    ShapeOptions shape = {};  ///< of droplets
 
     /// @throws Error InvalidArgument
     void validate() const;

@@ -11,7 +11,7 @@ namespace droplet {
 /// How maps of the glass are drawn.
 struct GlassMapOptions {
     int width = 2048;              ///< [px] 16 … 8192; the height follows, so that pixels are square
-    ShapeOptions shape;            ///< of droplets
+    ShapeOptions shape = {};       ///< of droplets
     double full_thickness = 5e-3;  ///< what the highest level stands for [m], > 0; more is cut off
     double full_speed = 2.0;       ///< [m/s], > 0; more is cut off
 

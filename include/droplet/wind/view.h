@@ -20,7 +20,7 @@ struct ViewOptions {
     double field_of_view = 45 * kDegree;   ///< of the width [rad], 1° … 150°
     double eye_distance = 0.5;             ///< from the glass, straight ahead [m], 0.01 … 100
     std::optional<Vec2> aim = {};          ///< place on the glass that is straight ahead [m]; empty: its middle
-    ShapeOptions shape;                    ///< of droplets
+    ShapeOptions shape = {};               ///< of droplets
     double ior = 1.333;                    ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
     int samples = 2;                       ///< rays a pixel and droplet, across and down; 1 … 4
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
