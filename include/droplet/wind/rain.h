@@ -31,7 +31,7 @@ RaindropSizes raindropSizes(double rainfall);
 double terminalSpeed(double diameter);
 
 /// The diameters that are simulated. Smaller ones do not fall (terminalSpeed) and hold 1.2 ‰ of the water at 1 mm/h,
-/// less in heavier rain; larger ones break up and hold 0.2 ‰ at 25 mm/h, 3 ‰ at 100 mm/h.
+/// less in heavier rain; larger ones break up and hold 0.05 ‰ at 25 mm/h, 1.6 ‰ at 100 mm/h.
 struct RaindropRange {
     double least = 0.109e-3;  ///< [m], > 0
     double greatest = 8e-3;   ///< [m], > least
