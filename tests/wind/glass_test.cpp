@@ -182,8 +182,8 @@ Misses missesOf(const Glass& mesh, const Glass& cylinder)
 
 class MeshedGlass : public ::testing::TestWithParam<bool> {};
 
-// Chords miss an arc by their length squared; the normals of an arc, interpolated and made unit again, miss by its cube:
-// at the middle of a chord they are right.
+// Chords miss an arc by their length squared; the normals of an arc, interpolated and made unit again, miss by its
+// cube: at the middle of a chord they are right.
 TEST_P(MeshedGlass, TendsToTheCylinderItIsOf)
 {
     const Glass::Cylinder form{.width = 1.4, .height = 0.8, .radius = 2.0, .slope = 35.0 * kDegree};
