@@ -154,15 +154,27 @@ Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
     return {(once * dt) * velocity + (twice * dt * dt / m) * net, (1.0 - loss / speed) * free};
 }
 
-/// Squared distance of p from the straight way from a to b.
-double squaredDistance(Vec2 p, Vec2 a, Vec2 b)
-{
-    const Vec2 way = b - a;
-    const double squared = dot(way, way);
-    const double t = squared > 0.0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0.0;
-    const Vec2 apart = p - a - t * way;
-    return dot(apart, apart);
-}
+/// The straight way between two places.
+class Way {
+public:
+    Way(Vec2 from, Vec2 to) : from_(from), way_(to - from)
+    {
+        const double squared = dot(way_, way_);
+        inverse_ = squared > 0.0 ? 1.0 / squared : 0.0;
+    }
+
+    [[nodiscard]] double squaredDistance(Vec2 p) const
+    {
+        const Vec2 begun = p - from_;
+        const Vec2 apart = begun - std::clamp(dot(begun, way_) * inverse_, 0.0, 1.0) * way_;
+        return dot(apart, apart);
+    }
+
+private:
+    Vec2 from_;
+    Vec2 way_;
+    double inverse_ = 0.0;
+};
 
 /// One step of one state; its functions are called in their order.
 class Step {
@@ -173,6 +185,7 @@ public:
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
           rules_{caps_.reach(), sphere(parameters.still_diameter)},
+          most_still_reach_(rules_.greatestReach()),
           most_push_(std::sqrt(12.0) * (1.0 + 1e-12) * parameters.fluctuation.acceleration)
     {
     }
@@ -284,7 +297,7 @@ private:
     {
         const Cells cells = contactCells();
         // Raindrops that land beside a track touch it, too.
-        const double more = rules_.greatestReach();
+        const double more = most_still_reach_;
         tracks_of_cell_.assign(cells.count() + 1, 0);
         std::vector<std::pair<std::uint32_t, std::uint32_t>> comes;  // a cell and what comes through it
         comes.reserve(2 * from_.size());
@@ -315,7 +328,7 @@ private:
             const auto end = tracks_.begin() + tracks_of_cell_[cell + 1];
             const auto touched = std::find_if(begin, end, [&](std::uint32_t i) {
                 const double touching = reach + reach_[i];
-                return squaredDistance(drop.position, from_[i], to_[i]) <= touching * touching;
+                return Way(from_[i], to_[i]).squaredDistance(drop.position) <= touching * touching;
             });
             if (touched != end) {
                 take(*touched, drop.volume);
@@ -388,7 +401,7 @@ private:
     [[nodiscard]] bool meet(std::uint32_t a, std::uint32_t b) const
     {
         const double touching = reach_[a] + reach_[b];
-        return squaredDistance({}, from_[a] - from_[b], to_[a] - to_[b]) <= touching * touching;
+        return Way(from_[a] - from_[b], to_[a] - to_[b]).squaredDistance({}) <= touching * touching;
     }
 
     // R. E. Tarjan, J. van Leeuwen, "Worst-case analysis of set union algorithms" (1984): path halving; a set's name is
@@ -442,8 +455,8 @@ private:
         grown_[largest] = 1;
     }
 
-    /// The Lotus effect: what stands still in the way of a running droplet goes with it, and what a growing one comes
-    /// to touch, until there is nothing more.
+    /// The Lotus effect: what stands still in the way of a running droplet goes with it. What a growing one comes to
+    /// touch goes with it, too: at once, until there is nothing more, if it rests; in the next step, if it moves on.
     void sweep()
     {
         std::vector<Piece> pieces;
@@ -488,8 +501,10 @@ private:
             pieces.clear();
             for (const std::uint32_t i : grown) {
                 const RunningDroplet& d = s_.droplets[i];
-                reach_[i] = caps_.reach(d.volume);
-                pieces.push_back({i, d.position, d.position, reach_[i]});
+                if (d.velocity == Vec2{}) {
+                    reach_[i] = caps_.reach(d.volume);
+                    pieces.push_back({i, d.position, d.position, reach_[i]});
+                }
             }
         }
         taking.close();
@@ -498,22 +513,29 @@ private:
     /// Still droplets that touch a piece of a track.
     void find(const Piece& piece, std::vector<Hit>& hits) const
     {
-        const double most = piece.reach + rules_.greatestReach();
+        const Way way(piece.from, piece.to);
+        const double most = piece.reach + most_still_reach_;
         cellsOf(s_.still).visitAround(piece.from, piece.to, most, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell <= last; ++cell) {
                 const auto here = s_.still.droplets(cell);
                 for (std::size_t k = 0; k < here.size(); ++k) {
-                    const double squared = squaredDistance(here[k].position, piece.from, piece.to);
+                    const double squared = way.squaredDistance(here[k].position);
                     if (squared > most * most || here[k].volume == 0.0) {
                         continue;
                     }
-                    const double touching = piece.reach + rules_.reachOf(here[k].volume);
-                    if (squared <= touching * touching) {
+                    // The root, which costs most, only where it matters.
+                    if (squared <= piece.reach * piece.reach || touches(squared, piece.reach, here[k].volume)) {
                         hits.push_back({piece.owner, {cell, static_cast<std::uint8_t>(k)}});
                     }
                 }
             }
         });
+    }
+
+    [[nodiscard]] bool touches(double squared, double reach, double still_volume) const
+    {
+        const double touching = reach + rules_.reachOf(still_volume);
+        return squared <= touching * touching;
     }
 
     /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
@@ -624,6 +646,7 @@ private:
     double dt_;
     CapScale caps_;
     StillRules rules_;
+    double most_still_reach_ = 0.0;      // half the width of the largest still droplet [m]
     double most_push_ = 0.0;             // √6 of the root mean square, in both directions [m/s²]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // how many running droplets there were

@@ -450,8 +450,10 @@ TEST(Windshield, KeepsStillDropletsApartAndInTheirCells)
                           (1.0 - 1e-12) * (reachOf(p, all[a].volume) + reachOf(p, all[b].volume)));
             }
             for (const RunningDroplet& d : state.droplets) {
+                // What a moving one touches since it has grown, it takes up in the next step.
+                const double grown = d.velocity == Vec2{} ? 1e-12 : 0.05;
                 EXPECT_GT(length(all[a].position - d.position),
-                          (1.0 - 1e-12) * (reachOf(p, all[a].volume) + reachOf(p, d.volume)));
+                          (1.0 - grown) * (reachOf(p, all[a].volume) + reachOf(p, d.volume)));
             }
         }
     }
