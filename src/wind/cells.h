@@ -15,6 +15,7 @@ struct Cells {
     double width = 0.0;  ///< [m]
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
+    double per_metre = 1.0 / width;
 
     static Cells over(Vec2 size, double width)
     {
@@ -65,7 +66,7 @@ struct Cells {
 private:
     [[nodiscard]] std::uint32_t index(double v, std::uint32_t count) const
     {
-        return static_cast<std::uint32_t>(std::clamp(v / width, 0.0, static_cast<double>(count - 1)));
+        return static_cast<std::uint32_t>(std::clamp(v * per_metre, 0.0, static_cast<double>(count - 1)));
     }
 };
 

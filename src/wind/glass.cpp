@@ -64,10 +64,9 @@ struct Glass::Bent final : Glass::Shape {
         const double turn = arc / form.radius;  // 0 where the radius is infinite
         const double sine = std::sin(turn);
         const double cosine = std::cos(turn);
-        const double half = std::sin(0.5 * turn);
         const bool flat = turn == 0.0;
         const double aside = flat ? arc : form.radius * sine;
-        const double behind = flat ? 0.0 : -2.0 * form.radius * half * half;
+        const double behind = flat ? 0.0 : form.radius * (cosine - 1.0);
         const Vec3 right{1.0, 0.0, 0.0};
         return GlassPlace{aside * right + behind * normal + p.y * up, sine * right + cosine * normal,
                           cosine * right - sine * normal, up};
@@ -307,7 +306,7 @@ Vec2 gravityAlong(const GlassPlace& place, double gravity)
 Vec2 windAlong(const GlassPlace& place, double speed, WindAlongGlass how)
 {
     const Vec2 projected = along(place, {0.0, -speed, 0.0});
-    const double size = length(projected);
+    const double size = std::sqrt(dot(projected, projected));
     // A wind square on the glass has nowhere to turn to; what rounding leaves of it is no direction.
     if (how == WindAlongGlass::Projected || size <= 1e-9 * std::abs(speed)) {
         return projected;

@@ -136,28 +136,32 @@ double RainImpacts::bound() const
     return fallen(sizes, range.least, range.greatest) + speed * met(sizes, range.least, range.greatest);
 }
 
-double RainImpacts::sample(double which, double u) const
+RaindropSampler::RaindropSampler(const RainImpacts& impacts)
+    : impacts_(impacts),
+      floor_share_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest) / impacts.bound()),
+      fallen_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest)),
+      met_(-std::expm1(-impacts.sizes.slope * (impacts.range.greatest - impacts.range.least)))
 {
-    const double k = sizes.slope;
-    const double floor = fallen(sizes, range.least, range.greatest);
-    const double wall = speed * met(sizes, range.least, range.greatest);
-    if (which * (floor + wall) >= floor) {
-        const double range_share = -std::expm1(-k * (range.greatest - range.least));
-        return std::clamp(range.least - std::log1p(-u * range_share) / k, range.least, range.greatest);
+}
+
+double RaindropSampler::diameter(double which, double u) const
+{
+    const RaindropSizes& sizes = impacts_.sizes;
+    const auto [least, greatest] = impacts_.range;
+    if (which >= floor_share_) {
+        return std::min(least - std::log1p(-u * met_) / sizes.slope, greatest);
     }
     // Newton's method on the share that has fallen, kept between bounds that close in.
-    double low = std::max(range.least, diameterAt(0.0));
-    double high = range.greatest;
+    double low = std::max(least, diameterAt(0.0));
+    double high = greatest;
     const double from = low;
-    double diameter = std::min(from + 1.0 / k, 0.5 * (low + high));
-    for (int k_step = 0; k_step < 60; ++k_step) {
-        const double miss = fallen(sizes, from, diameter) - u * floor;
+    double diameter = std::min(from + 1.0 / sizes.slope, 0.5 * (low + high));
+    for (int tries = 0; tries < 60; ++tries) {
+        const double miss = fallen(sizes, from, diameter) - u * fallen_;
         (miss > 0.0 ? high : low) = diameter;
-        const double slope_here = sizes.density(diameter) * terminalSpeed(diameter);
-        double next = slope_here > 0.0 ? diameter - miss / slope_here : low;
-        if (!(next > low && next < high)) {
-            next = 0.5 * (low + high);
-        }
+        const double slope = sizes.density(diameter) * terminalSpeed(diameter);
+        const double newton = slope > 0.0 ? diameter - miss / slope : low;
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
         const double moved = std::abs(next - diameter);
         diameter = next;
         if (moved <= 1e-9 * diameter) {

@@ -54,6 +54,12 @@ double sphere(double diameter)
     return kPi / 6.0 * diameter * diameter * diameter;
 }
 
+/// Without the care for the ends of double's range, where nothing here comes, that std::hypot takes.
+double sizeOf(Vec2 a)
+{
+    return std::sqrt(dot(a, a));
+}
+
 /// Calls work(share, begin, end) for shares of [0, count), in parallel if there are several.
 template <class Work>
 void forShares(std::size_t count, const Work& work)
@@ -71,7 +77,7 @@ void forShares(std::size_t count, const Work& work)
 class CapScale {
 public:
     explicit CapScale(double contact_angle)
-        : unit_(capOf(1.0, contact_angle)), reach_(contact_angle < 0.5 * kPi ? unit_.contact_radius : unit_.radius)
+        : unit_(capOf(1.0, contact_angle)), wide_(contact_angle > 0.5 * kPi), reach_(reach(unit_))
     {
     }
 
@@ -81,11 +87,13 @@ public:
         return {volume, s * unit_.radius, s * unit_.contact_radius, s * unit_.height, s * s * unit_.frontal_area};
     }
     /// Half the width seen from above: caps of more than 90° bulge over their rims.
+    [[nodiscard]] double reach(const CapSize& cap) const { return wide_ ? cap.radius : cap.contact_radius; }
     [[nodiscard]] double reach(double volume) const { return reach_ * std::cbrt(volume); }
     [[nodiscard]] double reach() const { return reach_; }
 
 private:
     CapSize unit_;
+    bool wide_ = false;
     double reach_ = 0.0;
 };
 
@@ -123,7 +131,7 @@ struct Moved {
 Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
 {
     const bool at_rest = velocity == Vec2{};
-    if (at_rest && length(driving) <= forces.retention) {
+    if (at_rest && sizeOf(driving) <= forces.retention) {
         return {};
     }
     const double m = forces.mass;
@@ -134,11 +142,11 @@ Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
     const double twice =
         x > 0.02 ? (1.0 - once) / x : 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0)));
     const Vec2 free = decay * velocity + (once * dt / m) * driving;
-    const double speed = length(free);
+    const double speed = sizeOf(free);
     const double loss = once * dt / m * forces.sliding_friction;
     if (speed <= loss) {
         // When it stops, as if its speed fell evenly.
-        const double begins = length(velocity);
+        const double begins = sizeOf(velocity);
         const double share = begins > 0.0 ? begins / (begins + (loss - speed)) : 0.0;
         return {(0.5 * share * dt) * velocity, {}};
     }
@@ -146,15 +154,27 @@ Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
     return {(once * dt) * velocity + (twice * dt * dt / m) * net, (1.0 - loss / speed) * free};
 }
 
-/// Squared distance of p from the straight way from a to b.
-double squaredDistance(Vec2 p, Vec2 a, Vec2 b)
-{
-    const Vec2 way = b - a;
-    const double squared = dot(way, way);
-    const double t = squared > 0.0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0.0;
-    const Vec2 apart = p - a - t * way;
-    return dot(apart, apart);
-}
+/// The straight way between two places.
+class Way {
+public:
+    Way(Vec2 from, Vec2 to) : from_(from), way_(to - from)
+    {
+        const double squared = dot(way_, way_);
+        inverse_ = squared > 0.0 ? 1.0 / squared : 0.0;
+    }
+
+    [[nodiscard]] double squaredDistance(Vec2 p) const
+    {
+        const Vec2 begun = p - from_;
+        const Vec2 apart = begun - std::clamp(dot(begun, way_) * inverse_, 0.0, 1.0) * way_;
+        return dot(apart, apart);
+    }
+
+private:
+    Vec2 from_;
+    Vec2 way_;
+    double inverse_ = 0.0;
+};
 
 /// One step of one state; its functions are called in their order.
 class Step {
@@ -164,7 +184,9 @@ public:
           p_(parameters),
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
-          rules_{caps_.reach(), sphere(parameters.still_diameter)}
+          rules_{caps_.reach(), sphere(parameters.still_diameter)},
+          most_still_reach_(rules_.greatestReach()),
+          most_push_(std::sqrt(12.0) * (1.0 + 1e-12) * parameters.fluctuation.acceleration)
     {
     }
 
@@ -200,7 +222,12 @@ private:
     {
         before_rain_ = s_.droplets.size();
         const RainImpacts impacts{raindropSizes(p_.rainfall), p_.raindrops, p_.vehicle.speedAt(s_.time + 0.5 * dt_)};
-        double expected = impacts.bound() * p_.glass.width() * p_.glass.height() * dt_;
+        const double bound = impacts.bound();
+        if (!(bound > 0.0)) {
+            return;
+        }
+        const RaindropSampler sampler(impacts);
+        double expected = bound * p_.glass.width() * p_.glass.height() * dt_;
         while (s_.until_raindrop < expected) {
             expected -= s_.until_raindrop;
             const RandomStream chance(p_.seed, Chance::Raindrop, s_.next_raindrop++);
@@ -210,7 +237,7 @@ private:
             if (!place) {
                 continue;
             }
-            const double diameter = impacts.sample(chance.uniform(3), chance.uniform(4));
+            const double diameter = sampler.diameter(chance.uniform(3), chance.uniform(4));
             if (chance.uniform(5) >= impacts.kept(diameter, {place->normal.z, place->normal.y})) {
                 continue;
             }
@@ -257,7 +284,7 @@ private:
             }
             const Vec2 push =
                 gravityAlong(*place, p_.forces.gravity) + pushOn(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
-            const Vec2 driving = forces.mass * push + (forces.drag * length(wind)) * wind;
+            const Vec2 driving = forces.mass * push + (forces.drag * sizeOf(wind)) * wind;
             const Moved result = moved(forces, driving, d.velocity, dt_);
             d.position = d.position + result.way;
             d.velocity = result.velocity;
@@ -269,28 +296,24 @@ private:
     void bringTogether()
     {
         const Cells cells = contactCells();
-        tracks_of_cell_.assign(cells.count() + 1, 0);
         // Raindrops that land beside a track touch it, too.
-        const double more = rules_.greatestReach();
-        const auto visit = [&](const auto& put) {
-            for (std::uint32_t i = 0; i < from_.size(); ++i) {
-                cells.visitAround(from_[i], to_[i], reach_[i] + more, [&](std::size_t first, std::size_t last) {
-                    for (std::size_t cell = first; cell <= last; ++cell) {
-                        put(cell, i);
-                    }
-                });
-            }
-        };
-        visit([this](std::size_t cell, std::uint32_t) { ++tracks_of_cell_[cell]; });
-        std::inclusive_scan(tracks_of_cell_.begin(), tracks_of_cell_.end(), tracks_of_cell_.begin());
-        tracks_.resize(tracks_of_cell_.back());
-        // Filled from behind, each cell's end comes to be its beginning.
-        for (std::uint32_t i = static_cast<std::uint32_t>(from_.size()); i-- > 0;) {
+        const double more = most_still_reach_;
+        tracks_of_cell_.assign(cells.count() + 1, 0);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> comes;  // a cell and what comes through it
+        comes.reserve(2 * from_.size());
+        for (std::uint32_t i = 0; i < from_.size(); ++i) {
             cells.visitAround(from_[i], to_[i], reach_[i] + more, [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell <= last; ++cell) {
-                    tracks_[--tracks_of_cell_[cell]] = i;
+                    comes.emplace_back(static_cast<std::uint32_t>(cell), i);
+                    ++tracks_of_cell_[cell];
                 }
             });
+        }
+        std::inclusive_scan(tracks_of_cell_.begin(), tracks_of_cell_.end(), tracks_of_cell_.begin());
+        tracks_.resize(comes.size());
+        // Filled from behind, each cell's end comes to be its beginning.
+        for (std::size_t k = comes.size(); k-- > 0;) {
+            tracks_[--tracks_of_cell_[comes[k].first]] = comes[k].second;
         }
     }
 
@@ -305,7 +328,7 @@ private:
             const auto end = tracks_.begin() + tracks_of_cell_[cell + 1];
             const auto touched = std::find_if(begin, end, [&](std::uint32_t i) {
                 const double touching = reach + reach_[i];
-                return squaredDistance(drop.position, from_[i], to_[i]) <= touching * touching;
+                return Way(from_[i], to_[i]).squaredDistance(drop.position) <= touching * touching;
             });
             if (touched != end) {
                 take(*touched, drop.volume);
@@ -378,7 +401,7 @@ private:
     [[nodiscard]] bool meet(std::uint32_t a, std::uint32_t b) const
     {
         const double touching = reach_[a] + reach_[b];
-        return squaredDistance({}, from_[a] - from_[b], to_[a] - to_[b]) <= touching * touching;
+        return Way(from_[a] - from_[b], to_[a] - to_[b]).squaredDistance({}) <= touching * touching;
     }
 
     // R. E. Tarjan, J. van Leeuwen, "Worst-case analysis of set union algorithms" (1984): path halving; a set's name is
@@ -432,8 +455,8 @@ private:
         grown_[largest] = 1;
     }
 
-    /// The Lotus effect: what stands still in the way of a running droplet goes with it, and what a growing one comes
-    /// to touch, until there is nothing more.
+    /// The Lotus effect: what stands still in the way of a running droplet goes with it. What a growing one comes to
+    /// touch goes with it, too: at once, until there is nothing more, if it rests; in the next step, if it moves on.
     void sweep()
     {
         std::vector<Piece> pieces;
@@ -478,8 +501,10 @@ private:
             pieces.clear();
             for (const std::uint32_t i : grown) {
                 const RunningDroplet& d = s_.droplets[i];
-                reach_[i] = caps_.reach(d.volume);
-                pieces.push_back({i, d.position, d.position, reach_[i]});
+                if (d.velocity == Vec2{}) {
+                    reach_[i] = caps_.reach(d.volume);
+                    pieces.push_back({i, d.position, d.position, reach_[i]});
+                }
             }
         }
         taking.close();
@@ -488,22 +513,29 @@ private:
     /// Still droplets that touch a piece of a track.
     void find(const Piece& piece, std::vector<Hit>& hits) const
     {
-        const double most = piece.reach + rules_.greatestReach();
+        const Way way(piece.from, piece.to);
+        const double most = piece.reach + most_still_reach_;
         cellsOf(s_.still).visitAround(piece.from, piece.to, most, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell <= last; ++cell) {
                 const auto here = s_.still.droplets(cell);
                 for (std::size_t k = 0; k < here.size(); ++k) {
-                    const double squared = squaredDistance(here[k].position, piece.from, piece.to);
+                    const double squared = way.squaredDistance(here[k].position);
                     if (squared > most * most || here[k].volume == 0.0) {
                         continue;
                     }
-                    const double touching = piece.reach + rules_.reachOf(here[k].volume);
-                    if (squared <= touching * touching) {
+                    // The root, which costs most, only where it matters.
+                    if (squared <= piece.reach * piece.reach || touches(squared, piece.reach, here[k].volume)) {
                         hits.push_back({piece.owner, {cell, static_cast<std::uint8_t>(k)}});
                     }
                 }
             }
         });
+    }
+
+    [[nodiscard]] bool touches(double squared, double reach, double still_volume) const
+    {
+        const double touching = reach + rules_.reachOf(still_volume);
+        return squared <= touching * touching;
     }
 
     /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
@@ -527,7 +559,7 @@ private:
 
     void shedOne(std::size_t i)
     {
-        const double way = length(to_[i] - from_[i]);
+        const double way = sizeOf(to_[i] - from_[i]);
         const Vec2 direction = (1.0 / way) * (to_[i] - from_[i]);
         const RandomStream chance(p_.seed, Chance::Bead, s_.droplets[i].id);
         double at = -s_.droplets[i].since_bead;  // of the last bead, from the beginning of the way
@@ -614,6 +646,8 @@ private:
     double dt_;
     CapScale caps_;
     StillRules rules_;
+    double most_still_reach_ = 0.0;      // half the width of the largest still droplet [m]
+    double most_push_ = 0.0;             // √6 of the root mean square, in both directions [m/s²]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // how many running droplets there were
     // Of every running droplet, in their order:

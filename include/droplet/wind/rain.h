@@ -31,7 +31,7 @@ RaindropSizes raindropSizes(double rainfall);
 double terminalSpeed(double diameter);
 
 /// The diameters that are simulated. Smaller ones do not fall (terminalSpeed) and hold 1.2 ‰ of the water at 1 mm/h,
-/// less in heavier rain; larger ones break up and hold 0.2 ‰ at 25 mm/h, 3 ‰ at 100 mm/h.
+/// less in heavier rain; larger ones break up and hold 0.05 ‰ at 25 mm/h, 1.6 ‰ at 100 mm/h.
 struct RaindropRange {
     double least = 0.109e-3;  ///< [m], > 0
     double greatest = 8e-3;   ///< [m], > least
@@ -66,15 +66,28 @@ struct RainImpacts {
     /// ∫ N (v + U) dD over the range: what floor and wall catch together, which bounds every surface's rate
     /// [m⁻² s⁻¹].
     [[nodiscard]] double bound() const;
-    /// The diameter below which lies the share `u` of bound(): composed of the floor's share and the wall's, both
-    /// inverted exactly.
-    /// @param which  in [0, 1): chooses floor or wall
-    /// @param u      in [0, 1): the share of that
-    /// @return       [m], in the range
-    [[nodiscard]] double sample(double which, double u) const;
     /// The share of the raindrops of that diameter, of those bound() counts, that meets the surface: drawing by
-    /// sample() and keeping this share draws from f, at its rate.
+    /// RaindropSampler and keeping this share draws from f, at its rate.
     [[nodiscard]] double kept(double diameter, const Exposure& exposure) const;
+};
+
+/// Draws diameters of raindrops, of those that RainImpacts::bound() counts: by the floor's share and the wall's, both
+/// distributions inverted exactly.
+class RaindropSampler {
+public:
+    /// @param impacts  with a bound() above 0
+    explicit RaindropSampler(const RainImpacts& impacts);
+
+    /// @param which  uniform in [0, 1): chooses floor or wall
+    /// @param u      uniform in [0, 1): the share of that below the diameter
+    /// @return       [m], in the range
+    [[nodiscard]] double diameter(double which, double u) const;
+
+private:
+    RainImpacts impacts_;
+    double floor_share_ = 0.0;  // of what meets either
+    double fallen_ = 0.0;       // what meets the floor [m⁻² s⁻¹]
+    double met_ = 0.0;          // of the raindrops above the least, how many are in the range
 };
 
 }  // namespace droplet
