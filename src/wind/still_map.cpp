@@ -124,6 +124,25 @@ bool StillMap::draw(const StillDroplets& still, std::size_t cell)
     return changed;
 }
 
+std::uint8_t StillMap::reachOf(const StillDroplets& still, std::size_t cell) const
+{
+    const double left = static_cast<double>(cell % still.columns) * still.cell;
+    const double low = static_cast<double>(cell / still.columns) * still.cell;
+    std::uint8_t bits = 0;
+    for (const StillDroplet& droplet : still.droplets(cell)) {
+        // Two texels more: draw() decides by the middles of texels, and rounds.
+        const double reach = unit_radius_ * std::cbrt(droplet.volume) + 2.0 * texel_;
+        const bool to_left = droplet.position.x - reach < left;
+        const bool to_right = droplet.position.x + reach > left + still.cell;
+        const bool down = droplet.position.y - reach < low;
+        const bool up = droplet.position.y + reach > low + still.cell;
+        bits = static_cast<std::uint8_t>(bits | (down && to_left ? 1 : 0) | (down ? 2 : 0) |
+                                         (down && to_right ? 4 : 0) | (to_left ? 8 : 0) | (to_right ? 16 : 0) |
+                                         (up && to_left ? 32 : 0) | (up ? 64 : 0) | (up && to_right ? 128 : 0));
+    }
+    return bits;
+}
+
 std::vector<std::size_t> StillMap::follow(const StillDroplets& still)
 {
     const std::size_t count = std::size_t{still.columns} * still.rows;
@@ -132,6 +151,7 @@ std::vector<std::size_t> StillMap::follow(const StillDroplets& still)
     if (anew) {
         std::fill(texels_.begin(), texels_.end(), Texel());
         revisions_.assign(count, 0);
+        reaches_.assign(count, 0);
     }
     // Cells in the window, and those next to it.
     const auto cellAt = [&](double at, std::uint32_t most) {
@@ -154,9 +174,17 @@ std::vector<std::size_t> StillMap::follow(const StillDroplets& still)
                 continue;
             }
             revisions_[cell] = still.revisions[cell];
-            for (std::int64_t j = std::max(r - 1, low); j <= std::min(r + 1, high); ++j) {
-                for (std::int64_t i = std::max(c - 1, left); i <= std::min(c + 1, right); ++i) {
-                    stale[static_cast<std::size_t>(j * columns + i)] = 1;
+            const std::uint8_t reach = reachOf(still, cell);
+            int bits = reaches_[cell] | reach;  // of the droplets that were there, and of those that are
+            reaches_[cell] = reach;
+            for (std::int64_t j = r - 1; j <= r + 1; ++j) {
+                for (std::int64_t i = c - 1; i <= c + 1; ++i) {
+                    const bool is_own = j == r && i == c;
+                    const bool is_reached = is_own || (bits & 1) != 0;
+                    bits = is_own ? bits : bits >> 1;
+                    if (is_reached && i >= left && i <= right && j >= low && j <= high) {
+                        stale[static_cast<std::size_t>(j * columns + i)] = 1;
+                    }
                 }
             }
         }

@@ -27,7 +27,8 @@ public:
     /// 0 … 255
     [[nodiscard]] std::uint32_t cover() const { return static_cast<std::uint32_t>((bits_ >> 8) & 0xFFU); }
     [[nodiscard]] double thickness() const { return kThickest * static_cast<double>(bits_ >> 48) / 65535.0; }
-    [[nodiscard]] float radius() const { return 0.25F * static_cast<float>(bits_ & 0xFFU); }  ///< [texels]
+    /// Of contact, in quarters of texels.
+    [[nodiscard]] std::uint8_t size() const { return static_cast<std::uint8_t>(bits_ & 0xFFU); }
     /// Unit, out of the water.
     [[nodiscard]] Vec3f normal() const;
 
@@ -62,11 +63,14 @@ public:
     /// The texel at a place on the glass [m], bare beyond the window.
     [[nodiscard]] Texel at(float x, float y) const
     {
-        const int column = static_cast<int>(std::floor((x - low_x_) * per_metre_));
-        const int row = static_cast<int>(std::floor((y - low_y_) * per_metre_));
-        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) {
+        const float across = (x - low_x_) * per_metre_;
+        const float up = (y - low_y_) * per_metre_;
+        if (!(across >= 0.0F && up >= 0.0F && across < static_cast<float>(columns_) &&
+              up < static_cast<float>(rows_))) {
             return {};
         }
+        const int column = static_cast<int>(across);
+        const int row = static_cast<int>(up);
         return texels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                        static_cast<std::size_t>(column)];
     }
@@ -81,6 +85,8 @@ private:
 
     [[nodiscard]] Box boxOf(const StillDroplets& still, std::size_t cell) const;
     bool draw(const StillDroplets& still, std::size_t cell);
+    /// Into which of the eight cells around it a cell's droplets reach, a bit each, row by row.
+    [[nodiscard]] std::uint8_t reachOf(const StillDroplets& still, std::size_t cell) const;
 
     double texel_;
     std::int64_t first_column_;  ///< of the window, counted from the glass's corner
@@ -95,6 +101,7 @@ private:
     double unit_radius_;  ///< of contact, of a cap of 1 m³ [m]
     std::vector<Texel> texels_;
     std::vector<std::uint32_t> revisions_;
+    std::vector<std::uint8_t> reaches_;
     std::size_t drawn_ = 0;
 };
 

@@ -411,7 +411,9 @@ struct DriversView::Content {
     {
         tile.samples.clear();
         const auto ior = static_cast<float>(options.ior);
-        const auto texel = static_cast<float>(1.0 / map.perMetre());
+        const float quarter = 0.25F / map.perMetre();  // of a texel
+        std::uint8_t size = 0;                         // of the droplet met last, and the level for it
+        std::uint8_t level = 0;
         for (int y = row * kTile; y < std::min((row + 1) * kTile, options.height); ++y) {
             for (int x = column * kTile; x < std::min((column + 1) * kTile, options.width); ++x) {
                 const Vec2f middle = places[at(x, y)];
@@ -434,8 +436,12 @@ struct DriversView::Content {
                         sample.cover = static_cast<std::uint8_t>(seen.cover());
                         sample.light = static_cast<std::uint8_t>(255.0F * (1.0F - out.reflected) + 0.5F);
                         if (out.reflected < 1.0F) {
-                            sample.outside = backdrop.pixelAt(backdrop.placeOf(fromFrame(tile.frame, out.transmitted)),
-                                                              levelFor(2.0F * seen.radius() * texel / tile.pixel));
+                            if (seen.size() != size) {
+                                size = seen.size();
+                                level = levelFor(2.0F * quarter * static_cast<float>(size) / tile.pixel);
+                            }
+                            const Vec3f outside = fromFrame(tile.frame, out.transmitted);
+                            sample.outside = backdrop.pixelAt(backdrop.placeOf(outside), level);
                         }
                         tile.samples.push_back(sample);
                     }

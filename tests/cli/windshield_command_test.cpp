@@ -201,7 +201,7 @@ TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
 TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
 {
     std::filesystem::create_directory(path("f"));
-    for (const std::string bytes :
+    for (const std::string& bytes :
          {std::string(), std::string("something else"),
           std::string("droplet-shape windshield checkpoint 1\n\xff\xff\xff\xff\xff\xff\xff\xff")}) {
         stored("f/checkpoint.state", bytes);

@@ -48,7 +48,8 @@ std::string fiveFrames(const Glass& glass, const DropletSceneOptions& options = 
     state.droplets = {droplet(1, {0.5, 0.25})};
     scene.add(state);
     std::ostringstream out;
-    EXPECT_EQ(scene.write(out), out.str().size());
+    const std::uint64_t bytes = scene.write(out);
+    EXPECT_EQ(bytes, out.str().size());
     return out.str();
 }
 

@@ -21,7 +21,8 @@ template <typename Any>
 cv::Mat decoded(const Any& picture, PngEffort effort)
 {
     std::ostringstream out;
-    EXPECT_EQ(writePng(picture, out, effort), out.str().size());
+    const std::uint64_t count = writePng(picture, out, effort);
+    EXPECT_EQ(count, out.str().size());
     const std::string bytes = out.str();
     return cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
                         cv::IMREAD_UNCHANGED);
