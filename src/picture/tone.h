@@ -25,19 +25,27 @@ inline const std::array<float, 256>& displayLevels()
     return levels;
 }
 
-/// The sRGB level of linear light, to half a level but where they lie so close that a step of 1/4096 is more.
-inline std::uint8_t encoded(float light)
+/// sRGB levels of linear light in steps of 1/4096.
+using EncodedLevels = std::array<std::uint8_t, 4097>;
+
+inline const EncodedLevels& encodedLevels()
 {
-    constexpr std::size_t kSteps = 4096;
-    static const std::array<std::uint8_t, kSteps + 1> levels = [] {
-        std::array<std::uint8_t, kSteps + 1> made{};
+    static const EncodedLevels levels = [] {
+        EncodedLevels made{};
         for (std::size_t i = 0; i < made.size(); ++i) {
-            const float level = toDisplay(static_cast<float>(i) / static_cast<float>(kSteps));
+            const float level = toDisplay(static_cast<float>(i) / static_cast<float>(made.size() - 1));
             made[i] = static_cast<std::uint8_t>(std::lround(255.0F * level));
         }
         return made;
     }();
-    return levels[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * static_cast<float>(kSteps) + 0.5F)];
+    return levels;
+}
+
+/// The sRGB level of linear light, to half a level but where they lie so close that a step of 1/4096 is more.
+inline std::uint8_t encoded(float light, const EncodedLevels& levels = encodedLevels())
+{
+    const float steps = std::clamp(light, 0.0F, 1.0F) * static_cast<float>(levels.size() - 1);
+    return levels[static_cast<std::size_t>(static_cast<std::int32_t>(steps + 0.5F))];
 }
 
 /// A level over another, mixed by alpha and rounded to the nearest.

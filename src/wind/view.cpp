@@ -68,6 +68,8 @@ struct StillSample {
 };
 static_assert(kTilePixels == 256, "a pixel's number in its tile is a byte");
 
+struct Ray;
+
 struct Tile {
     bool on_glass = false;
     Frame frame;         ///< of the glass in its middle
@@ -77,11 +79,32 @@ struct Tile {
     Vec2f low;           ///< box of what is seen of the glass [m]
     Vec2f high;
     std::vector<StillSample> samples;
-    std::vector<std::uint32_t> droplets;  ///< that may run and reach into it, in their order
+    std::vector<const std::vector<Ray>*> droplets;  ///< that may run and reach into it, in their order
 };
 
-/// A droplet that may run, as it is drawn.
+/// What a ray through a droplet that may run shows.
+struct Ray {
+    PlaceInPicture place;
+    std::uint8_t pixel = 0;  ///< of the tile
+    std::uint8_t level = 0;  ///< of the backdrop
+    std::uint8_t light = 0;  ///< share of it that gets through, in 255ths
+    std::uint8_t cover = 0;  ///< of a ray's share of the pixel, in 255ths
+    bool is_whole = false;   ///< it stands for the whole pixel
+};
+
+/// A droplet that may run, as it is drawn. Kept as long as it rests.
 struct Drawn {
+    RunningDroplet droplet;
+    /// Its rays in a tile, those of a pixel one after another.
+    struct Part {
+        std::uint32_t tile = 0;
+        std::vector<Ray> rays;
+    };
+    std::vector<Part> parts;
+};
+
+/// A droplet about to be traced.
+struct Traced {
     Vec2f position;
     Vec2f along;  ///< unit, of its motion
     Frame frame;  ///< x along the motion
@@ -452,29 +475,41 @@ struct DriversView::Content {
 
     void prepare(const std::vector<RunningDroplet>& droplets)
     {
-        drawn.assign(droplets.size(), {});
-        constexpr std::size_t kWorthAThread = 64;
+        std::vector<Drawn> next(droplets.size());
+        // What rests where it was is as it was; both are in the order of their ids.
+        auto before = drawn.begin();
+        for (std::size_t k = 0; k < droplets.size(); ++k) {
+            const RunningDroplet& droplet = droplets[k];
+            before = std::find_if(before, drawn.end(), [&](const Drawn& one) { return one.droplet.id >= droplet.id; });
+            if (before != drawn.end() && before->droplet.id == droplet.id &&
+                before->droplet.position == droplet.position && before->droplet.velocity == droplet.velocity &&
+                before->droplet.volume == droplet.volume) {
+                next[k] = std::move(*before);
+            }
+        }
+        constexpr std::size_t kWorthAThread = 32;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, droplets.size(), kWorthAThread), [&](const auto& range) {
             for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                drawn[k] = prepared(droplets[k]);
+                if (next[k].droplet.volume == 0.0) {
+                    next[k].droplet = droplets[k];
+                    next[k].parts = trace(prepared(droplets[k]));
+                }
             }
         });
+        drawn = std::move(next);
         for (Tile& tile : tiles) {
             tile.droplets.clear();
         }
-        for (std::size_t k = 0; k < drawn.size(); ++k) {
-            const Drawn& one = drawn[k];
-            for (int r = one.top / kTile; r <= one.bottom / kTile && one.bottom >= 0; ++r) {
-                for (int c = one.left / kTile; c <= one.right / kTile && one.right >= 0; ++c) {
-                    tileAt(c, r).droplets.push_back(static_cast<std::uint32_t>(k));
-                }
+        for (const Drawn& one : drawn) {
+            for (const Drawn::Part& part : one.parts) {
+                tiles[part.tile].droplets.push_back(&part.rays);
             }
         }
     }
 
-    [[nodiscard]] Drawn prepared(const RunningDroplet& droplet) const
+    [[nodiscard]] Traced prepared(const RunningDroplet& droplet) const
     {
-        Drawn one;
+        Traced one;
         const auto place = glass.place(droplet.position);
         if (!place) {
             return one;
@@ -530,36 +565,30 @@ struct DriversView::Content {
         return one;
     }
 
-    // ------------------------------------------------------------------------------------ light
-
-    /// Light of a tile's droplets, premultiplied by what they cover.
-    void shine(const Tile& tile, int column, int row, std::array<Four, kTilePixels>& light) const
+    [[nodiscard]] std::vector<Drawn::Part> trace(const Traced& one) const
     {
-        light.fill(four(0.0F));
-        const float share = 1.0F / (255.0F * static_cast<float>(options.samples * options.samples));
-        for (const StillSample& sample : tile.samples) {
-            light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
-                                   seen(backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
+        std::vector<Drawn::Part> parts;
+        for (int r = one.top / kTile; r <= one.bottom / kTile && one.bottom >= 0; ++r) {
+            for (int c = one.left / kTile; c <= one.right / kTile && one.right >= 0; ++c) {
+                const auto number = static_cast<std::uint32_t>(r * columns + c);
+                Drawn::Part part{number, {}};
+                trace(one, tiles[number], c, r, part.rays);
+                if (!part.rays.empty()) {
+                    parts.push_back(std::move(part));
+                }
+            }
         }
-        for (const std::uint32_t k : tile.droplets) {
-            shineOne(drawn[k], tile, column, row, light);
-        }
+        return parts;
     }
 
-    /// What is seen along a ray of which a share gets out and the rest is led back inside.
-    [[nodiscard]] Four seen(Four outside, float share) const
-    {
-        return pane * (cabin + four(share) * (outside - cabin));
-    }
-
-    void shineOne(const Drawn& one, const Tile& tile, int column, int row, std::array<Four, kTilePixels>& light) const
+    void trace(const Traced& one, const Tile& tile, int column, int row, std::vector<Ray>& rays) const
     {
         const auto ior = static_cast<float>(options.ior);
         const int n = options.samples;
         const float soft = tile.pixel / static_cast<float>(n);
-        const float share = 1.0F / static_cast<float>(n * n);
         // In its middle a droplet is smooth: a ray a pixel does.
         const float calm = 0.6F * one.contact - tile.pixel;
+        const auto beyondLine = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
         for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
             for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1);
                  ++x) {
@@ -569,20 +598,16 @@ struct DriversView::Content {
                 }
                 const float dx = middle.x - one.position.x;
                 const float dy = middle.y - one.position.y;
-                const auto beyondLine = [&](float along) {
-                    return std::max(std::abs(along) - one.capsule.half_length, 0.0F);
-                };
-                const float a0 = one.along.x * dx + one.along.y * dy;
-                const float b0 = one.along.x * dy - one.along.y * dx;
-                const float past = beyondLine(a0);
+                const float past = beyondLine(one.along.x * dx + one.along.y * dy);
+                const float aside = one.along.x * dy - one.along.y * dx;
+                const float far2 = past * past + aside * aside;
                 const float out = one.contact + 2.0F * tile.pixel;
-                if (past * past + b0 * b0 > out * out) {
+                if (far2 > out * out) {
                     continue;
                 }
                 const Vec3f inside = intoWater(toFrame(one.frame, ray(x, y)), ior);
-                Four sum = four(0.0F);
-                // Adds the light of a ray: so far from the pixel's middle, for a share of the pixel.
-                const auto add = [&](float u, float v, float part, std::uint8_t level) {
+                // A ray so far from the pixel's middle.
+                const auto add = [&](float u, float v, bool is_whole) {
                     const float ex = dx + u * tile.right.x + v * tile.down.x;
                     const float ey = dy + u * tile.right.y + v * tile.down.y;
                     const float a = one.along.x * ex + one.along.y * ey;
@@ -593,25 +618,59 @@ struct DriversView::Content {
                         return;
                     }
                     const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
-                    Four outside = cabin;
+                    Ray found;
+                    found.pixel = static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
+                    found.cover = static_cast<std::uint8_t>(255.0F * cover + 0.5F);
+                    found.is_whole = is_whole;
                     if (met.reflected < 1.0F) {
-                        outside = backdrop.at(backdrop.placeOf(fromFrame(one.frame, met.transmitted)), level);
+                        found.place = backdrop.placeOf(fromFrame(one.frame, met.transmitted));
+                        found.level = is_whole ? one.calm_level : one.level;
+                        found.light = static_cast<std::uint8_t>(255.0F * (1.0F - met.reflected) + 0.5F);
                     }
-                    sum += four(part * cover) * seen(outside, 1.0F - met.reflected);
+                    rays.push_back(found);
                 };
-                if (past * past + b0 * b0 < calm * std::abs(calm)) {
-                    add(0.0F, 0.0F, 1.0F, one.calm_level);
+                if (far2 < calm * std::abs(calm)) {
+                    add(0.0F, 0.0F, true);
                 } else {
                     for (int j = 0; j < n; ++j) {
                         for (int i = 0; i < n; ++i) {
-                            add(offset(i), offset(j), share, one.level);
+                            add(offset(i), offset(j), false);
                         }
                     }
                 }
-                Four& pixel = light[static_cast<std::size_t>((y % kTile) * kTile + x % kTile)];
-                pixel = sum + four(1.0F - sum[3]) * pixel;
             }
         }
+    }
+
+    // ------------------------------------------------------------------------------------ light
+
+    /// Light of a tile's droplets, premultiplied by what they cover.
+    void shine(const Tile& tile, std::array<Four, kTilePixels>& light) const
+    {
+        light.fill(four(0.0F));
+        const float share = 1.0F / (255.0F * static_cast<float>(options.samples * options.samples));
+        for (const StillSample& sample : tile.samples) {
+            light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
+                                   seen(backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
+        }
+        for (const std::vector<Ray>* rays : tile.droplets) {
+            for (auto ray = rays->begin(); ray != rays->end();) {
+                const std::uint8_t pixel = ray->pixel;
+                Four sum = four(0.0F);
+                for (; ray != rays->end() && ray->pixel == pixel; ++ray) {
+                    const float part = (ray->is_whole ? 1.0F / 255.0F : share) * static_cast<float>(ray->cover);
+                    const Four outside = ray->light > 0 ? backdrop.at(ray->place, ray->level) : cabin;
+                    sum += four(part) * seen(outside, static_cast<float>(ray->light) / 255.0F);
+                }
+                light[pixel] = sum + four(1.0F - sum[3]) * light[pixel];
+            }
+        }
+    }
+
+    /// What is seen along a ray of which a share gets out and the rest is led back inside.
+    [[nodiscard]] Four seen(Four outside, float share) const
+    {
+        return pane * (cabin + four(share) * (outside - cabin));
     }
 
     /// Calls take(x, y, red, green, blue, alpha) for every pixel, in parallel; tiles without water are skipped.
@@ -620,20 +679,22 @@ struct DriversView::Content {
     {
         tbb::parallel_for(0, rows, [&](int r) {
             std::array<Four, kTilePixels> light;
+            const EncodedLevels& levels = encodedLevels();
             for (int c = 0; c < columns; ++c) {
                 const Tile& tile = tiles[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
                                          static_cast<std::size_t>(c)];
                 if (tile.samples.empty() && tile.droplets.empty()) {
                     continue;
                 }
-                shine(tile, c, r, light);
+                shine(tile, light);
                 for (int y = r * kTile; y < std::min((r + 1) * kTile, options.height); ++y) {
                     for (int x = c * kTile; x < std::min((c + 1) * kTile, options.width); ++x) {
                         const Four& pixel = light[static_cast<std::size_t>((y % kTile) * kTile + x % kTile)];
                         const auto alpha = static_cast<std::uint32_t>(255.0F * std::min(pixel[3], 1.0F) + 0.5F);
                         if (alpha > 0) {
-                            const Four straight = pixel / four(pixel[3]);
-                            take(at(x, y), encoded(straight[0]), encoded(straight[1]), encoded(straight[2]), alpha);
+                            const Four straight = four(1.0F / pixel[3]) * pixel;
+                            take(at(x, y), encoded(straight[0], levels), encoded(straight[1], levels),
+                                 encoded(straight[2], levels), alpha);
                         }
                     }
                 }
