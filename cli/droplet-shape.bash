@@ -26,16 +26,37 @@ _droplet_shape()
         --colour) choices='look contours contact-angle' ;;
         --align) choices='start centre end' ;;
         --progress) choices='auto none json' ;;
+        --preset)
+            choices='hashimoto thesis thesis,hashimoto'
+            if [[ ${COMP_WORDS[1]} == windshield ]]; then
+                choices='figure-3.10 figure-3.11 figure-3.12'
+            fi
+            ;;
+        --viscosity-factor) choices='artistic wedge' ;;
+        --wind)
+            if [[ ${COMP_WORDS[1]} != windshield ]]; then
+                COMPREPLY=()
+                return
+            fi
+            choices='turned projected'
+            ;;
         --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
             --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
-            --line-spacing | --shard | --turntable | --threads | -j)
+            --line-spacing | --shard | --turntable | --slope | --hysteresis | --falling-angle | \
+            --falling-volume | --kinetic-fraction | --drag-coefficient | --boundary-layer | --profile-exponent | \
+            --air-density | --measured | --time | --trace-step | --initial-speed | --gust | --gust-period | \
+            --rain | --speed | --noise | --wiper | --seed | --glass-width | --glass-height | --radius | \
+            --still-diameter | --film | --warm-up | --size | --field-of-view | --eye-distance | --samples | \
+            --codec | --map-width | \
+            --threads | -j)
             COMPREPLY=()
             return
             ;;
         --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | \
-            --picture | --json | --html | --export-evolver | --config) ;;
+            --picture | --chart | --map | --trace | --drive-cycle | --background | --maps | \
+            --droplets | --model | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
@@ -56,6 +77,18 @@ _droplet_shape()
                         --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
+                    wind-tunnel) choices='--preset --volume --wind --slope --hysteresis --falling-angle
+                        --falling-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
+                        --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
+                        --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust
+                        --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
+                    windshield) choices='--preset --rain --speed --drive-cycle --wind --noise --wiper --seed --glass-width
+                        --glass-height --radius --slope --surface --hysteresis --still-diameter --film
+                        --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
+                        --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
+                        --gravity --time --warm-up --fps --background --fit --size --field-of-view
+                        --eye-distance --samples --layer --codec --maps --map-width --droplets --model --json
+                        --resume --no-clobber --threads --quiet --config --help --version' ;;
                     *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
@@ -67,7 +100,7 @@ _droplet_shape()
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
     if ((COMP_CWORD == 1)); then
-        local commands='animate batch compare glyphs'
+        local commands='animate batch compare glyphs wind-tunnel windshield'
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$commands" -- "$word")
     fi
 }

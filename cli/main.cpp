@@ -19,6 +19,8 @@
 #include "glyphs_command.h"
 #include "shape_command.h"
 #include "terminal.h"
+#include "wind_tunnel_command.h"
+#include "windshield_command.h"
 
 namespace {
 
@@ -64,7 +66,9 @@ const std::vector<Command>& commands()
     static const std::vector<Command> all{{"animate", cli::runAnimate},
                                           {"batch", cli::runBatch},
                                           {"compare", cli::runCompare},
-                                          {"glyphs", cli::runGlyphs}};
+                                          {"glyphs", cli::runGlyphs},
+                                          {"wind-tunnel", cli::runWindTunnel},
+                                          {"windshield", cli::runWindshield}};
     return all;
 }
 

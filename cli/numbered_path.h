@@ -19,6 +19,8 @@ public:
     static std::optional<NumberedPath> of(const std::string& text, const std::string& subject);
 
     [[nodiscard]] std::string at(std::size_t number) const;
+    /// The path with a word in the number's place.
+    [[nodiscard]] std::string with(const std::string& word) const { return folder_ + before_ + word + after_; }
 
     /// The files there are, with their numbers, which follow one another.
     /// @throws droplet::Error InvalidInput if there is none, or one is missing between two others

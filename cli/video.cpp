@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
 #include <string_view>
 
 #include "droplet/error.h"
-
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
+#include "process.h"
 
 namespace cli {
 namespace {
@@ -23,79 +16,21 @@ namespace {
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// A program under way, with its standard output to read and its words in a file.
-struct Process {
-    pid_t id = -1;
-    std::FILE* output = nullptr;
-    std::FILE* words = nullptr;
-};
-
 /// @throws Error InvalidInput if there is no such program
-Process start(const std::vector<std::string>& command, const std::string& path)
+Process startReading(const std::vector<std::string>& command, const std::string& path)
 {
-    Process process;
-    std::array<int, 2> ends{};
-    process.words = std::tmpfile();
-    if (process.words == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
-        throw std::runtime_error(std::string("no pipe to ") + command[0] + ": " + std::strerror(errno));
-    }
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, ::fileno(process.words), STDERR_FILENO);
-    std::vector<char*> arguments;
-    arguments.reserve(command.size() + 1);
-    for (const std::string& argument : command) {
-        arguments.push_back(const_cast<char*>(argument.c_str()));
-    }
-    arguments.push_back(nullptr);
-    const int failure = ::posix_spawnp(&process.id, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    process.output = ::fdopen(ends[0], "rb");
-    if (failure != 0) {
-        std::fclose(process.output);
-        std::fclose(process.words);
+    const Started started = start(command, Piped::Output);
+    if (started.failure != 0) {
         throw Error(ErrorCode::InvalidInput, path + ": videos are read through the program " + command[0] +
-                                                 ", which cannot be run: " + std::strerror(failure));
+                                                 ", which cannot be run: " + std::strerror(started.failure));
     }
-    return process;
-}
-
-int waitFor(pid_t id)
-{
-    int status = 0;
-    while (::waitpid(id, &status, 0) == -1 && errno == EINTR) {
-    }
-    return status;
-}
-
-/// The first line a program wrote to standard error.
-std::string firstLine(std::FILE* words)
-{
-    std::array<char, 512> line{};
-    std::rewind(words);
-    if (std::fgets(line.data(), static_cast<int>(line.size()), words) == nullptr) {
-        return {};
-    }
-    std::string text = line.data();
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
-        text.pop_back();
-    }
-    return text;
+    return started.process;
 }
 
 [[noreturn]] void complain(const std::string& path, const std::string& program, std::FILE* words)
 {
     const std::string line = firstLine(words);
     throw Error(ErrorCode::InvalidInput, path + ": " + program + " cannot read it" + (line.empty() ? "" : ": " + line));
-}
-
-/// A file's name that no program takes for an option or a protocol.
-std::string plain(const std::string& path)
-{
-    return "file:" + path;
 }
 
 /// A number such as 25/1 or 30000/1001.
@@ -120,9 +55,9 @@ std::optional<double> quotient(std::string_view text)
 
 std::optional<double> rateOf(const std::string& path)
 {
-    const Process process = start({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
-                                   "stream=avg_frame_rate", "-of", "default=nw=1:nk=1", "-i", plain(path)},
-                                  path);
+    const Process process = startReading({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                                          "stream=avg_frame_rate", "-of", "default=nw=1:nk=1", "-i", plainName(path)},
+                                         path);
     std::array<char, 128> text{};
     const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
     std::fclose(process.output);
@@ -145,9 +80,9 @@ std::optional<double> rateOf(const std::string& path)
 Video::Video(const std::string& path) : path_(path), rate_(rateOf(path))
 {
     const Process process =
-        start({"ffmpeg", "-nostdin", "-v", "error", "-xerror", "-i", plain(path), "-map", "0:v:0", "-fps_mode",
-               "passthrough", "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"},
-              path);
+        startReading({"ffmpeg", "-nostdin", "-v", "error", "-xerror", "-i", plainName(path), "-map", "0:v:0",
+                      "-fps_mode", "passthrough", "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"},
+                     path);
     process_ = process.id;
     frames_ = process.output;
     words_ = process.words;

@@ -20,7 +20,8 @@ struct Pen {
     std::array<std::uint8_t, 3> colour{30, 34, 40};  ///< sRGB
 };
 
-/// How long a line of text is [px]. UTF-8; what is neither printable ASCII nor ° or µ counts, and shows, as `?`.
+/// How long a line of text is [px]. UTF-8; what is neither printable ASCII nor one of ° µ ² · − – Δ
+/// counts, and shows, as `?`.
 double textWidth(std::string_view text, double size);
 
 /// The text, or as much of it as fits into a width with an ellipsis [px].

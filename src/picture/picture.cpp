@@ -4,17 +4,22 @@
 #include "droplet/picture/picture.h"
 
 #include <png.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <csetjmp>
 #include <cstring>
 #include <new>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "droplet/error.h"
 #include "footprint/image.h"
 #include "footprint/image_file.h"
+#include "picture/tone.h"
 
 namespace droplet {
 namespace {
@@ -51,57 +56,209 @@ void onWrite(png_structp png, png_bytep from, std::size_t count)
 
 void onFlush(png_structp /*png*/) {}
 
-bool encode(PngWriter& writer, const Picture& picture)
+/// Rows as a PNG has them.
+struct Rows {
+    int width = 0;
+    int height = 0;
+    int depth = 8;  ///< bits
+    int colour_type = PNG_COLOR_TYPE_RGB;
+    bool is_colour = true;  ///< sRGB, not numbers
+    const std::uint8_t* first = nullptr;
+    std::size_t stride = 0;  ///< bytes
+};
+
+bool encode(PngWriter& writer, const Rows& rows, PngEffort effort)
 {
     if (setjmp(png_jmpbuf(writer.png)) != 0) {
         return false;
     }
     png_set_write_fn(writer.png, &writer, onWrite, onFlush);
-    png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
-    png_set_compression_level(writer.png, 6);
-    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.width),
-                 static_cast<png_uint_32>(picture.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-    png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, effort == PngEffort::Fast ? PNG_FILTER_SUB : PNG_FILTER_PAETH);
+    png_set_compression_level(writer.png, effort == PngEffort::Fast ? 1 : 6);
+    png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
+                 rows.depth, rows.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+    if (rows.is_colour) {
+        png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    }
     png_write_info(writer.png, writer.info);
-    const std::size_t stride = 3 * static_cast<std::size_t>(picture.width);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y) {
-        png_write_row(writer.png, picture.rgb.data() + y * stride);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(rows.height); ++y) {
+        png_write_row(writer.png, rows.first + y * rows.stride);
     }
     png_write_end(writer.png, nullptr);
     return true;
 }
 
-}  // namespace
-
-void Picture::validate() const
+std::uint64_t write(const Rows& rows, std::ostream& out, PngEffort effort)
 {
-    if (width < 1 || height < 1) {
-        throw Error(ErrorCode::InvalidArgument, "picture of " + std::to_string(width) + " by " +
-                                                    std::to_string(height) + " pixels must have at least one");
-    }
-    const std::size_t bytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (rgb.size() != bytes) {
-        throw Error(ErrorCode::InvalidArgument, "picture.rgb has " + std::to_string(rgb.size()) + " bytes; " +
-                                                    std::to_string(width) + " by " + std::to_string(height) +
-                                                    " pixels are " + std::to_string(bytes));
-    }
-}
-
-std::uint64_t writePng(const Picture& picture, std::ostream& out)
-{
-    picture.validate();
     PngWriter writer(out);
     writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, onError, onWarning);
     writer.info = writer.png == nullptr ? nullptr : png_create_info_struct(writer.png);
     if (writer.info == nullptr) {
         throw std::bad_alloc();
     }
-    if (!encode(writer, picture)) {
+    if (!encode(writer, rows, effort)) {
         throw Error(ErrorCode::InvalidArgument,
                     std::string("picture cannot be written as PNG: ") + writer.message.data());
     }
     return writer.bytes;
+}
+
+void requireCount(const char* name, std::size_t count, int width, int height, int channels)
+{
+    if (width < 1 || height < 1) {
+        throw Error(ErrorCode::InvalidArgument, "picture of " + std::to_string(width) + " by " +
+                                                    std::to_string(height) + " pixels must have at least one");
+    }
+    const std::size_t needed =
+        static_cast<std::size_t>(channels) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (count != needed) {
+        throw Error(ErrorCode::InvalidArgument, std::string("picture.") + name + " has " + std::to_string(count) +
+                                                    (name == std::string_view("levels") ? " numbers; " : " bytes; ") +
+                                                    std::to_string(width) + " by " + std::to_string(height) +
+                                                    " pixels are " + std::to_string(needed));
+    }
+}
+
+/// One side of a picture, scaled: which pixels make a new one, and their shares.
+struct Tap {
+    std::size_t first = 0;
+    std::vector<float> shares;
+};
+
+/// @param from   where the scaled picture begins in the old one [px]
+/// @param scale  old pixels for a new one
+std::vector<Tap> tapsOf(int old_side, int new_side, double from, double scale)
+{
+    std::vector<Tap> taps(static_cast<std::size_t>(new_side));
+    const double reach = std::max(scale, 1.0);  // of the tent that averages or interpolates
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+        const double centre = from + (static_cast<double>(i) + 0.5) * scale - 0.5;
+        const int low = static_cast<int>(std::ceil(centre - reach));
+        const int high = static_cast<int>(std::floor(centre + reach));
+        const int first = std::clamp(low, 0, old_side - 1);
+        const int last = std::clamp(high, 0, old_side - 1);
+        taps[i].first = static_cast<std::size_t>(first);
+        taps[i].shares.assign(static_cast<std::size_t>(last - first) + 1, 0.0F);
+        double sum = 0.0;
+        for (int k = low; k <= high; ++k) {
+            sum += std::max(1.0 - std::abs(k - centre) / reach, 0.0);
+        }
+        for (int k = low; k <= high; ++k) {  // beyond the edge, the edge
+            taps[i].shares[static_cast<std::size_t>(std::clamp(k, first, last) - first)] +=
+                static_cast<float>(std::max(1.0 - std::abs(k - centre) / reach, 0.0) / sum);
+        }
+    }
+    return taps;
+}
+
+}  // namespace
+
+void Picture::validate() const
+{
+    requireCount("rgb", rgb.size(), width, height, 3);
+}
+
+void Layer::validate() const
+{
+    requireCount("rgba", rgba.size(), width, height, 4);
+}
+
+void DeepPicture::validate() const
+{
+    if (channels != 1 && channels != 3) {
+        throw Error(ErrorCode::InvalidArgument, "channels " + std::to_string(channels) + " must be 1 or 3");
+    }
+    requireCount("levels", levels.size(), width, height, channels);
+}
+
+std::uint64_t writePng(const Picture& picture, std::ostream& out, PngEffort effort)
+{
+    picture.validate();
+    return write({picture.width, picture.height, 8, PNG_COLOR_TYPE_RGB, true, picture.rgb.data(),
+                  3 * static_cast<std::size_t>(picture.width)},
+                 out, effort);
+}
+
+std::uint64_t writePng(const Layer& layer, std::ostream& out, PngEffort effort)
+{
+    layer.validate();
+    return write({layer.width, layer.height, 8, PNG_COLOR_TYPE_RGBA, true, layer.rgba.data(),
+                  4 * static_cast<std::size_t>(layer.width)},
+                 out, effort);
+}
+
+std::uint64_t writePng(const DeepPicture& picture, std::ostream& out, PngEffort effort)
+{
+    picture.validate();
+    std::vector<std::uint8_t> bytes;  // the more significant first
+    bytes.reserve(2 * picture.levels.size());
+    for (const std::uint16_t level : picture.levels) {
+        bytes.push_back(static_cast<std::uint8_t>(level >> 8));
+        bytes.push_back(static_cast<std::uint8_t>(level & 0xFF));
+    }
+    return write({picture.width, picture.height, 16, picture.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
+                  false, bytes.data(), bytes.size() / static_cast<std::size_t>(picture.height)},
+                 out, effort);
+}
+
+Picture over(const Layer& layer, const Picture& below)
+{
+    layer.validate();
+    below.validate();
+    if (layer.width != below.width || layer.height != below.height) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "layer of " + std::to_string(layer.width) + " by " + std::to_string(layer.height) +
+                        " pixels must have the picture's size, " + std::to_string(below.width) + " by " +
+                        std::to_string(below.height));
+    }
+    Picture mixed = below;
+    for (std::size_t i = 0; i < mixed.rgb.size() / 3; ++i) {
+        const std::uint32_t alpha = layer.rgba[4 * i + 3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            mixed.rgb[3 * i + c] = mixedLevel(layer.rgba[4 * i + c], mixed.rgb[3 * i + c], alpha);
+        }
+    }
+    return mixed;
+}
+
+Picture covering(const Picture& picture, int width, int height)
+{
+    picture.validate();
+    constexpr int kMostSide = 8192;
+    if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
+        throw Error(ErrorCode::InvalidArgument, "frame of " + std::to_string(width) + " by " + std::to_string(height) +
+                                                    " pixels must be 1 to 8192 each way");
+    }
+    if (picture.width == width && picture.height == height) {
+        return picture;
+    }
+    const double scale =
+        std::min(static_cast<double>(picture.width) / width, static_cast<double>(picture.height) / height);
+    const std::vector<Tap> across = tapsOf(picture.width, width, 0.5 * (picture.width - scale * width), scale);
+    const std::vector<Tap> down = tapsOf(picture.height, height, 0.5 * (picture.height - scale * height), scale);
+    Picture scaled{width, height, {}};
+    const auto row_levels = 3 * static_cast<std::size_t>(width);
+    scaled.rgb.resize(row_levels * static_cast<std::size_t>(height));
+    const auto old_row = 3 * static_cast<std::size_t>(picture.width);
+    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(height), [&](std::size_t y) {
+        std::vector<float> sum(old_row, 0.0F);
+        for (std::size_t k = 0; k < down[y].shares.size(); ++k) {
+            const std::uint8_t* const row = picture.rgb.data() + (down[y].first + k) * old_row;
+            for (std::size_t i = 0; i < old_row; ++i) {
+                sum[i] += down[y].shares[k] * displayLevels()[row[i]];
+            }
+        }
+        for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                float light = 0.0F;
+                for (std::size_t k = 0; k < across[x].shares.size(); ++k) {
+                    light += across[x].shares[k] * sum[3 * (across[x].first + k) + c];
+                }
+                scaled.rgb[y * row_levels + 3 * x + c] = encoded(light);
+            }
+        }
+    });
+    return scaled;
 }
 
 Picture decodePicture(std::span<const std::byte> encoded, std::size_t max_pixels)

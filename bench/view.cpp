@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long the driver's view takes, without encoding, as a table in Markdown:
+//
+//   bench_view
+//
+// Frames of 1280 x 720 pixels of figure 3.12 once it has rained 200 000 still droplets: 1000 larger ones are left in
+// view, and it goes on to rain, 60 frames a second; behind it a picture that stays, or a new one for every frame. The
+// step of the simulation is not counted. Processor time, of all threads together, is told beside the clock's: on a
+// machine that has other things to do, it is what to go by.
+#include "droplet/wind/view.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "droplet/picture/evening_road.h"
+
+namespace {
+
+using namespace droplet;
+
+constexpr int kFrames = 61;
+constexpr double kStep = 1.0 / 60.0;
+
+double now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Of all threads.
+double processorTime()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The part of the glass that is seen, as a box.
+std::pair<Vec2, Vec2> seenBox(const DriversView& view, const ViewOptions& options)
+{
+    Vec2 low{1e9, 1e9};
+    Vec2 high{-1e9, -1e9};
+    for (const int x : {0, options.width / 2, options.width - 1}) {
+        for (const int y : {0, options.height - 1}) {
+            if (const auto place = view.onGlass(x, y)) {
+                low = {std::min(low.x, place->x), std::min(low.y, place->y)};
+                high = {std::max(high.x, place->x), std::max(high.y, place->y)};
+            }
+        }
+    }
+    return {low, high};
+}
+
+/// It rains until there are so many still droplets; then all but so many of the larger ones in view are taken away.
+WindshieldState rained(const WindshieldParameters& parameters, std::size_t running, std::size_t still,
+                       const std::pair<Vec2, Vec2>& box)
+{
+    WindshieldState state = startWindshield(parameters);
+    while (state.still.count() < still) {
+        state = step(std::move(state), parameters, kStep);
+    }
+    std::vector<RunningDroplet> in_view;
+    for (const RunningDroplet& droplet : state.droplets) {
+        const Vec2 p = droplet.position;
+        if (p.x > box.first.x && p.x < box.second.x && p.y > box.first.y && p.y < box.second.y) {
+            in_view.push_back(droplet);
+        }
+    }
+    state.droplets.clear();
+    for (std::size_t k = 0; k < running; ++k) {  // evenly among small and large, by their age
+        state.droplets.push_back(in_view[k * in_view.size() / running]);
+    }
+    return state;
+}
+
+double medianOf(std::vector<double> values)
+{
+    std::nth_element(values.begin(), values.begin() + kFrames / 2, values.end());
+    return values[kFrames / 2];
+}
+
+void timeFrames(const WindshieldParameters& parameters, const WindshieldState& begin_state, std::size_t threads,
+                bool moving, int samples)
+{
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    ViewOptions options;
+    options.samples = samples;
+    options.shape.contact_angle = parameters.forces.wetting.contact_angle;
+    DriversView view(parameters.glass, options);
+    const std::vector<Picture> roads{eveningRoad(), eveningRoad({.travelled = 2.0})};
+    WindshieldState state = begin_state;
+    view.lookAt(roads[0]);
+    view.show(state);
+    std::vector<double> look;
+    std::vector<double> show;
+    std::vector<double> frame;
+    std::vector<double> all;
+    std::vector<double> processor;
+    for (std::size_t k = 0; k < kFrames; ++k) {
+        state = step(std::move(state), parameters, kStep);
+        const double processor_begin = processorTime();
+        const double begin = now();
+        if (moving) {
+            view.lookAt(roads[k % 2]);
+        }
+        const double looked = now();
+        view.show(state);
+        const double shown = now();
+        const Picture picture = view.frame();
+        const double end = now();
+        look.push_back(looked - begin);
+        show.push_back(shown - looked);
+        frame.push_back(end - shown);
+        all.push_back(end - begin);
+        processor.push_back(processorTime() - processor_begin);
+    }
+    std::printf("| %zu | %d x %d | %s | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.0f |\n", threads, samples,
+                samples, moving ? "a new one each frame" : "stays", 1e3 * medianOf(look), 1e3 * medianOf(show),
+                1e3 * medianOf(frame), 1e3 * medianOf(processor), 1e3 * medianOf(all), 1.0 / medianOf(all));
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main()
+{
+    try {
+        const WindshieldParameters parameters = windshieldPresetNamed("figure-3.12").parameters;
+        const ViewOptions options;
+        const WindshieldState state =
+            rained(parameters, 1000, 200'000, seenBox(DriversView(parameters.glass, options), options));
+        std::puts(
+            "| threads | rays a pixel | picture behind | its levels | what changed | light | processor | frame | "
+            "frames/s |");
+        std::puts("| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+        for (const std::size_t threads : {1U, 2U}) {
+            for (const bool moving : {false, true}) {
+                timeFrames(parameters, state, threads, moving, 2);
+            }
+        }
+        timeFrames(parameters, state, 2, true, 1);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "bench_view: %s\n", error.what());
+        return 1;
+    }
+}

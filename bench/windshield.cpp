@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long steps of the windshield take, as tables in Markdown:
+//
+//   bench_windshield [--hour=SECONDS]
+//
+// 1. The default glass with 2000 droplets that all move and 200 000 that stand still, dry and in the rain.
+// 2. The same droplets per area on ever larger glasses: what a droplet costs.
+// 3. An hour of rain at 25 mm/h, or so many seconds of it: the balance, and how many droplets there are.
+#include "droplet/wind/windshield.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "memory.h"
+
+namespace {
+
+using namespace droplet;
+
+constexpr double kStep = 1.0 / 60.0;
+constexpr int kSettling = 5;
+constexpr int kSteps = 31;
+
+double now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double uniform(std::mt19937_64& bits)
+{
+    return static_cast<double>(bits() >> 11U) * 0x1p-53;
+}
+
+/// Everything runs: slippery glass, a strong wind.
+WindshieldParameters slippery(const Glass::Cylinder& form)
+{
+    WindshieldParameters p = windshieldPresetNamed("figure-3.12").parameters;
+    p.glass = Glass(form);
+    p.forces.wetting.hysteresis = 0.02;
+    p.rainfall = 0.0;
+    return p;
+}
+
+/// Running droplets of 2 to 12 µL and still ones of 0.02 to 0.4 µL, scattered evenly.
+WindshieldState scattered(const WindshieldParameters& p, std::size_t running, std::size_t still)
+{
+    std::mt19937_64 bits(1);
+    WindshieldState state = startWindshield(p);
+    const Vec2 size{p.glass.width(), p.glass.height()};
+    // On a lattice, each at random within its cell, so that they begin apart.
+    const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(running) * size.x / size.y));
+    const double cell = size.x / static_cast<double>(columns);
+    for (std::size_t k = 0; k < running; ++k) {
+        const Vec2 place{(static_cast<double>(k % columns) + 0.3 + 0.4 * uniform(bits)) * cell,
+                         (static_cast<double>(k / columns) + 0.3 + 0.4 * uniform(bits)) * cell};
+        if (!p.glass.holds(place)) {
+            continue;
+        }
+        state.droplets.push_back({state.next_id++, place, {0.0, 0.05}, (2.0 + 10.0 * uniform(bits)) * 1e-9, 0.0, 0});
+        state.rained.add(state.droplets.back().volume);
+    }
+    StillDroplets& s = state.still;
+    for (std::size_t k = 0; k < still; ++k) {
+        const Vec2 place{size.x * uniform(bits), size.y * uniform(bits)};
+        const std::size_t number =
+            static_cast<std::size_t>(place.y / s.cell) * s.columns + static_cast<std::size_t>(place.x / s.cell);
+        if (s.counts[number] < StillDroplets::kMost) {
+            const double volume = (0.02 + 0.38 * uniform(bits)) * 1e-9;
+            s.slots[number * StillDroplets::kMost + s.counts[number]++] = {place, volume};
+            state.rained.add(volume);
+        }
+    }
+    return state;
+}
+
+struct Timing {
+    double step = 0.0;     // the median [s]
+    double droplet = 0.0;  // the median of a step by its droplets [s]
+    double droplets = 0.0;
+    double moving = 0.0;
+};
+
+Timing time(WindshieldState state, const WindshieldParameters& p)
+{
+    for (int k = 0; k < kSettling; ++k) {  // what stands where droplets were scattered is taken up
+        state = step(std::move(state), p, kStep);
+    }
+    std::vector<double> steps;
+    std::vector<double> each;
+    Timing timing;
+    for (int k = 0; k < kSteps; ++k) {
+        const auto count = static_cast<double>(state.droplets.size());
+        const double begin = now();
+        state = step(std::move(state), p, kStep);
+        steps.push_back(now() - begin);
+        each.push_back(steps.back() / count);
+        timing.droplets += count / kSteps;
+        timing.moving += static_cast<double>(state.tracks.size()) / kSteps;
+    }
+    const auto median = [](std::vector<double>& values) {
+        std::nth_element(values.begin(), values.begin() + kSteps / 2, values.end());
+        return values[kSteps / 2];
+    };
+    timing.step = median(steps);
+    timing.droplet = median(each);
+    return timing;
+}
+
+void timeDefaultGlass()
+{
+    std::puts("| glass of 1.4 m x 0.8 m | threads | running droplets | of them moving | a step |");
+    std::puts("| --- | ---: | ---: | ---: | ---: |");
+    for (const double rainfall : {0.0, 5.0, 25.0}) {
+        for (const std::size_t threads : {1U, 2U}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            WindshieldParameters p = slippery({});
+            p.rainfall = rainfall * kMillimetrePerHour;
+            const Timing t = time(scattered(p, 2000, 200'000), p);
+            std::printf("| rain of %g mm/h | %zu | %.0f | %.0f | %.3f ms |\n", rainfall, threads, t.droplets, t.moving,
+                        1e3 * t.step);
+        }
+    }
+}
+
+void timeGrowth()
+{
+    std::puts("\n| running droplets | glass | a step | a droplet |");
+    std::puts("| ---: | ---: | ---: | ---: |");
+    for (const std::size_t count : {1'000U, 3'000U, 10'000U, 30'000U, 100'000U}) {
+        // 5000 droplets and 50 000 still ones to a square metre.
+        const double side = std::sqrt(static_cast<double>(count) / 5000.0);
+        const WindshieldParameters p = slippery({.width = side, .height = side, .radius = 10.0});
+        const Timing t = time(scattered(p, count, 10 * count), p);
+        std::printf("| %.0f | %.1f m² | %.3f ms | %.0f ns |\n", t.droplets, side * side, 1e3 * t.step, 1e9 * t.droplet);
+    }
+}
+
+void timeHour(double seconds)
+{
+    WindshieldParameters p = windshieldPresetNamed("figure-3.12").parameters;
+    p.rainfall = 25.0 * kMillimetrePerHour;
+    constexpr double kLongStep = 1.0 / 30.0;
+    std::puts(
+        "\n| simulated | running droplets | still ones | water, of all rained: left | balance | memory | wall time |");
+    std::puts("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    const bench::PeakMemory memory;
+    WindshieldState state = startWindshield(p);
+    const double begin = now();
+    const auto steps = static_cast<long>(std::lround(seconds / kLongStep));
+    for (long k = 1; k <= steps; ++k) {
+        state = step(std::move(state), p, kLongStep);
+        if (k % std::max(1L, steps / 6) == 0) {
+            const WaterBalance balance = balanceOf(state);
+            std::printf("| %.0f s | %zu | %zu | %.1f %% | %.0e | %.0f MB | %.0f s |\n", state.time,
+                        state.droplets.size(), state.still.count(), 100.0 * balance.left / balance.rained,
+                        std::abs(balance.residual()), static_cast<double>(memory.risen().value_or(0)) / 1e6,
+                        now() - begin);
+            std::fflush(stdout);
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    double seconds = 3600.0;
+    for (int k = 1; k < argc; ++k) {
+        if (std::strncmp(argv[k], "--hour=", 7) != 0 || !((seconds = std::atof(argv[k] + 7)) > 0.0)) {
+            std::fputs("usage: bench_windshield [--hour=SECONDS]\n", stderr);
+            return 2;
+        }
+    }
+    try {
+        timeDefaultGlass();
+        timeGrowth();
+        timeHour(seconds);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "bench_windshield: %s\n", error.what());
+        return 1;
+    }
+}

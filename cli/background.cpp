@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "background.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/picture/evening_road.h"
+#include "files.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+using droplet::Picture;
+
+std::string sizeOf(int width, int height)
+{
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+Background::Background(const BackgroundOptions& options) : options_(options)
+{
+    constexpr int kWidth = 1280;
+    constexpr int kHeight = 720;
+    width_ = options_.width.value_or(kWidth);
+    height_ = options_.height.value_or(kHeight);
+    if (!options_.path) {
+        return;
+    }
+    const std::string& path = *options_.path;
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        throw Error(ErrorCode::InvalidInput, path + ": there is no such file");
+    }
+    Picture first;
+    if (isPicture(path)) {
+        first = droplet::readPicture(path);
+    } else {
+        video_ = std::make_unique<Video>(path);
+        first = videoFrame();
+    }
+    constexpr int kLeast = 16;
+    constexpr int kMost = 8192;
+    if (!options_.width) {
+        width_ = first.width;
+        height_ = first.height;
+        if (width_ < kLeast || height_ < kLeast || width_ > kMost || height_ > kMost) {
+            throw Error(ErrorCode::InvalidInput,
+                        path + ": has " + sizeOf(width_, height_) +
+                            " pixels; a frame has 16 to 8192 each way: --size and --fit make one");
+        }
+    }
+    if (!options_.fit) {
+        requireSize(first.width, first.height);
+    }
+    if (video_) {
+        ahead_ = std::move(first);
+    } else {
+        picture_ = fitted(std::move(first));
+    }
+}
+
+void Background::requireSize(int width, int height) const
+{
+    if (width != width_ || height != height_) {
+        throw Error(ErrorCode::InvalidInput, *options_.path + ": has " + sizeOf(width, height) + " pixels, the frame " +
+                                                 sizeOf(width_, height_) +
+                                                 "; they must be the same, or --fit scales and crops it");
+    }
+}
+
+Picture Background::fitted(Picture picture) const
+{
+    return options_.fit ? droplet::covering(picture, width_, height_) : std::move(picture);
+}
+
+Picture Background::videoFrame()
+{
+    auto bytes = video_->next();
+    if (!bytes) {
+        const bool is_empty = video_width_ == 0;
+        if (!is_empty) {
+            video_ = std::make_unique<Video>(*options_.path);
+            bytes = video_->next();
+        }
+        if (!bytes) {
+            throw Error(ErrorCode::InvalidInput, *options_.path + ": there is no frame in this video");
+        }
+    }
+    Picture picture = droplet::decodePicture(*bytes);
+    if (video_width_ == 0) {
+        video_width_ = picture.width;
+        video_height_ = picture.height;
+    } else if (picture.width != video_width_ || picture.height != video_height_) {
+        throw Error(ErrorCode::InvalidInput, *options_.path + ": has frames of " + sizeOf(video_width_, video_height_) +
+                                                 " and of " + sizeOf(picture.width, picture.height) +
+                                                 " pixels; all must have one size");
+    }
+    return picture;
+}
+
+std::optional<Picture> Background::next(double travelled)
+{
+    if (video_) {
+        return fitted(ahead_ ? *std::exchange(ahead_, std::nullopt) : videoFrame());
+    }
+    if (options_.path) {
+        return std::exchange(picture_, std::nullopt);
+    }
+    droplet::RoadOptions road;
+    road.width = width_;
+    road.height = height_;
+    road.field_of_view = options_.field_of_view;
+    road.travelled = travelled;
+    return droplet::eveningRoad(road);
+}
+
+void Background::skip(std::size_t frames)
+{
+    for (std::size_t k = 0; video_ && k < frames; ++k) {
+        if (ahead_) {
+            ahead_.reset();
+        } else {
+            videoFrame();
+        }
+    }
+}
+
+}  // namespace cli

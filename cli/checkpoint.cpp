@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string_view>
+#include <type_traits>
+
+#include "droplet/error.h"
+#include "droplet/io/output.h"
+
+namespace cli {
+namespace {
+
+constexpr std::string_view kBeginning = "droplet-shape windshield checkpoint 1\n";
+static_assert(std::is_trivially_copyable_v<droplet::BalanceRow>, "rows are kept as they are, by the same program");
+
+void put(std::string& bytes, std::uint64_t number)
+{
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+void put(std::string& bytes, std::string_view text)
+{
+    put(bytes, text.size());
+    bytes.append(text);
+}
+
+/// Takes bytes from the front of what is left.
+class Reader {
+public:
+    Reader(std::string_view bytes, const std::string& path) : left_(bytes), path_(path) {}
+
+    std::string_view take(std::size_t count)
+    {
+        if (count > left_.size()) {
+            throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                                 path_ + ": is no whole checkpoint; remove it to begin anew");
+        }
+        const std::string_view part = left_.substr(0, count);
+        left_.remove_prefix(count);
+        return part;
+    }
+
+    std::uint64_t number()
+    {
+        std::uint64_t value = 0;
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+
+    std::string_view text() { return take(number()); }
+
+private:
+    std::string_view left_;
+    const std::string& path_;
+};
+
+}  // namespace
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+    std::string bytes(kBeginning);
+    put(bytes, checkpoint.fingerprint);
+    put(bytes, checkpoint.frames);
+    put(bytes, checkpoint.balance.size());
+    bytes.append(reinterpret_cast<const char*>(checkpoint.balance.data()),
+                 checkpoint.balance.size() * sizeof(droplet::BalanceRow));
+    put(bytes, bytesOf(checkpoint.state));
+    droplet::writeWhole(
+        path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+std::optional<Checkpoint> readCheckpoint(const std::string& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        return std::nullopt;
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    Reader reader(bytes, path);
+    if (reader.take(std::min(bytes.size(), kBeginning.size())) != kBeginning) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput, path + ": is no checkpoint of this program's");
+    }
+    Checkpoint checkpoint;
+    checkpoint.fingerprint = reader.text();
+    checkpoint.frames = reader.number();
+    const std::uint64_t rows = reader.number();
+    if (rows > bytes.size() / sizeof(droplet::BalanceRow)) {
+        reader.take(bytes.size() + 1);
+    }
+    const std::string_view balance = reader.take(rows * sizeof(droplet::BalanceRow));
+    checkpoint.balance.resize(rows);
+    if (rows > 0) {
+        std::memcpy(checkpoint.balance.data(), balance.data(), balance.size());
+    }
+    checkpoint.state = droplet::stateFromBytes(reader.text(), path);
+    return checkpoint;
+}
+
+}  // namespace cli

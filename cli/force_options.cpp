@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "force_options.h"
+
+#include <cctype>
+
+#include "droplet/liquid.h"
+#include "option_values.h"
+#include "value_list.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+
+constexpr Range kContactAngle{Dimension::Angle, droplet::kDegree, 179.0 * droplet::kDegree, "from 1deg to 179deg"};
+constexpr Range kViscosity{Dimension::Viscosity, 0.0, 1e3,
+                           "from 0Pa.s to 1000Pa.s, or artistic, or wedge for water by wedge theory"};
+constexpr Range kBoundaryLayer{Dimension::Length, 0.0, 1.0, "from 0mm to 1m"};
+constexpr Range kAirDensity{Dimension::Density, 0.0, 1e3, "from 0kg/m3 to 1000kg/m3"};
+constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
+constexpr Range kDensity{Dimension::Density, 1e-3, 1e6, "from 0.001kg/m3 to 1e6kg/m3"};
+constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e4, "from 0m/s2 to 1e4m/s2"};
+constexpr NumberRange kDragCoefficient{0.0, 100.0, "a number from 0 to 100"};
+constexpr NumberRange kExponent{0.0, 2.0, "a number from 0 to 2"};
+constexpr NumberRange kFraction{0.0, 1.0, "a number from 0 to 1"};
+
+void readLiquid(const CommandLine& line, droplet::ForceModel& model)
+{
+    const auto liquid = line.value("--liquid");
+    if (liquid) {
+        model.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
+    }
+    const auto tension = line.value("--surface-tension");
+    if (tension) {
+        model.liquid.surface_tension = quantity(*tension, kTension);
+    }
+    const auto density = line.value("--density");
+    if (density) {
+        model.liquid.density = quantity(*density, kDensity);
+    }
+    if (!liquid && (tension || density)) {
+        model.liquid.name = "custom";
+    }
+    if (const auto gravity = line.value("--gravity")) {
+        model.gravity = quantity(*gravity, kGravity);
+    }
+}
+
+double viscosityFactor(const Given& given, double contact_angle)
+{
+    if (given.text == "artistic") {
+        return droplet::kArtisticViscosityFactor;
+    }
+    if (given.text == "wedge") {
+        // The radius counts by its logarithm alone: any droplet's that runs will do.
+        constexpr double kVolume = 30e-9;
+        return droplet::wedgeViscosityFactor(droplet::kWaterViscosity, contact_angle,
+                                             droplet::capOf(kVolume, contact_angle).radius);
+    }
+    if (!given.text.empty() && std::isalpha(static_cast<unsigned char>(given.text.front())) != 0) {
+        refuse(given, kViscosity.words);
+    }
+    return quantity(given, kViscosity);
+}
+
+}  // namespace
+
+void declareForces(CommandLine& line)
+{
+    constexpr const char* kCoating = "Coating";
+    line.add(kCoating, "--contact-angle", "ANGLE", "of droplets at rest [by preset]");
+    line.add(kCoating, "--viscosity-factor", "V",
+             "of viscous drag, per radius and speed: 0.5Pa.s; or\n"
+             "artistic, which is that; or wedge, of water by wedge\n"
+             "theory [by preset]");
+    line.add(kCoating, "--kinetic-fraction", "F", "of friction that is left while moving [1]");
+    constexpr const char* kAir = "Air";
+    line.add(kAir, "--drag-coefficient", "C", "of droplets in the wind [1]");
+    line.add(kAir, "--boundary-layer", "L", "thickness of the layer in which wind is slower\n[by preset]");
+    line.add(kAir, "--profile-exponent", "N", "wind there goes with height to the N: 1/7 is 0.143 [0.5]");
+    line.add(kAir, "--air-density", "D", "[1.204kg/m3]");
+    constexpr const char* kLiquid = "Liquid";
+    line.add(kLiquid, "--liquid", "NAME", "water, ethanol, glycerol, mercury, honey, all at 20 C\n[water]");
+    line.add(kLiquid, "--surface-tension", "S", "instead of the liquid's own");
+    line.add(kLiquid, "--density", "D", "instead of the liquid's own");
+    line.add(kLiquid, "--gravity", "G", "downwards [9.81m/s2]");
+}
+
+droplet::ForceModel readForces(const CommandLine& line, droplet::ForceModel model)
+{
+    readLiquid(line, model);
+    if (const auto angle = line.value("--contact-angle")) {
+        model.wetting.contact_angle = quantity(*angle, kContactAngle);
+    }
+    if (const auto factor = line.value("--viscosity-factor")) {
+        model.wetting.viscosity_factor = viscosityFactor(*factor, model.wetting.contact_angle);
+    }
+    if (const auto fraction = line.value("--kinetic-fraction")) {
+        model.wetting.kinetic_fraction = number(*fraction, kFraction);
+    }
+    if (const auto drag = line.value("--drag-coefficient")) {
+        model.air.drag_coefficient = number(*drag, kDragCoefficient);
+    }
+    if (const auto layer = line.value("--boundary-layer")) {
+        model.air.boundary_layer = quantity(*layer, kBoundaryLayer);
+    }
+    if (const auto exponent = line.value("--profile-exponent")) {
+        model.air.profile_exponent = number(*exponent, kExponent);
+    }
+    if (const auto density = line.value("--air-density")) {
+        model.air.density = quantity(*density, kAirDensity);
+    }
+    return model;
+}
+
+}  // namespace cli

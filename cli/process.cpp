@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
+
+namespace cli {
+
+Started start(const std::vector<std::string>& command, Piped piped, std::optional<int> inherited)
+{
+    Started started;
+    Process& process = started.process;
+    std::array<int, 2> ends{};
+    process.words = std::tmpfile();
+    if (process.words == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        throw std::runtime_error(std::string("no pipe to ") + command[0] + ": " + std::strerror(errno));
+    }
+    const bool reads = piped == Piped::Input;
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    if (reads) {
+        posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    } else {
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    }
+    posix_spawn_file_actions_adddup2(&actions, ::fileno(process.words), STDERR_FILENO);
+    if (inherited) {
+        posix_spawn_file_actions_adddup2(&actions, *inherited, 3);
+    }
+    std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
+    for (const std::string& argument : command) {
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+    }
+    arguments.push_back(nullptr);
+    started.failure = ::posix_spawnp(&process.id, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(reads ? ends[0] : ends[1]);
+    std::FILE*& ours = reads ? process.input : process.output;
+    ours = ::fdopen(reads ? ends[1] : ends[0], reads ? "wb" : "rb");
+    if (started.failure != 0) {
+        std::fclose(ours);
+        std::fclose(process.words);
+        process = {};
+    }
+    return started;
+}
+
+int waitFor(pid_t id)
+{
+    int status = 0;
+    while (::waitpid(id, &status, 0) == -1 && errno == EINTR) {
+    }
+    return status;
+}
+
+std::string firstLine(std::FILE* words)
+{
+    std::array<char, 512> line{};
+    std::rewind(words);
+    if (std::fgets(line.data(), static_cast<int>(line.size()), words) == nullptr) {
+        return {};
+    }
+    std::string text = line.data();
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+std::string plainName(const std::string& path)
+{
+    return "file:" + path;
+}
+
+}  // namespace cli

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "video_writer.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <ostream>
+#include <sstream>
+
+#include "droplet/error.h"
+#include "option_values.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+struct Container {
+    const char* extension;
+    const char* format;  ///< ffmpeg's name
+    const char* codec;
+};
+
+constexpr std::array<Container, 4> kContainers{{{".mp4", "mp4", "libx264"},
+                                                {".mkv", "matroska", "libx264"},
+                                                {".mov", "mov", "libx264"},
+                                                {".webm", "webm", "libvpx-vp9"}}};
+
+const Container* containerOf(const std::string& path)
+{
+    const std::string extension = std::filesystem::path(path).extension().string();
+    for (const Container& container : kContainers) {
+        if (extension == container.extension) {
+            return &container;
+        }
+    }
+    return nullptr;
+}
+
+Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const std::string& path,
+                    std::optional<int> file)
+{
+    const Started started = start(command, piped, file);
+    if (started.failure != 0) {
+        throw Error(ErrorCode::OutputFailed,
+                    path + ": videos are written through the program ffmpeg, which cannot be run: " +
+                        std::strerror(started.failure) + "; ask for frames instead, as in out/%05d.png");
+    }
+    return started.process;
+}
+
+}  // namespace
+
+bool isVideo(const std::string& path)
+{
+    return containerOf(path) != nullptr;
+}
+
+std::string codecFor(const std::string& path)
+{
+    return containerOf(path)->codec;
+}
+
+void checkCodec(const std::string& codec, const std::string& path)
+{
+    const Process process =
+        startFfmpeg({"ffmpeg", "-hide_banner", "-v", "error", "-encoders"}, Piped::Output, path, {});
+    std::string text;
+    std::array<char, 4096> part{};
+    for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), process.output)) > 0;) {
+        text.append(part.data(), count);
+    }
+    std::fclose(process.output);
+    std::fclose(process.words);
+    waitFor(process.id);
+    // Lines such as ` V....D libx264   libx264 H.264 / AVC`, after a legend that ends with dashes.
+    std::istringstream lines(text.substr(std::min(text.find("------"), text.size())));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string flags;
+        std::string name;
+        if (words >> flags >> name && flags.front() == 'V' && name == codec) {
+            return;
+        }
+    }
+    refuse({codec, "--codec"}, "a video encoder of ffmpeg's: see ffmpeg -encoders");
+}
+
+VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path), video_(std::tmpfile())
+{
+    if (video_ == nullptr) {
+        throw Error(ErrorCode::OutputFailed, path_ + ": no room for a temporary file: " + std::strerror(errno));
+    }
+    std::ostringstream rate;
+    rate.precision(12);
+    rate << options.frames_per_second;
+    try {
+        process_ = startFfmpeg({"ffmpeg",
+                                "-nostdin",
+                                "-v",
+                                "error",
+                                "-f",
+                                "rawvideo",
+                                "-pix_fmt",
+                                "rgb24",
+                                "-s",
+                                std::to_string(options.width) + "x" + std::to_string(options.height),
+                                "-r",
+                                rate.str(),
+                                "-i",
+                                "-",
+                                "-an",
+                                "-c:v",
+                                options.codec,
+                                "-pix_fmt",
+                                "yuv420p",
+                                "-threads",
+                                "2",
+                                "-fflags",
+                                "+bitexact",
+                                "-flags:v",
+                                "+bitexact",
+                                "-map_metadata",
+                                "-1",
+                                "-f",
+                                containerOf(path_)->format,
+                                "-y",
+                                "/dev/fd/3"},
+                               Piped::Input, path_, ::fileno(video_));
+    } catch (...) {
+        std::fclose(video_);
+        throw;
+    }
+}
+
+VideoWriter::~VideoWriter()
+{
+    if (process_.input != nullptr) {
+        std::fclose(process_.input);
+    }
+    if (process_.id > 0) {
+        ::kill(process_.id, SIGKILL);
+        waitFor(process_.id);
+    }
+    std::fclose(process_.words);
+    std::fclose(video_);
+}
+
+int VideoWriter::end()
+{
+    std::fclose(process_.input);
+    process_.input = nullptr;
+    const int status = waitFor(process_.id);
+    process_.id = -1;
+    return status;
+}
+
+void VideoWriter::complain()
+{
+    const std::string line = firstLine(process_.words);
+    throw Error(ErrorCode::OutputFailed, path_ + ": ffmpeg cannot write it" + (line.empty() ? "" : ": " + line));
+}
+
+void VideoWriter::add(const droplet::Picture& frame)
+{
+    if (std::fwrite(frame.rgb.data(), 1, frame.rgb.size(), process_.input) != frame.rgb.size()) {
+        end();
+        complain();
+    }
+}
+
+void VideoWriter::finish(std::ostream& out)
+{
+    if (end() != 0) {
+        complain();
+    }
+    std::rewind(video_);
+    std::array<char, 65536> part{};
+    for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), video_)) > 0;) {
+        out.write(part.data(), static_cast<std::streamsize>(count));
+    }
+    out.flush();
+}
+
+}  // namespace cli

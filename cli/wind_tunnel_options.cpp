@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wind_tunnel_options.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "command_line.h"
+#include "droplet/version.h"
+#include "droplet/wind/chart.h"
+#include "force_options.h"
+#include "option_values.h"
+#include "value_list.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+
+constexpr Range kVolume{Dimension::Volume, 1e-15, 1e-3, "from 0.001nL to 1L"};
+constexpr Range kWind{Dimension::Speed, 0.0, 300.0, "from 0m/s to 300m/s"};
+constexpr Range kSlope{Dimension::Angle, 0.0, 90.0 * droplet::kDegree, "from 0deg to 90deg"};
+constexpr Range kTime{Dimension::Duration, 1e-6, 86400.0, "from 0.001ms to 24h"};
+constexpr Range kSpeed{Dimension::Speed, -100.0, 100.0, "from -100m/s to 100m/s"};
+constexpr NumberRange kHysteresis{0.0, 2.0, "numbers from 0 to 2"};
+
+const CommandText& commandText()
+{
+    static const CommandText text{
+        "droplet-shape wind-tunnel", "which way droplets run on a slope in the wind", "[OPTIONS] [OUTPUT...]",
+        "Sweeps every volume with every wind, slope and hysteresis. Lists are 10,20,30uL, or\n"
+        "ranges with a step: 10..100uL:10, 0..16m/s:0.25; a unit may be written once for all.\n"
+        "\n"
+        "Quantities carry a unit:\n"
+        "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
+        "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
+        "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
+        "  acceleration m/s2 mm/s2 g\n"
+        "\n"
+        "Examples:\n"
+        "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
+        "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45,60deg --map map.png\n"
+        "  droplet-shape wind-tunnel --volume 30uL --wind 9m/s --gust 2m/s --trace run.csv\n"
+        "\n"
+        "Exit codes:\n"
+        "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    line.addArguments("OUTPUT",
+                      "a table: .csv, .json; a chart: .svg, .png; - is a\n"
+                      "table on standard output");
+    constexpr const char* kSweep = "Sweep";
+    line.add(kSweep, "--preset", "NAME",
+             "where values are from that no option gives: hashimoto,\n"
+             "a measured plane; thesis, fitted to it; or both, as in\n"
+             "thesis,hashimoto [hashimoto]");
+    line.add(kSweep, "--volume", "LIST", "of droplets [by preset]");
+    line.add(kSweep, "--wind", "LIST", "up the slope [0..16m/s:0.25]");
+    line.add(kSweep, "--slope", "LIST", "of the ground from the horizontal [35deg]");
+    line.add(kSweep, "--hysteresis", "LIST",
+             "cosine of the receding less that of the advancing\n"
+             "contact angle [by preset]");
+    line.add(kSweep, "--falling-angle", "ANGLE", "or the slope at which a droplet begins to run");
+    line.add(kSweep, "--falling-volume", "V", "which droplet that is, or every [30uL]");
+    declareForces(line);
+    constexpr const char* kOut = "Charts and series";
+    line.add(kOut, "--chart", "FILE", "draw acceleration over wind: .svg, .png");
+    line.add(kOut, "--map", "FILE", "draw what droplets do over wind and volume: .svg, .png");
+    line.add(kOut, "--measured", "BAND",
+             "winds between which droplets were seen to stay, to\n"
+             "stand beside [7..11m/s for presets as they are]");
+    line.add(kOut, "--trace", "FILE", "follow one droplet over time: .csv, .json");
+    line.add(kOut, "--time", "TIME", "how long [1s]");
+    line.add(kOut, "--trace-step", "TIME", "between its lines [10ms]");
+    line.add(kOut, "--initial-speed", "SPEED", "up the slope; negative is down [0m/s]");
+    line.add(kOut, "--gust", "SPEED", "by which the wind rises and falls [0m/s]");
+    line.add(kOut, "--gust-period", "TIME", "from one gust to the next [1s]");
+    constexpr const char* kRun = "Run";
+    line.add(kRun, "--json", "FILE", "write all of it as JSON; - is standard output");
+    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
+    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
+    line.add(kRun, "--config", "FILE",
+             "take options from lines such as slope = \"45deg\";\n"
+             "the command line goes before them");
+    line.addFlag(kRun, "-h,--help", "print this help");
+    line.addFlag(kRun, "--version", "print the version");
+    line.exclude({"--hysteresis", "--falling-angle"});
+}
+
+std::string extensionOf(const std::string& path)
+{
+    return std::filesystem::path(path).extension().string();
+}
+
+void readOutputs(const CommandLine& line, WindTunnelOptions& options)
+{
+    const auto add = [&](const Given& given, std::initializer_list<std::pair<const char*, TunnelFile>> kinds) {
+        std::string known;
+        for (const auto& [extension, kind] : kinds) {
+            if (extensionOf(given.text) == extension) {
+                options.outputs.push_back({{given.subject, given.text}, kind});
+                return;
+            }
+            known += std::string(known.empty() ? "" : ", ") + extension;
+        }
+        refuse(given, "a name that ends in one of " + known);
+    };
+    for (const Given& given : line.values("OUTPUT")) {
+        if (isStream(given.text)) {
+            options.outputs.push_back({{given.subject, given.text}, TunnelFile::Csv});
+            continue;
+        }
+        add(given, {{".csv", TunnelFile::Csv},
+                    {".json", TunnelFile::Json},
+                    {".svg", TunnelFile::ChartSvg},
+                    {".png", TunnelFile::ChartPng}});
+    }
+    if (const auto json = line.value("--json")) {
+        options.outputs.push_back({{"--json", json->text}, TunnelFile::Json});
+    }
+    if (const auto chart = line.value("--chart")) {
+        add(*chart, {{".svg", TunnelFile::ChartSvg}, {".png", TunnelFile::ChartPng}});
+    }
+    if (const auto map = line.value("--map")) {
+        add(*map, {{".svg", TunnelFile::MapSvg}, {".png", TunnelFile::MapPng}});
+    }
+    if (const auto trace = line.value("--trace")) {
+        options.traces = true;
+        if (isStream(trace->text)) {
+            options.outputs.push_back({{"--trace", trace->text}, TunnelFile::TraceCsv});
+        } else {
+            add(*trace, {{".csv", TunnelFile::TraceCsv}, {".json", TunnelFile::TraceJson}});
+        }
+    }
+}
+
+void readTrace(const CommandLine& line, WindTunnelOptions& options)
+{
+    for (const char* option : {"--time", "--trace-step", "--initial-speed", "--gust", "--gust-period"}) {
+        if (line.value(option) && !options.traces) {
+            refuse(std::string(option) + " needs --trace");
+        }
+    }
+    if (const auto time = line.value("--time")) {
+        options.trace.duration = quantity(*time, kTime);
+    }
+    if (const auto step = line.value("--trace-step")) {
+        options.trace.interval = quantity(*step, kTime);
+    }
+    if (const auto speed = line.value("--initial-speed")) {
+        options.trace.velocity = quantity(*speed, kSpeed);
+    }
+    if (const auto gust = line.value("--gust")) {
+        options.gust.amplitude = quantity(*gust, kWind);
+    }
+    if (const auto period = line.value("--gust-period")) {
+        options.gust.period = quantity(*period, kTime);
+    }
+    if (options.traces &&
+        options.trace.duration / options.trace.interval > static_cast<double>(droplet::kMostMotionPoints)) {
+        refuse("--trace-step: at most " + std::to_string(droplet::kMostMotionPoints) + " of them must make --time");
+    }
+}
+
+/// The options that make another plane of the measured one: nothing measured stands beside it.
+bool isAsMeasured(const CommandLine& line)
+{
+    for (const char* option :
+         {"--slope", "--hysteresis", "--falling-angle", "--contact-angle", "--drag-coefficient", "--boundary-layer",
+          "--profile-exponent", "--air-density", "--liquid", "--surface-tension", "--density", "--gravity"}) {
+        if (line.value(option)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::optional<droplet::WindBand> measuredBand(const CommandLine& line)
+{
+    const auto given = line.value("--measured");
+    if (!given) {
+        return isAsMeasured(line) ? std::optional(droplet::kMeasuredStillBand) : std::nullopt;
+    }
+    const std::string words = "two winds, such as 7..11m/s, the second the faster and the first over 0m/s";
+    const auto dots = given->text.find("..");
+    if (dots == std::string::npos || given->text.find(',') != std::string::npos) {
+        refuse(*given, words);
+    }
+    const std::string list = given->text.substr(0, dots) + "," + given->text.substr(dots + 2);
+    const std::vector<double> winds = quantities({list, given->subject}, kWind);
+    if (winds.size() != 2 || !(winds[0] > 0.0) || !(winds[1] > winds[0])) {
+        refuse(*given, words);
+    }
+    return droplet::WindBand{winds[0], winds[1]};
+}
+
+void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
+{
+    const auto volume = line.value("--falling-volume");
+    const auto angle = line.value("--falling-angle");
+    if (volume && !angle) {
+        refuse("--falling-volume needs --falling-angle");
+    }
+    if (!angle) {
+        return;
+    }
+    droplet::ForceModel& model = run.swept.model;
+    const double slope = quantity(*angle, kSlope);
+    if (volume && volume->text == "every") {
+        model.wetting.falling_angle = slope;
+        run.falling_angle.reset();
+        return;
+    }
+    run.falling_angle = slope;
+    run.falling_volume = 30e-9;
+    if (volume) {
+        run.falling_volume =
+            quantity(*volume, {kVolume.dimension, kVolume.min, kVolume.max, "from 0.001nL to 1L, or every"});
+    }
+    model.wetting.hysteresis = droplet::hysteresisOf(model, slope, *run.falling_volume);
+    if (model.wetting.hysteresis > 2.0) {
+        refuse(*angle, "less steep, or --falling-volume smaller: no contact angles hold so large a droplet so steep");
+    }
+}
+
+droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& preset)
+{
+    droplet::TunnelRun run;
+    run.preset = preset.name;
+    droplet::TunnelSweep& swept = run.swept;
+    swept.model = readForces(line, preset.model);
+    swept.volumes = preset.volumes;
+    if (const auto volumes = line.value("--volume")) {
+        swept.volumes = quantities(*volumes, kVolume);
+    }
+    swept.winds = quantities(line.value("--wind").value_or(Given{"0..16m/s:0.25", "--wind"}), kWind);
+    swept.slopes = {preset.slope};
+    if (const auto slopes = line.value("--slope")) {
+        swept.slopes = quantities(*slopes, kSlope);
+    }
+    if (const auto hystereses = line.value("--hysteresis")) {
+        swept.hystereses = numbers(*hystereses, kHysteresis);
+    }
+    if (preset.falling_angle && isAsMeasured(line)) {
+        run.falling_angle = preset.falling_angle;
+        run.falling_volume = preset.reference_volume;
+    }
+    readFallingAngle(line, run);
+    run.measured = measuredBand(line);
+    return run;
+}
+
+std::vector<droplet::TunnelRun> readRuns(const CommandLine& line)
+{
+    const Given given = line.value("--preset").value_or(Given{"hashimoto", "--preset"});
+    std::vector<droplet::TunnelRun> runs;
+    std::string rest = given.text;
+    for (bool more = true; more;) {
+        const auto comma = rest.find(',');
+        const std::string name = rest.substr(0, comma);
+        const auto& preset =
+            forOption(given.subject, [&]() -> const droplet::ForcePreset& { return droplet::forcePresetNamed(name); });
+        if (std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.preset == name; })) {
+            refuse(given, "presets of different names");
+        }
+        runs.push_back(runOf(line, preset));
+        more = comma != std::string::npos;
+        rest = more ? rest.substr(comma + 1) : "";
+    }
+    return runs;
+}
+
+/// What the library would complain of in its own words is refused in those of the options.
+void check(const WindTunnelOptions& options)
+{
+    for (const droplet::TunnelRun& run : options.runs) {
+        const droplet::TunnelSweep& swept = run.swept;
+        const std::size_t hystereses = std::max<std::size_t>(1, swept.hystereses.size());
+        double rows = static_cast<double>(hystereses);
+        const std::pair<const char*, std::size_t> lists[] = {{"--volume", swept.volumes.size()},
+                                                             {"--wind", swept.winds.size()},
+                                                             {"--slope", swept.slopes.size()},
+                                                             {"--hysteresis", hystereses}};
+        for (const std::size_t count : {swept.volumes.size(), swept.winds.size(), swept.slopes.size()}) {
+            rows *= static_cast<double>(count);
+        }
+        if (rows > static_cast<double>(droplet::kMostTunnelRows)) {
+            refuse("--volume, --wind, --slope and --hysteresis make " + std::to_string(static_cast<long long>(rows)) +
+                   " combinations, more than " + std::to_string(droplet::kMostTunnelRows));
+        }
+        for (const auto& [option, count] : lists) {
+            if (options.traces && count > 1) {
+                refuse("--trace follows one droplet: " + std::string(option) + " must be one value, and is " +
+                       std::to_string(count));
+            }
+        }
+        const bool draws = std::any_of(options.outputs.begin(), options.outputs.end(), [](const TunnelOutput& output) {
+            return output.kind == TunnelFile::ChartSvg || output.kind == TunnelFile::ChartPng ||
+                   output.kind == TunnelFile::MapSvg || output.kind == TunnelFile::MapPng;
+        });
+        if (draws && swept.slopes.size() * hystereses > droplet::kMostPanels) {
+            refuse("charts have a panel for each --slope with each --hysteresis, at most " +
+                   std::to_string(droplet::kMostPanels) + ", not " + std::to_string(swept.slopes.size() * hystereses));
+        }
+    }
+    if (options.traces && options.runs.size() > 1) {
+        refuse("--trace follows one droplet: --preset must be one value");
+    }
+}
+
+}  // namespace
+
+std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        return line.help();
+    }
+    if (line.flag("--version")) {
+        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    }
+    WindTunnelOptions options;
+    readOutputs(line, options);
+    readTrace(line, options);
+    options.runs = readRuns(line);
+    options.gust.mean = options.runs.front().swept.winds.front();
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    constexpr std::size_t kMostThreads = 1024;  // as of all commands
+    if (const auto threads = line.value("--threads")) {
+        options.threads = count(*threads, kMostThreads, "1024");
+    }
+    options.files.no_clobber = line.flag("--no-clobber");
+    options.quiet = line.flag("--quiet");
+    check(options);
+    return options;
+}
+
+}  // namespace cli

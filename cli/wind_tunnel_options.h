@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "droplet/io/output.h"
+#include "droplet/wind/trace.h"
+#include "droplet/wind/tunnel_report.h"
+#include "files.h"
+
+namespace cli {
+
+/// What an output of the wind tunnel holds.
+enum class TunnelFile { Csv, Json, ChartSvg, ChartPng, MapSvg, MapPng, TraceCsv, TraceJson };
+
+struct TunnelOutput {
+    NamedFile file;
+    TunnelFile kind = TunnelFile::Csv;
+};
+
+struct WindTunnelOptions {
+    std::vector<droplet::TunnelRun> runs;  ///< with nothing found yet
+    std::vector<TunnelOutput> outputs;
+    bool traces = false;
+    droplet::Gust gust;
+    droplet::MotionOptions trace;
+    std::optional<std::string> config;
+    std::optional<std::size_t> threads;
+    droplet::OutputOptions files;
+    bool quiet = false;
+};
+
+/// What the command line asks for, or the text that --help or --version prints.
+/// @throws droplet::Error InvalidArgument
+std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const char* const* argv);
+
+}  // namespace cli

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include "command_line.h"
+#include "droplet/units.h"
+#include "droplet/version.h"
+#include "files.h"
+#include "force_options.h"
+#include "option_values.h"
+#include "value_list.h"
+#include "video_writer.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+using droplet::kDegree;
+
+constexpr Range kRain{Dimension::Rainfall, 0.0, 1000.0 * droplet::kMillimetrePerHour, "from 0mm/h to 1000mm/h"};
+constexpr Range kSpeed{Dimension::Speed, 0.0, 150.0, "from 0m/s to 150m/s"};
+constexpr Range kStill{Dimension::Length, 1.1e-4, 2e-3, "from 0.11mm to 2mm"};
+constexpr Range kSide{Dimension::Length, 0.05, 5.0, "from 50mm to 5m"};
+constexpr Range kRadius{Dimension::Length, 0.1, 1e6, "from 0.1m to 1e6m"};
+constexpr Range kSlope{Dimension::Angle, 0.0, 90.0 * kDegree, "from 0deg to 90deg"};
+constexpr Range kNoise{Dimension::Acceleration, 0.0, 1e3, "from 0m/s2 to 1000m/s2"};
+constexpr Range kFilm{Dimension::Length, 0.0, 1e-3, "from 0mm to 1mm"};
+constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
+constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
+constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
+constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
+constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
+
+const CommandText& commandText()
+{
+    static const CommandText text{"droplet-shape windshield",
+                                  "rain on a moving car's windshield, as its driver sees it", "[OPTIONS] OUTPUT",
+                                  "Quantities carry a unit:\n"
+                                  "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
+                                  "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
+                                  "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape windshield rain.mp4 --rain 25mm/h --speed 50km/h\n"
+                                  "  droplet-shape windshield 'out/%05d.png' --background road.mp4 --layer\n"
+                                  "  droplet-shape windshield still.png --preset figure-3.12 --time 30s\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable;\n"
+                                  "  4 output cannot be written"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    line.addArgument("OUTPUT",
+                     "frames, as out/%05d.png; a video, .mp4 .mkv .mov or\n"
+                     ".webm, which takes ffmpeg; or .png, the last frame");
+    constexpr const char* kCar = "Car and rain";
+    line.add(kCar, "--preset", "NAME",
+             "where values are from that no option gives, of the\n"
+             "thesis: figure-3.10, figure-3.11 or figure-3.12\n"
+             "[figure-3.12]");
+    line.add(kCar, "--rain", "RAINFALL", "Marshall and Palmer's raindrops [5mm/h]");
+    line.add(kCar, "--speed", "SPEED", "of the car, through still air [by preset]");
+    line.add(kCar, "--drive-cycle", "FILE", "speed over time: CSV with time_s,speed_m_per_s or\nspeed_km_per_h");
+    line.exclude({"--speed", "--drive-cycle"});
+    line.add(kCar, "--wind", "NAME",
+             "along the glass: turned, with all of its speed;\n"
+             "projected, with that of its part along it [turned]");
+    line.add(kCar, "--noise", "ACCELERATION", "root mean square of the car's shaking [0.5m/s2]");
+    line.add(kCar, "--wiper", "DURATION", "two wipers that begin a stroke so often: 1.2s or more");
+    line.add(kCar, "--seed", "N", "of all that is random [1]");
+    constexpr const char* kGlass = "Glass";
+    line.add(kGlass, "--glass-width", "LENGTH", "along its bend [1.4m]");
+    line.add(kGlass, "--glass-height", "LENGTH", "up the glass [0.8m]");
+    line.add(kGlass, "--radius", "LENGTH", "of its bend across [5m]");
+    line.add(kGlass, "--slope", "ANGLE", "from horizontal [45deg]");
+    line.add(kGlass, "--surface", "FILE", "another glass: .glb or .gltf with uv, outside out");
+    constexpr const char* kDroplets = "Droplets";
+    line.add(kDroplets, "--hysteresis", "NUMBER",
+             "cosine of the receding less that of the advancing\n"
+             "contact angle [by preset]");
+    line.add(kDroplets, "--still-diameter", "D", "raindrops of less never move [1mm]");
+    line.add(kDroplets, "--film", "LENGTH", "what droplets leave behind, a film so thick [0mm]");
+    declareForces(line);
+    constexpr const char* kTimes = "Time";
+    line.add(kTimes, "--time", "DURATION", "to be shown; of a drive cycle its own [10s]");
+    line.add(kTimes, "--warm-up", "DURATION", "of rain before the first frame [10s]");
+    line.add(kTimes, "--fps", "RATE", "frames per second [30]");
+    constexpr const char* kLooks = "View";
+    line.add(kLooks, "--background", "FILE",
+             "what is behind the glass: a picture, or a video, which\n"
+             "takes ffmpeg [an evening road]");
+    line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
+    line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
+    line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
+    line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
+    line.add(kLooks, "--samples", "N", "rays a pixel across and down, 1 to 4 [2]");
+    line.addFlag(kLooks, "--layer", "frames of the droplets alone, with alpha");
+    line.add(kLooks, "--codec", "NAME", "ffmpeg's encoder [libx264, libvpx-vp9 of .webm]");
+    constexpr const char* kOut = "Beside the frames";
+    line.add(kOut, "--maps", "PATH",
+             "textures of the whole glass, as maps/%05d.png: three\n"
+             "files a frame, -normal, -thickness and -velocity");
+    line.add(kOut, "--map-width", "N", "of those, in pixels [2048]");
+    line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
+    line.add(kOut, "--model", "FILE", "droplets as an animated .glb");
+    line.add(kOut, "--json", "FILE", "write a report, with the water's balance every second;\n- is standard output");
+    constexpr const char* kRun = "Run";
+    line.addFlag(kRun, "--resume", "go on where a run of the same options was interrupted");
+    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
+    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
+    line.add(kRun, "--config", "FILE",
+             "take options from lines such as rain = \"5mm/h\";\n"
+             "the command line goes before them");
+    line.addFlag(kRun, "-h,--help", "print this help");
+    line.addFlag(kRun, "--version", "print the version");
+    line.exclude({"--resume", "--no-clobber"});
+}
+
+/// Sets a value, if its option is given.
+void take(const CommandLine& line, const char* option, const Range& range, double& value)
+{
+    if (const auto given = line.value(option)) {
+        value = quantity(*given, range);
+    }
+}
+
+std::optional<std::string> text(const CommandLine& line, const char* option)
+{
+    const auto given = line.value(option);
+    return given ? std::optional(given->text) : std::nullopt;
+}
+
+void readCar(const CommandLine& line, WindshieldOptions& options)
+{
+    droplet::WindshieldParameters& parameters = options.parameters;
+    if (const auto preset = line.value("--preset")) {
+        options.preset = preset->text;
+    }
+    parameters = forOption("--preset", [&] { return droplet::windshieldPresetNamed(options.preset).parameters; });
+    take(line, "--rain", kRain, parameters.rainfall);
+    if (const auto speed = line.value("--speed")) {
+        parameters.vehicle = droplet::constantSpeed(quantity(*speed, kSpeed));
+    }
+    options.drive_cycle = text(line, "--drive-cycle");
+    if (const auto wind = line.value("--wind")) {
+        parameters.wind = choice<droplet::WindAlongGlass>(
+            *wind, {{"turned", droplet::WindAlongGlass::Turned}, {"projected", droplet::WindAlongGlass::Projected}});
+    }
+    take(line, "--noise", kNoise, parameters.fluctuation.acceleration);
+    if (const auto wiper = line.value("--wiper")) {
+        options.wiper = quantity(*wiper, kPeriod);
+    }
+    if (const auto seed = line.value("--seed")) {
+        const char* const end = seed->text.data() + seed->text.size();
+        const auto [stop, failure] = std::from_chars(seed->text.data(), end, parameters.seed);
+        if (failure != std::errc{} || stop != end) {
+            refuse(*seed, "a whole number from 0 to 18446744073709551615");
+        }
+    }
+}
+
+void readGlass(const CommandLine& line, WindshieldOptions& options)
+{
+    options.surface = text(line, "--surface");
+    for (const char* option : {"--glass-width", "--glass-height", "--radius", "--slope"}) {
+        if (options.surface && line.value(option)) {
+            refuse(std::string("--surface and ") + option + " exclude each other: the surface has its own");
+        }
+    }
+    if (options.surface) {
+        const std::string extension = std::filesystem::path(*options.surface).extension().string();
+        if (extension != ".glb" && extension != ".gltf") {
+            refuse(*line.value("--surface"), "a file that ends in .glb or .gltf");
+        }
+    }
+    take(line, "--glass-width", kSide, options.cylinder.width);
+    take(line, "--glass-height", kSide, options.cylinder.height);
+    take(line, "--radius", kRadius, options.cylinder.radius);
+    take(line, "--slope", kSlope, options.cylinder.slope);
+    if (!options.surface) {
+        if (options.cylinder.width > std::numbers::pi * options.cylinder.radius) {
+            refuse("--glass-width must be at most pi times --radius: a glass bends half round at most");
+        }
+        options.parameters.glass = droplet::Glass(options.cylinder);
+    }
+}
+
+void readDroplets(const CommandLine& line, WindshieldOptions& options)
+{
+    droplet::ForceModel& forces = options.parameters.forces;
+    forces = readForces(line, forces);
+    if (const auto hysteresis = line.value("--hysteresis")) {
+        forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
+        forces.wetting.falling_angle.reset();
+    }
+    take(line, "--still-diameter", kStill, options.parameters.still_diameter);
+    take(line, "--film", kFilm, options.parameters.streaks.film);
+}
+
+void readSize(const Given& given, droplet::ViewOptions& view)
+{
+    const char* const end = given.text.data() + given.text.size();
+    const auto [cross, failure] = std::from_chars(given.text.data(), end, view.width);
+    const bool is_whole = failure == std::errc{} && cross != end && *cross == 'x';
+    const auto [stop, second] = is_whole ? std::from_chars(cross + 1, end, view.height)
+                                         : std::from_chars_result{end, std::errc::invalid_argument};
+    constexpr int kLeast = 16;
+    constexpr int kMost = 8192;
+    if (!is_whole || second != std::errc{} || stop != end || view.width < kLeast || view.width > kMost ||
+        view.height < kLeast || view.height > kMost) {
+        refuse(given, "WIDTHxHEIGHT, each from 16 to 8192");
+    }
+}
+
+void readView(const CommandLine& line, WindshieldOptions& options)
+{
+    options.background = text(line, "--background");
+    options.fit = line.flag("--fit");
+    if (const auto size = line.value("--size")) {
+        readSize(*size, options.view);
+        options.sized = true;
+    }
+    if (options.fit && !options.background) {
+        refuse("--fit needs a --background");
+    }
+    take(line, "--field-of-view", kView, options.view.field_of_view);
+    take(line, "--eye-distance", kEye, options.view.eye_distance);
+    if (const auto samples = line.value("--samples")) {
+        options.view.samples = static_cast<int>(count(*samples, 4, "4"));
+    }
+    options.view.shape.contact_angle = options.parameters.forces.wetting.contact_angle;
+    options.map.shape = options.view.shape;
+    options.layer = line.flag("--layer");
+    if (const auto width = line.value("--map-width")) {
+        options.map.width = static_cast<int>(count(*width, 8192, "8192"));
+        if (options.map.width < 16) {
+            refuse(*width, "a whole number from 16 to 8192");
+        }
+    }
+}
+
+void requirePng(const std::string& path, const Given& given)
+{
+    if (std::filesystem::path(path).extension() != ".png") {
+        refuse(given, "a path that ends in .png");
+    }
+}
+
+void readOutputs(const CommandLine& line, WindshieldOptions& options)
+{
+    options.output = line.argument("OUTPUT");
+    const Given output{options.output, "OUTPUT"};
+    options.files = NumberedPath::of(options.output, "OUTPUT");
+    options.is_video = !options.files && isVideo(options.output);
+    if (!options.is_video && std::filesystem::path(options.output).extension() != ".png") {
+        refuse(output, "frames such as out/%05d.png, a .mp4, .mkv, .mov or .webm, or a .png");
+    }
+    if (options.layer && options.is_video) {
+        refuse("--layer and a video exclude each other: frames have alpha, as in out/%05d.png");
+    }
+    options.codec = text(line, "--codec");
+    if (options.codec && !options.is_video) {
+        refuse("--codec is of videos; OUTPUT is '" + options.output + "'");
+    }
+    if (const auto maps = line.value("--maps")) {
+        options.maps = NumberedPath::of(maps->text, "--maps");
+        if (!options.maps) {
+            refuse(*maps, "a path with one %d or %04d, for the number, in the file's name");
+        }
+        requirePng(maps->text, *maps);
+    } else if (line.value("--map-width")) {
+        refuse("--map-width needs --maps");
+    }
+    if (const auto droplets = line.value("--droplets")) {
+        const std::string extension = std::filesystem::path(droplets->text).extension().string();
+        if (extension != ".csv" && extension != ".json") {
+            refuse(*droplets, "a file that ends in .csv or .json");
+        }
+        options.droplets = droplets->text;
+    }
+    if (const auto model = line.value("--model")) {
+        if (std::filesystem::path(model->text).extension() != ".glb") {
+            refuse(*model, "a file that ends in .glb");
+        }
+        options.model = model->text;
+    }
+    options.json = text(line, "--json");
+    options.resume = line.flag("--resume");
+    if (options.resume && !options.files) {
+        refuse("--resume is of frames, as in out/%05d.png; OUTPUT is '" + options.output + "'");
+    }
+}
+
+}  // namespace
+
+std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        return line.help();
+    }
+    if (line.flag("--version")) {
+        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    }
+    WindshieldOptions options;
+    readCar(line, options);
+    readGlass(line, options);
+    readDroplets(line, options);
+    readView(line, options);
+    readOutputs(line, options);
+    if (const auto duration = line.value("--time")) {
+        options.duration = quantity(*duration, kTime);
+    }
+    take(line, "--warm-up", kWarmUp, options.warm_up);
+    if (const auto rate = line.value("--fps")) {
+        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
+    }
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    constexpr std::size_t kMostThreads = 1024;  // as of all commands
+    if (const auto threads = line.value("--threads")) {
+        options.threads = count(*threads, kMostThreads, "1024");
+    }
+    options.output_options.no_clobber = line.flag("--no-clobber");
+    options.quiet = line.flag("--quiet");
+    // Options that tell how to go about it, or how far, are no part of what is shown.
+    const std::set<std::string> beside{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
+                                       "--config", "--json",   "--droplets",   "--model"};
+    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion;
+    for (const auto& [name, value] : line.given()) {
+        if (beside.count(name) == 0) {
+            options.fingerprint += "\n" + name + " " + value;
+        }
+    }
+    return options;
+}
+
+}  // namespace cli

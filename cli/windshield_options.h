@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "droplet/io/output.h"
+#include "droplet/wind/glass_maps.h"
+#include "droplet/wind/view.h"
+#include "droplet/wind/windshield.h"
+#include "numbered_path.h"
+
+namespace cli {
+
+/// A windshield as asked for: everything in range, nothing looked up on disk yet but the configuration file.
+struct WindshieldOptions {
+    std::string output;                 ///< path
+    std::optional<NumberedPath> files;  ///< where every frame gets a file
+    bool is_video = false;              ///< otherwise, without files, a picture of the last frame
+    std::string preset = "figure-3.12";
+    droplet::WindshieldParameters parameters;  ///< but for what files tell
+    droplet::Glass::Cylinder cylinder;
+    std::optional<std::string> surface;
+    std::optional<std::string> drive_cycle;
+    std::optional<double> wiper;  ///< period [s]
+    droplet::ViewOptions view;    ///< but for a size that is not asked for
+    bool sized = false;
+    std::optional<std::string> background;
+    bool fit = false;  ///< scale and crop the background
+    bool layer = false;
+    std::optional<std::string> codec;
+    std::optional<NumberedPath> maps;
+    droplet::GlassMapOptions map;
+    std::optional<double> duration;  ///< [s]
+    double warm_up = 10.0;           ///< [s]
+    double frames_per_second = 30.0;
+    std::optional<std::string> droplets;  ///< path or kStandardStream
+    std::optional<std::string> model;
+    std::optional<std::string> json;
+    bool resume = false;
+    std::string fingerprint;  ///< of all options that tell what the frames show
+    std::optional<std::string> config;
+    std::optional<std::size_t> threads;
+    droplet::OutputOptions output_options;
+    bool quiet = false;
+};
+
+/// Reads the command line, and the configuration file it names.
+/// @return                the job, or text for standard output if --help or --version asked for it
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const char* const* argv);
+
+}  // namespace cli

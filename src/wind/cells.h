@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// Square cells over the rolled out glass, from its lower left corner on.
+struct Cells {
+    double width = 0.0;  ///< [m]
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    double per_metre = 1.0 / width;
+
+    static Cells over(Vec2 size, double width)
+    {
+        const auto across = [width](double length) {
+            return static_cast<std::uint32_t>(std::max(1.0, std::ceil(length / width)));
+        };
+        return {width, across(size.x), across(size.y)};
+    }
+
+    [[nodiscard]] std::size_t count() const { return std::size_t{columns} * rows; }
+    /// Where a place falls, in cells; beyond the edge, the last one there.
+    [[nodiscard]] std::uint32_t column(double x) const { return index(x, columns); }
+    [[nodiscard]] std::uint32_t row(double y) const { return index(y, rows); }
+    [[nodiscard]] std::size_t number(Vec2 p) const { return std::size_t{row(p.y)} * columns + column(p.x); }
+
+    /// Calls visit(first, last) with the numbers of cells of every row that anything within `radius` of the straight
+    /// way from a to b may lie in, and a few more.
+    template <class Visit>
+    void visitAround(Vec2 a, Vec2 b, double radius, const Visit& visit) const
+    {
+        const double low = std::min(a.y, b.y) - radius;
+        const double high = std::max(a.y, b.y) + radius;
+        if (high < 0.0 || low > static_cast<double>(rows) * width) {
+            return;
+        }
+        const Vec2 way = b - a;
+        const std::uint32_t top = row(high);
+        for (std::uint32_t r = row(low); r <= top; ++r) {
+            double from = 0.0;
+            double to = 1.0;
+            if (way.y != 0.0) {
+                const double enters = (static_cast<double>(r) * width - radius - a.y) / way.y;
+                const double leaves = (static_cast<double>(r + 1) * width + radius - a.y) / way.y;
+                from = std::clamp(std::min(enters, leaves), 0.0, 1.0);
+                to = std::clamp(std::max(enters, leaves), 0.0, 1.0);
+            }
+            const double x0 = a.x + from * way.x;
+            const double x1 = a.x + to * way.x;
+            const double left = std::min(x0, x1) - radius;
+            const double right = std::max(x0, x1) + radius;
+            if (right >= 0.0 && left <= static_cast<double>(columns) * width) {
+                const std::size_t start = std::size_t{r} * columns;
+                visit(start + column(left), start + column(right));
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t index(double v, std::uint32_t count) const
+    {
+        return static_cast<std::uint32_t>(std::clamp(v * per_metre, 0.0, static_cast<double>(count - 1)));
+    }
+};
+
+}  // namespace droplet

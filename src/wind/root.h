@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace droplet {
+
+/// The root of a continuous function between two points where its signs differ, or one of the two where it is 0, to
+/// the last digits. After Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
+/// function without using derivatives", Adv. Eng. Softw. 28 (1997) 145.
+template <typename Function>
+double rootBetween(double a, double b, const Function& function)
+{
+    double fa = function(a);
+    double fb = function(b);
+    double c = a;
+    double fc = fa;
+    double share = 0.5;
+    constexpr int kMost = 200;  // bisections alone would need fewer
+    for (int i = 0; i < kMost && fa != 0.0 && fb != 0.0; ++i) {
+        const double x = a + share * (b - a);
+        const double fx = function(x);
+        if ((fx > 0.0) == (fa > 0.0)) {
+            c = a;
+            fc = fa;
+        } else {
+            c = b;
+            fc = fb;
+            b = a;
+            fb = fa;
+        }
+        a = x;
+        fa = fx;
+        const double best = std::abs(fa) < std::abs(fb) ? a : b;
+        const double tolerance = 2.0 * std::numeric_limits<double>::epsilon() * std::abs(best);
+        const double least = tolerance / std::abs(b - a);
+        if (!(least < 0.5)) {
+            break;
+        }
+        // Inverse quadratic interpolation where it is known to be monotone, bisection elsewhere.
+        const double xi = (a - b) / (c - b);
+        const double phi = (fa - fb) / (fc - fb);
+        share = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi
+                    ? fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+                    : 0.5;
+        share = std::clamp(share, least, 1.0 - least);
+    }
+    return std::abs(fa) < std::abs(fb) ? a : b;
+}
+
+}  // namespace droplet

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// m v' = D(t) − W ∓ F − c v with the drag D of (3.3), the weight's part W, friction F and c of (3.5): linear between
+// events. Exponential quadrature (Hochbruck and Ostermann, "Exponential integrators", Acta Numer. 19 (2010) 209,
+// section 2.1) with nodes 0, ½ and 1: as Simpson's rule it is of fourth order though it interpolates by a parabola.
+#include "droplet/wind/trace.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "droplet/error.h"
+#include "wind/root.h"
+
+namespace droplet {
+namespace {
+
+void require(bool holds, const char* field, double value, const char* constraint)
+{
+    if (!holds) {
+        std::ostringstream message;
+        message << field << " is " << value << ", must be " << constraint;
+        throw Error(ErrorCode::InvalidArgument, message.str());
+    }
+}
+
+bool isPositive(double value)
+{
+    return value > 0.0 && std::isfinite(value);
+}
+
+/// φ₀(z) = eᶻ and φ_k(z) = (φ_{k−1}(z) − 1/(k−1)!)/z, z ≤ 0.
+std::array<double, 5> phi(double z)
+{
+    std::array<double, 5> f{};
+    if (z < -1.0) {
+        double factorial = 1.0;
+        f[0] = std::exp(z);
+        f[1] = std::expm1(z) / z;
+        for (std::size_t k = 2; k < f.size(); ++k) {
+            factorial *= static_cast<double>(k - 1);
+            f[k] = (f[k - 1] - 1.0 / factorial) / z;
+        }
+        return f;
+    }
+    // Nearer to 0 the differences cancel: φ₄ by its series Σ zʲ/(j+4)!, and the others up from it.
+    double term = 1.0 / 24.0;
+    for (int j = 1; j <= 20; ++j) {
+        f[4] += term;
+        term *= z / (j + 4);
+    }
+    f[3] = z * f[4] + 1.0 / 6.0;
+    f[2] = z * f[3] + 0.5;
+    f[1] = z * f[2] + 1.0;
+    f[0] = std::exp(z);
+    return f;
+}
+
+struct Place {
+    double position = 0.0;
+    double velocity = 0.0;
+};
+
+/// A droplet that moves one way.
+struct Sliding {
+    const DropletForces* forces;
+    double slope;
+    const Gust* wind;
+    double direction;  ///< 1: up
+
+    /// What accelerates it but for viscous drag [m/s²].
+    [[nodiscard]] double push(double time) const
+    {
+        return (drivingForce(*forces, slope, wind->at(time)) - direction * forces->sliding_friction) / forces->mass;
+    }
+
+    [[nodiscard]] Place after(Place from, double time, double step) const
+    {
+        const double g0 = push(time);
+        const double g1 = push(time + 0.5 * step);
+        const double g2 = push(time + step);
+        // g0 + a s + b s² over the step, s from 0 to 1.
+        const double a = -3.0 * g0 + 4.0 * g1 - g2;
+        const double b = 2.0 * (g0 - 2.0 * g1 + g2);
+        const auto f = phi(-forces->viscous / forces->mass * step);
+        return {from.position + step * (f[1] * from.velocity + step * (f[2] * g0 + f[3] * a + 2.0 * f[4] * b)),
+                f[0] * from.velocity + step * (f[1] * g0 + f[2] * a + 2.0 * f[3] * b)};
+    }
+};
+
+/// Times between which a gust rises or falls throughout.
+class Quarters {
+public:
+    explicit Quarters(const Gust& wind) : wind_(&wind) {}
+
+    /// The next time after one at which the gust turns; the end if it is steady or does not until then.
+    [[nodiscard]] double after(double time, double end) const
+    {
+        if (wind_->amplitude == 0.0) {
+            return end;
+        }
+        const double half = 0.5 * wind_->period;
+        double turn = (std::floor(time / half - 0.5) + 1.5) * half;
+        while (turn <= time) {
+            turn += half;
+        }
+        return std::min(turn, end);
+    }
+
+private:
+    const Gust* wind_;
+};
+
+class Tracer {
+public:
+    Tracer(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options)
+        : forces_(&forces), slope_(slope), wind_(&wind), options_(&options), motion_{0.0, options.velocity}
+    {
+        fastest_ = std::abs(motion_.velocity);
+        direction_ = motion_.velocity > 0.0 ? 1.0 : motion_.velocity < 0.0 ? -1.0 : letGo(0.0);
+        next_step_ = options.fixed_step.value_or(0.01 * (wind.amplitude == 0.0 ? options.duration : wind.period));
+    }
+
+    Motion run()
+    {
+        const auto last = static_cast<std::size_t>(std::floor(options_->duration / options_->interval * (1.0 + 1e-12)));
+        trace_.points.reserve(last + 1);
+        record();
+        for (std::size_t k = 1; k <= last; ++k) {
+            advance(static_cast<double>(k) * options_->interval);
+            record();
+        }
+        return std::move(trace_);
+    }
+
+private:
+    [[nodiscard]] double driving(double time) const { return drivingForce(*forces_, slope_, wind_->at(time)); }
+
+    /// Which way a droplet at rest begins to move; 0: it is held.
+    [[nodiscard]] double letGo(double time) const
+    {
+        const double force = driving(time);
+        return std::abs(force) <= forces_->retention ? 0.0 : std::copysign(1.0, force);
+    }
+
+    void record()
+    {
+        const double force = driving(time_);
+        // Just let go, it has no speed yet but a direction.
+        double rate = 0.0;
+        if (direction_ != 0.0) {
+            rate =
+                (force - direction_ * forces_->sliding_friction - forces_->viscous * motion_.velocity) / forces_->mass;
+        }
+        trace_.points.push_back({time_, wind_->at(time_), motion_.position, motion_.velocity, rate});
+    }
+
+    void advance(double until)
+    {
+        while (time_ < until) {
+            if (direction_ == 0.0) {
+                wait(until);
+            } else {
+                slide(until);
+            }
+        }
+    }
+
+    /// At rest, until friction lets go.
+    void wait(double until)
+    {
+        // Over a rise or fall of the wind the driving force rises or falls, and leaves what is held once at most.
+        const double to = Quarters(*wind_).after(time_, until);
+        if (letGo(to) != 0.0) {
+            double held = time_;
+            time_ = to;
+            while (time_ - held > std::numeric_limits<double>::epsilon() * time_) {
+                const double middle = 0.5 * (held + time_);
+                (letGo(middle) == 0.0 ? held : time_) = middle;
+            }
+            direction_ = letGo(time_);
+            trace_.events.push_back({time_, true});
+        } else {
+            time_ = to;
+        }
+    }
+
+    void slide(double until)
+    {
+        const Sliding sliding{forces_, slope_, wind_, direction_};
+        // A wind that turns may catch the droplet and let go again: no step goes over that.
+        const double room = Quarters(*wind_).after(time_, until) - time_;
+        double step = std::min(next_step_, room);
+        if (wind_->amplitude == 0.0 && !options_->fixed_step) {
+            step = room;
+        }
+        Place to = sliding.after(motion_, time_, step);
+        if (wind_->amplitude != 0.0 && !options_->fixed_step) {
+            const Place half = sliding.after(motion_, time_, 0.5 * step);
+            const Place twice = sliding.after(half, time_ + 0.5 * step, 0.5 * step);
+            fastest_ = std::max({fastest_, std::abs(to.velocity), std::abs(twice.velocity)});
+            // Of fourth order: the halved steps have a 16th of the error.
+            const double error = std::abs(to.velocity - twice.velocity) / 15.0;
+            const double allowed = options_->tolerance * fastest_;
+            constexpr double kSafety = 0.9;
+            const double growth = error > 0.0 ? kSafety * std::pow(allowed / error, 0.2) : 4.0;
+            const double least = 1e-12 * wind_->period;
+            if (error > allowed && step > least) {
+                next_step_ = std::max(least, step * std::clamp(growth, 0.1, 0.9));
+                ++trace_.rejected;
+                return;
+            }
+            if (step == next_step_ || growth < 1.0) {
+                next_step_ = step * std::clamp(growth, 0.2, 4.0);
+            }
+            to = twice;
+            if (!(direction_ * half.velocity > 0.0) && motion_.velocity != 0.0) {
+                step *= 0.5;  // caught, though it might move again by the step's end
+                to = half;
+            }
+        }
+        ++trace_.steps;
+        finish(sliding, step, to);
+    }
+
+    /// Accepts a step, or the part of it until friction catches the droplet.
+    void finish(const Sliding& sliding, double step, Place to)
+    {
+        const double from = time_;
+        if (direction_ * to.velocity > 0.0) {
+            motion_ = to;
+            time_ = from + step;
+            return;
+        }
+        const Place start = motion_;
+        const auto speed = [&](double part) { return direction_ * sliding.after(start, from, part).velocity; };
+        // What was let go an instant ago has no speed yet: the stop is where it is lost again.
+        const double beginning = start.velocity != 0.0 ? 0.0 : firstMoving(speed, step);
+        // Halved steps may see a stop where the whole one just does not.
+        const double part = beginning < step && !(speed(step) > 0.0) ? rootBetween(beginning, step, speed) : step;
+        motion_ = {sliding.after(start, from, part).position, 0.0};
+        time_ = part > 0.0 ? from + part : std::nextafter(from, from + step);
+        const double onward = letGo(time_);
+        if (onward == 0.0) {
+            trace_.events.push_back({time_, false});
+        }
+        direction_ = onward;
+    }
+
+    /// A time at which the droplet has some speed, or the step's end.
+    static double firstMoving(const std::function<double(double)>& speed, double step)
+    {
+        for (double part = 0.5 * step; part > 1e-9 * step; part *= 0.5) {
+            if (speed(part) > 0.0) {
+                return part;
+            }
+        }
+        return step;
+    }
+
+    const DropletForces* forces_;
+    double slope_;
+    const Gust* wind_;
+    const MotionOptions* options_;
+    Place motion_;
+    double time_ = 0.0;
+    double direction_ = 0.0;  ///< 0: at rest
+    double next_step_;
+    double fastest_ = 0.0;
+    Motion trace_;
+};
+
+}  // namespace
+
+double Gust::at(double time) const
+{
+    return amplitude == 0.0 ? mean : mean + amplitude * std::sin(2.0 * std::numbers::pi * time / period);
+}
+
+void MotionOptions::validate() const
+{
+    require(isPositive(duration), "duration", duration, "finite and more than 0 s");
+    require(isPositive(interval), "interval", interval, "finite and more than 0 s");
+    require(duration / interval <= static_cast<double>(kMostMotionPoints), "interval", interval,
+            "at least a ten-millionth of the duration");
+    require(std::isfinite(velocity), "velocity", velocity, "finite");
+    require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "more than 0 and less than 1");
+    if (fixed_step) {
+        require(isPositive(*fixed_step), "fixed_step", *fixed_step, "finite and more than 0 s");
+    }
+}
+
+Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options)
+{
+    options.validate();
+    require(isPositive(forces.mass), "forces.mass", forces.mass, "finite and more than 0 kg");
+    require(std::isfinite(slope), "slope", slope, "finite");
+    require(std::isfinite(wind.mean), "wind.mean", wind.mean, "finite");
+    require(wind.amplitude >= 0.0 && std::isfinite(wind.amplitude), "wind.amplitude", wind.amplitude,
+            "finite and at least 0 m/s");
+    require(isPositive(wind.period), "wind.period", wind.period, "finite and more than 0 s");
+    return Tracer(forces, slope, wind, options).run();
+}
+
+}  // namespace droplet

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The thesis, section 3.1.4: the droplets' balance over winds (figure 3.5), beside what Hashimoto et al. (J. Surf.
+// Finish. Soc. Jpn 59 (2008) 907) measured (figure 3.3).
+//
+// A droplet runs down where W − D > F and climbs where D − W > F, with the weight's part W along the slope, the drag D
+// and the limit F of retention. Over the volume each of these is a power:
+//
+//   W ∝ V_d,  F ∝ V_d^(1/3),  D ∝ V_d^((2 + 2n)/3) below the boundary layer's edge, ∝ V_d^(2/3) above it,
+//
+// with a falling angle for every volume F ∝ V_d. So a balance divided by V_d^(1/3) is a + b V_d^p + c V_d^q on either
+// side of the edge, which turns at one volume at most, known in closed form: between those its sign changes once at
+// most, and bisection finds where.
+#include "droplet/wind/tunnel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "blocks.h"
+#include "droplet/error.h"
+#include "wind/root.h"
+
+namespace droplet {
+namespace {
+
+[[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
+{
+    std::ostringstream message;
+    message << field << " is " << value << ", must be " << constraint;
+    throw Error(ErrorCode::InvalidArgument, message.str());
+}
+
+template <typename Holds>
+void requireAll(const std::string& field, const std::vector<double>& values, const char* constraint, const Holds& holds)
+{
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!holds(values[i])) {
+            refuse(field + "[" + std::to_string(i) + "]", values[i], constraint);
+        }
+    }
+}
+
+constexpr double kFastestWind = 1e6;
+
+/// The wind over which drag is over a force [m/s].
+std::optional<double> windAgainst(const DropletForces& forces, double force)
+{
+    const auto balance = [&](double wind) { return forces.drag * wind * wind - force; };
+    if (!(balance(0.0) <= 0.0)) {
+        return std::nullopt;
+    }
+    double fast = 1.0;
+    while (balance(fast) < 0.0 && fast < kFastestWind) {
+        fast *= 2.0;
+    }
+    return balance(fast) < 0.0 ? std::nullopt : std::optional(rootBetween(0.0, fast, balance));
+}
+
+}  // namespace
+
+const char* nameOf(Regime regime)
+{
+    return regime == Regime::RunsDown ? "runs down" : regime == Regime::Still ? "still" : "climbs";
+}
+
+Regime regimeOf(const DropletForces& forces, double driving)
+{
+    return driving < -forces.retention ? Regime::RunsDown : driving > forces.retention ? Regime::Climbs : Regime::Still;
+}
+
+Thresholds thresholdsOf(const DropletForces& forces, double slope)
+{
+    const double weight = forces.weight * std::sin(slope);
+    Thresholds found;
+    found.upper = windAgainst(forces, weight + forces.retention);
+    if (weight > forces.retention) {
+        found.lower = windAgainst(forces, weight - forces.retention);
+    }
+    return found;
+}
+
+namespace {
+
+/// Volumes of a range, its ends included, between which no balance of forces turns.
+std::vector<double> turningVolumes(const ForceModel& model, const Exposure& exposure, const VolumeRange& range)
+{
+    // Everything at one volume tells the factors of the powers.
+    const DropletForces one = forcesOn(model, 1.0);
+    const CapSize cap = capOf(1.0, model.wetting.contact_angle);
+    const double weight = one.weight * std::sin(exposure.slope);
+    const double edge = std::pow(model.air.boundary_layer / cap.height, 3.0);
+    std::vector<double> volumes{range.from, range.to};
+    const auto add = [&](double volume) {
+        if (volume > range.from && volume < range.to) {
+            volumes.push_back(volume);
+        }
+    };
+    add(edge);
+    Air free_air = model.air;
+    free_air.boundary_layer = 0.0;
+    ForceModel free_model = model;
+    free_model.air = free_air;
+    const double full_drag = forcesOn(free_model, 1.0).drag * exposure.wind * std::abs(exposure.wind);
+    const double n = model.air.profile_exponent;
+    const double slowed_drag =
+        model.air.boundary_layer > 0.0 ? full_drag * std::pow(cap.height / model.air.boundary_layer, 2.0 * n) : 0.0;
+    // What goes with the volume: the weight, and retention if it does, on either side.
+    const double retention = model.wetting.falling_angle ? one.retention : 0.0;
+    for (const double held : {weight - retention, weight, weight + retention}) {
+        // d/dV (D − W) V^(−1/3) = 0, with D = d V^e: V^(e − 1) = (2/3) w / ((e − 1/3) d).
+        const auto add_turn = [&](double drag, double exponent) {
+            if (exponent != 1.0) {
+                add(std::pow(2.0 / 3.0 * held / ((exponent - 1.0 / 3.0) * drag), 1.0 / (exponent - 1.0)));
+            }
+        };
+        add_turn(slowed_drag, (2.0 + 2.0 * n) / 3.0);
+        add_turn(full_drag, 2.0 / 3.0);
+    }
+    std::sort(volumes.begin(), volumes.end());
+    return volumes;
+}
+
+}  // namespace
+
+std::vector<RegimeChange> regimeChanges(const ForceModel& model, const Exposure& exposure, const VolumeRange& range)
+{
+    // Per V^(1/3), so that droplets of every size weigh alike.
+    const auto beyond = [&](double direction) {
+        return [&, direction](double log_volume) {
+            const DropletForces forces = forcesOn(model, std::exp(log_volume));
+            return (direction * drivingForce(forces, exposure.slope, exposure.wind) - forces.retention) *
+                   std::exp(-log_volume / 3.0);
+        };
+    };
+    const auto climbs = beyond(1.0);
+    const auto runs_down = beyond(-1.0);
+    const std::vector<double> volumes = turningVolumes(model, exposure, range);
+    std::vector<RegimeChange> changes;
+    const auto look = [&](const auto& balance, Regime regime, double from, double to) {
+        const double a = std::log(from);
+        const double b = std::log(to);
+        const bool before = balance(a) > 0.0;
+        if (before != (balance(b) > 0.0)) {
+            const double volume = std::exp(rootBetween(a, b, balance));
+            changes.push_back({volume, before ? regime : Regime::Still, before ? Regime::Still : regime});
+        }
+    };
+    for (std::size_t i = 0; i + 1 < volumes.size(); ++i) {
+        look(climbs, Regime::Climbs, volumes[i], volumes[i + 1]);
+        look(runs_down, Regime::RunsDown, volumes[i], volumes[i + 1]);
+    }
+    std::sort(changes.begin(), changes.end(),
+              [](const RegimeChange& a, const RegimeChange& b) { return a.volume < b.volume; });
+    return changes;
+}
+
+std::optional<double> criticalVolume(const ForceModel& model, double slope)
+{
+    // Far beyond drops on either side.
+    constexpr VolumeRange kAll{1e-30, 1e9};
+    const std::vector<RegimeChange> changes = regimeChanges(model, {slope, 0.0}, kAll);
+    return changes.empty() ? std::nullopt : std::optional(changes.front().volume);
+}
+
+std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap)
+{
+    constexpr double kWeber = 7.5;
+    const double wind = std::sqrt(kWeber * model.liquid.surface_tension / (model.air.density * cap.height));
+    return std::isfinite(wind) ? std::optional(wind) : std::nullopt;
+}
+
+void TunnelSweep::validate() const
+{
+    model.validate();
+    const auto require_some = [](const char* field, const std::vector<double>& values) {
+        if (values.empty()) {
+            throw Error(ErrorCode::InvalidArgument, std::string(field) + " must hold at least one value");
+        }
+    };
+    require_some("volumes", volumes);
+    require_some("winds", winds);
+    require_some("slopes", slopes);
+    requireAll("volumes", volumes, "finite and more than 0 m3", [](double v) { return v > 0.0 && std::isfinite(v); });
+    requireAll("winds", winds, "finite, in m/s", [](double v) { return std::isfinite(v); });
+    requireAll("slopes", slopes, "from 0 to pi/2", [](double v) { return v >= 0.0 && v <= 0.5 * std::numbers::pi; });
+    requireAll("hystereses", hystereses, "from 0 to 2", [](double v) { return v >= 0.0 && v <= 2.0; });
+    if (!hystereses.empty() && model.wetting.falling_angle) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "hystereses and model.wetting.falling_angle exclude each other: both say what holds droplets");
+    }
+    double rows = static_cast<double>(std::max<std::size_t>(1, hystereses.size()));
+    for (const auto* values : {&volumes, &winds, &slopes}) {
+        rows *= static_cast<double>(values->size());
+    }
+    if (rows > static_cast<double>(kMostTunnelRows)) {
+        throw Error(ErrorCode::InvalidArgument, "a sweep of " + std::to_string(static_cast<long long>(rows)) +
+                                                    " rows is over the limit of " + std::to_string(kMostTunnelRows));
+    }
+}
+
+namespace {
+
+/// Slope and hysteresis, which all volumes share.
+struct Bench {
+    ForceModel model;
+    double slope = 0.0;
+    std::optional<double> critical_volume;
+};
+
+std::vector<Bench> benchesOf(const TunnelSweep& what)
+{
+    std::vector<Bench> benches;
+    const std::vector<double> hystereses =
+        what.hystereses.empty() ? std::vector<double>{what.model.wetting.hysteresis} : what.hystereses;
+    for (const double hysteresis : hystereses) {
+        for (const double slope : what.slopes) {
+            Bench bench{what.model, slope, {}};
+            bench.model.wetting.hysteresis = hysteresis;
+            benches.push_back(bench);
+        }
+    }
+    forBlocks(benches.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            benches[i].critical_volume = criticalVolume(benches[i].model, benches[i].slope);
+        }
+    });
+    return benches;
+}
+
+TunnelCase caseOf(const Bench& bench, double volume)
+{
+    const ForceModel& model = bench.model;
+    const std::optional<double> falling_angle = model.wetting.falling_angle;
+    TunnelCase found;
+    found.hysteresis = falling_angle ? hysteresisOf(model, *falling_angle, volume) : model.wetting.hysteresis;
+    found.slope = bench.slope;
+    found.cap = capOf(volume, model.wetting.contact_angle);
+    found.forces = forcesOn(model, found.cap);
+    found.thresholds = thresholdsOf(found.forces, bench.slope);
+    found.critical_volume = bench.critical_volume;
+    found.shedding_wind = sheddingWind(model, found.cap);
+    return found;
+}
+
+TunnelRow rowOf(const TunnelCase& of, double wind)
+{
+    const double driving = drivingForce(of.forces, of.slope, wind);
+    return {of.forces.drag * wind * std::abs(wind), driving, acceleration(of.forces, driving, 0.0),
+            terminalVelocity(of.forces, driving), regimeOf(of.forces, driving)};
+}
+
+}  // namespace
+
+Tunnel sweep(const TunnelSweep& what)
+{
+    what.validate();
+    const std::vector<Bench> benches = benchesOf(what);
+    Tunnel tunnel;
+    tunnel.winds = what.winds;
+    tunnel.cases.resize(benches.size() * what.volumes.size());
+    forBlocks(tunnel.cases.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            tunnel.cases[i] = caseOf(benches[i / what.volumes.size()], what.volumes[i % what.volumes.size()]);
+        }
+    });
+    tunnel.rows.resize(tunnel.cases.size() * what.winds.size());
+    forBlocks(tunnel.rows.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            tunnel.rows[i] = rowOf(tunnel.cases[i / what.winds.size()], what.winds[i % what.winds.size()]);
+        }
+    });
+    return tunnel;
+}
+
+std::optional<BandDistance> distanceFrom(const WindBand& measured, const Thresholds& thresholds)
+{
+    if (!thresholds.lower || !thresholds.upper) {
+        return std::nullopt;
+    }
+    return BandDistance{*thresholds.lower / measured.from - 1.0, *thresholds.upper / measured.to - 1.0};
+}
+
+}  // namespace droplet

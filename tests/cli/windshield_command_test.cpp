@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `droplet-shape windshield`: what comes out, what is refused, going on after an interruption.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/picture/evening_road.h"
+#include "droplet/picture/picture.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::readFile;
+using testing::runDroplet;
+using ::testing::SizeIs;
+
+class WindshieldCommand : public ::testing::Test {
+protected:
+    [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    /// A small glass, a small frame, little time.
+    static CommandResult play(const std::string& output, std::vector<std::string> more = {})
+    {
+        std::vector<std::string> arguments{"windshield",     output,           "--glass-width", "300mm",
+                                           "--glass-height", "250mm",          "--quiet",       "--rain",
+                                           "50mm/h",         "--eye-distance", "200mm"};
+        const auto add = [&](const std::string& option, const std::string& value) {
+            if (std::find(more.begin(), more.end(), option) == more.end()) {
+                arguments.push_back(option);
+                arguments.push_back(value);
+            }
+        };
+        add("--warm-up", "0.3s");
+        add("--time", "0.2s");
+        if (std::find(more.begin(), more.end(), "--background") == more.end()) {
+            add("--size", "96x54");
+        }
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    }
+
+    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& words) const
+    {
+        const CommandResult result = play(path("refused.png"), arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.error;
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(words)));
+        EXPECT_FALSE(std::filesystem::exists(path("refused.png")));
+    }
+
+    std::string stored(const std::string& name, const std::string& bytes) const
+    {
+        testing::writeFile(path(name), bytes);
+        return path(name);
+    }
+
+    [[nodiscard]] std::vector<std::string> frames(const std::string& folder) const
+    {
+        std::vector<std::string> all;
+        for (int k = 1; std::filesystem::exists(path(folder) + "/" + std::to_string(k) + ".png"); ++k) {
+            all.push_back(readFile(path(folder) + "/" + std::to_string(k) + ".png"));
+        }
+        return all;
+    }
+
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(WindshieldCommand, FramesAreTheSameAtAnyNumberOfThreads)
+{
+    for (const char* folder : {"a", "b"}) {
+        std::filesystem::create_directory(path(folder));
+    }
+    ASSERT_EQ(play(path("a/%d.png"), {"-j", "1"}).exit_code, 0);
+    ASSERT_EQ(play(path("b/%d.png"), {"-j", "2"}).exit_code, 0);
+    EXPECT_THAT(frames("a"), SizeIs(6));
+    EXPECT_EQ(frames("a"), frames("b"));
+    EXPECT_FALSE(std::filesystem::exists(path("a/checkpoint.state"))) << "the run is whole";
+    // The picture of the last frame alone shows the same.
+    ASSERT_EQ(play(path("last.png")).exit_code, 0);
+    EXPECT_EQ(readPicture(path("last.png")), readPicture(path("a/6.png")));
+}
+
+TEST_F(WindshieldCommand, EverythingComesOut)
+{
+    std::filesystem::create_directory(path("f"));
+    const CommandResult run =
+        play(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
+                                path("d.csv"), "--model", path("d.glb"), "--json", "-", "--wiper", "1.5s"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto report = nlohmann::json::parse(run.output);
+    EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
+    EXPECT_EQ(report.at("output").at("frames"), 6);
+    EXPECT_EQ(report.at("wipers").at("count"), 2);
+    EXPECT_LT(report.at("largest_residual").get<double>(), 1e-9);
+    EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
+    EXPECT_NEAR(report.at("balance").back().at("time_s").get<double>(), 0.3 + 5.0 / 30.0, 1e-9);
+    std::istringstream rows(readFile(path("d.csv")));
+    std::string last;
+    for (std::string row; std::getline(rows, row);) {
+        last = row;
+    }
+    EXPECT_THAT(last, ::testing::StartsWith("6,"));
+    EXPECT_EQ(readFile(path("d.glb")).substr(0, 4), "glTF");
+    for (const char* map : {"normal", "thickness", "velocity"}) {
+        const std::string png = readFile(path(std::string("f/m6-") + map + ".png"));
+        ASSERT_GT(png.size(), 30U);
+        EXPECT_EQ(png[24], 16) << "bits a channel";
+    }
+    EXPECT_EQ(readFile(path("f/1.png"))[25], 6) << "with alpha";
+}
+
+TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
+{
+    const std::vector<std::string> options{"--time", "2.5s", "--fps", "10", "--json", path("r.json")};
+    for (const char* folder : {"whole", "cut"}) {
+        std::filesystem::create_directory(path(folder));
+    }
+    ASSERT_EQ(play(path("whole/%d.png"), options).exit_code, 0);
+    ASSERT_THAT(frames("whole"), SizeIs(25));
+    const auto balance = nlohmann::json::parse(readFile(path("r.json"))).at("balance");
+    // Killed once its thirteenth frame stands.
+    const std::string script =
+        R"("$@" & id=$!; while [ ! -e "$0" ]; do sleep 0.005; kill -0 $id || exit 1; done; kill -9 $id)";
+    std::vector<std::string> command{"bash",
+                                     "-c",
+                                     script,
+                                     path("cut/13.png"),
+                                     DROPLET_COMMAND,
+                                     "windshield",
+                                     path("cut/%d.png"),
+                                     "--glass-width",
+                                     "300mm",
+                                     "--glass-height",
+                                     "250mm",
+                                     "--quiet",
+                                     "--rain",
+                                     "50mm/h",
+                                     "--eye-distance",
+                                     "200mm",
+                                     "--warm-up",
+                                     "0.3s",
+                                     "--size",
+                                     "96x54"};
+    command.insert(command.end(), options.begin(), options.end());
+    testing::runProgram(command);
+    ASSERT_TRUE(std::filesystem::exists(path("cut/checkpoint.state")));
+    const auto before = frames("cut");
+    const auto whole = frames("whole");
+    ASSERT_GE(before.size(), 13U);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), whole.begin())) << "what is there is whole";
+    // Frames of other options are no continuation.
+    std::vector<std::string> other = options;
+    other.insert(other.end(), {"--resume", "--speed", "3m/s"});
+    const CommandResult refused = play(path("cut/%d.png"), other);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.errorLines(), ElementsAre(HasSubstr("with other options")));
+    // Only what comes after the checkpoint is made again.
+    std::filesystem::remove(path("cut/3.png"));
+    std::vector<std::string> more = options;
+    more.emplace_back("--resume");
+    ASSERT_EQ(play(path("cut/%d.png"), more).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(path("cut/3.png")));
+    testing::writeFile(path("cut/3.png"), whole[2]);
+    EXPECT_EQ(frames("cut"), whole);
+    EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("balance"), balance);
+}
+
+TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
+{
+    std::filesystem::create_directory(path("f"));
+    const std::vector<std::string> options{"--fps", "5", "--droplets", path("d.csv"), "--model", path("d.glb")};
+    const auto with_time = [&](const char* time, bool resumes) {
+        std::vector<std::string> all = options;
+        all.insert(all.end(), {"--time", time});
+        if (resumes) {
+            all.emplace_back("--resume");
+        }
+        return play(path("f/%d.png"), all).exit_code;
+    };
+    ASSERT_EQ(with_time("1.4s", false), 0);
+    const std::string table = readFile(path("d.csv"));
+    const std::string model = readFile(path("d.glb"));
+    std::filesystem::remove(path("d.csv"));
+    ASSERT_EQ(with_time("1.4s", true), 0) << "there is no checkpoint: it begins anew";
+    EXPECT_EQ(readFile(path("d.csv")), table);
+    EXPECT_EQ(readFile(path("d.glb")), model);
+}
+
+TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
+{
+    std::filesystem::create_directory(path("f"));
+    for (const std::string& bytes :
+         {std::string(), std::string("something else"),
+          std::string("droplet-shape windshield checkpoint 1\n\xff\xff\xff\xff\xff\xff\xff\xff")}) {
+        stored("f/checkpoint.state", bytes);
+        const CommandResult result = play(path("f/%d.png"), {"--resume"});
+        EXPECT_EQ(result.exit_code, 3) << result.error;
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr("checkpoint")));
+    }
+}
+
+TEST_F(WindshieldCommand, BackgroundsFillTheFrame)
+{
+    std::ostringstream bytes;
+    writePng(eveningRoad({.width = 80, .height = 60}), bytes);
+    const std::string road = stored("road.png", bytes.str());
+    const CommandResult own = play(path("own.png"), {"--background", road});
+    ASSERT_EQ(own.exit_code, 0) << own.error;
+    EXPECT_EQ(readPicture(path("own.png")).width, 80);
+    EXPECT_EQ(readPicture(path("own.png")).height, 60);
+    expectRefused({"--background", road, "--size", "96x54"}, 3, "has 80x60 pixels, the frame 96x54");
+    ASSERT_EQ(play(path("fit.png"), {"--background", road, "--size", "96x54", "--fit"}).exit_code, 0);
+    EXPECT_EQ(readPicture(path("fit.png")).width, 96);
+}
+
+TEST_F(WindshieldCommand, VideosComeAndGo)
+{
+    const CommandResult run = play(path("rain.mp4"));
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(readFile(path("rain.mp4")).substr(4, 4), "ftyp");
+    ASSERT_EQ(play(path("behind.png"), {"--background", path("rain.mp4"), "--time", "0.4s"}).exit_code, 0)
+        << "a video of six frames begins again";
+    EXPECT_EQ(readPicture(path("behind.png")).width, 96);
+    const CommandResult odd = play(path("odd.mp4"), {"--size", "97x54"});
+    EXPECT_EQ(odd.exit_code, 2);
+    EXPECT_THAT(odd.errorLines(), ElementsAre(HasSubstr("even")));
+    const CommandResult codec = play(path("x.mp4"), {"--codec", "no-such-codec"});
+    EXPECT_EQ(codec.exit_code, 2);
+    EXPECT_THAT(codec.errorLines(), ElementsAre(HasSubstr("'no-such-codec' must be a video encoder")));
+    // An encoder there is, but not for such a file: ffmpeg's own words.
+    const CommandResult misfit = play(path("x.webm"), {"--codec", "libx264"});
+    EXPECT_EQ(misfit.exit_code, 4);
+    EXPECT_THAT(misfit.errorLines(), ElementsAre(HasSubstr("x.webm: ffmpeg cannot write it")));
+    testing::CommandOptions without;
+    without.environment = {{"PATH", scratch_.path().string()}};
+    const CommandResult missing = runDroplet({"windshield", path("y.mp4")}, without);
+    EXPECT_EQ(missing.exit_code, 4);
+    EXPECT_THAT(missing.errorLines(), ElementsAre(HasSubstr("the program ffmpeg, which cannot be run")));
+    EXPECT_FALSE(std::filesystem::exists(path("x.mp4")) || std::filesystem::exists(path("x.webm")));
+}
+
+TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
+{
+    const std::string cycle = stored("cycle.csv", "time_s,speed_km_per_h\n0,36\n0.5,72\n");
+    const CommandResult run = play(path("x.png"), {"--drive-cycle", cycle, "--json", "-", "--time", "0.5s"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto balance = nlohmann::json::parse(run.output).at("balance");
+    EXPECT_NEAR(balance.front().at("speed_m_per_s").get<double>(), 10.0, 1e-9) << "after warming up at the first speed";
+    EXPECT_NEAR(balance.back().at("speed_m_per_s").get<double>(), 10.0 + 10.0 * 14.0 / 15.0, 1e-6);
+}
+
+TEST_F(WindshieldCommand, PresetsAreTheFigures)
+{
+    const auto moving = [&](const char* preset) {
+        const CommandResult run = runDroplet({"windshield", path("x.png"), "--preset", preset, "--json", "-", "--quiet",
+                                              "--noise", "0m/s2", "--warm-up", "2s", "--time", "0.1s", "--size",
+                                              "64x36", "--glass-width", "500mm", "--glass-height", "400mm"});
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        const auto row = nlohmann::json::parse(run.output).at("balance").back();
+        EXPECT_GT(row.at("running_droplets").get<int>(), 100);
+        return row.at("moving_droplets").get<int>();
+    };
+    EXPECT_EQ(moving("figure-3.10"), 0);
+    EXPECT_GT(moving("figure-3.11"), 10);
+}
+
+TEST_F(WindshieldCommand, BadInputGetsOneLine)
+{
+    expectRefused({"--rain", "-1mm/h"}, 2, "--rain: '-1mm/h' must be from 0mm/h to 1000mm/h");
+    expectRefused({"--speed", "50"}, 2, "--speed: '50' has no unit");
+    expectRefused({"--drive-cycle", stored("gap.csv", "time_s,speed_m_per_s\n0,1\n\n2,3\n")}, 3, "gap");
+    expectRefused({"--drive-cycle", path("none.csv")}, 3, "none.csv");
+    expectRefused({"--background", path("none.png")}, 3, "there is no such file");
+    expectRefused({"--background", stored("bad.png", "no picture")}, 3, "bad.png");
+    expectRefused({"--surface", path("none.glb")}, 3, "none.glb");
+    expectRefused({"--surface", "glass.obj"}, 2, ".glb or .gltf");
+    expectRefused({"--preset", "figure-9"}, 2, "figure-3.10");
+    expectRefused({"--codec", "libx264"}, 2, "--codec is of videos");
+    expectRefused({"--resume"}, 2, "--resume is of frames");
+    expectRefused({"--maps", "m.png"}, 2, "%d");
+    expectRefused({"--droplets", "d.txt"}, 2, ".csv or .json");
+    expectRefused({"--fit"}, 2, "--background");
+    expectRefused({"--samples", "5"}, 2, "from 1 to 4");
+    expectRefused({"--size", "10x10"}, 2, "WIDTHxHEIGHT");
+    expectRefused({"--wiper", "1s"}, 2, "from 1.2s to 60s");
+    expectRefused({"--seed", "-1"}, 2, "whole number");
+    expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");
+    const CommandResult format = play(path("x.gif"));
+    EXPECT_EQ(format.exit_code, 2);
+    EXPECT_THAT(format.errorLines(), ElementsAre(HasSubstr("out/%05d.png")));
+    const CommandResult folder = play(path("nowhere/%d.png"));
+    EXPECT_EQ(folder.exit_code, 4);
+    EXPECT_THAT(folder.errorLines(), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace droplet

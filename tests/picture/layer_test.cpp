@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Layers, pictures of numbers, and pictures made to cover a frame.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/picture/evening_road.h"
+#include "droplet/picture/picture.h"
+
+namespace droplet {
+namespace {
+
+template <typename Any>
+cv::Mat decoded(const Any& picture, PngEffort effort)
+{
+    std::ostringstream out;
+    const std::uint64_t count = writePng(picture, out, effort);
+    EXPECT_EQ(count, out.str().size());
+    const std::string bytes = out.str();
+    return cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+                        cv::IMREAD_UNCHANGED);
+}
+
+TEST(LayerPng, AnotherReaderFindsTheSameLevels)
+{
+    std::mt19937 random(3);
+    Layer layer{37, 11, {}};
+    for (int i = 0; i < 37 * 11 * 4; ++i) {
+        layer.rgba.push_back(static_cast<std::uint8_t>(random()));
+    }
+    DeepPicture deep{5, 7, 3, {}};
+    DeepPicture grey{9, 4, 1, {}};
+    for (int i = 0; i < 105; ++i) {
+        deep.levels.push_back(static_cast<std::uint16_t>(random()));
+    }
+    for (int i = 0; i < 36; ++i) {
+        grey.levels.push_back(static_cast<std::uint16_t>(random()));
+    }
+    for (const PngEffort effort : {PngEffort::Small, PngEffort::Fast}) {
+        const cv::Mat a = decoded(layer, effort);
+        ASSERT_EQ(a.type(), CV_8UC4);
+        for (int y = 0; y < 11; ++y) {
+            for (int x = 0; x < 37; ++x) {
+                const auto pixel = a.at<cv::Vec4b>(y, x);
+                const std::uint8_t* own = layer.rgba.data() + 4 * (37 * y + x);
+                EXPECT_EQ(pixel, cv::Vec4b(own[2], own[1], own[0], own[3]));
+            }
+        }
+        const cv::Mat b = decoded(deep, effort);
+        ASSERT_EQ(b.type(), CV_16UC3);
+        EXPECT_EQ(b.at<cv::Vec3w>(6, 2)[2], deep.levels[3 * (6 * 5 + 2)]);
+        EXPECT_EQ(b.at<cv::Vec3w>(6, 2)[0], deep.levels[3 * (6 * 5 + 2) + 2]);
+        const cv::Mat c = decoded(grey, effort);
+        ASSERT_EQ(c.type(), CV_16UC1);
+        for (int i = 0; i < 36; ++i) {
+            EXPECT_EQ(c.at<std::uint16_t>(i / 9, i % 9), grey.levels[static_cast<std::size_t>(i)]);
+        }
+    }
+}
+
+TEST(LayerOver, MixesByAlpha)
+{
+    std::mt19937 random(5);
+    for (int k = 0; k < 3000; ++k) {
+        Layer layer{1, 1, {}};
+        Picture below{1, 1, {}};
+        for (int c = 0; c < 4; ++c) {
+            layer.rgba.push_back(static_cast<std::uint8_t>(random()));
+        }
+        for (int c = 0; c < 3; ++c) {
+            below.rgb.push_back(static_cast<std::uint8_t>(random()));
+        }
+        const Picture mixed = over(layer, below);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double exact = (layer.rgba[c] * layer.rgba[3] + below.rgb[c] * (255.0 - layer.rgba[3])) / 255.0;
+            EXPECT_LE(std::abs(mixed.rgb[c] - exact), 0.5);
+        }
+    }
+    EXPECT_THROW(over(Layer{1, 1, {0, 0, 0, 0}}, Picture{2, 1, {0, 0, 0, 0, 0, 0}}), Error);
+    EXPECT_THROW(over(Layer{1, 1, {0, 0, 0}}, Picture{1, 1, {0, 0, 0}}), Error);
+    EXPECT_THROW((DeepPicture{1, 1, 2, {0, 0}}).validate(), Error);
+}
+
+TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
+{
+    const Picture road = eveningRoad({.width = 64, .height = 36});
+    EXPECT_EQ(covering(road, 64, 36), road);
+    // A plain colour stays itself, whatever the sizes.
+    for (const auto& [w, h] : {std::pair(1, 1), std::pair(100, 3), std::pair(7, 90), std::pair(200, 150)}) {
+        Picture plain{33, 21, {}};
+        for (int i = 0; i < 33 * 21; ++i) {
+            plain.rgb.insert(plain.rgb.end(), {200, 100, 30});
+        }
+        const Picture scaled = covering(plain, w, h);
+        EXPECT_EQ(scaled.width, w);
+        EXPECT_EQ(scaled.height, h);
+        for (std::size_t i = 0; i < scaled.rgb.size(); ++i) {
+            EXPECT_NEAR(scaled.rgb[i], (std::array{200, 100, 30})[i % 3], 1);
+        }
+    }
+    // Three stripes, of which a square frame keeps the one in the middle.
+    Picture stripes{30, 10, {}};
+    for (int i = 0; i < 300; ++i) {
+        const int stripe = i % 30 / 10;
+        for (int c = 0; c < 3; ++c) {
+            stripes.rgb.push_back(c == stripe ? 255 : 0);
+        }
+    }
+    const Picture middle = covering(stripes, 10, 10);
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i + 1)], 255);
+        EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i)], 0);
+    }
+    EXPECT_THROW(covering(road, 0, 5), Error);
+    EXPECT_THROW(covering(road, 5, 9000), Error);
+}
+
+}  // namespace
+}  // namespace droplet
