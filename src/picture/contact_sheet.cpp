@@ -163,9 +163,9 @@ Picture contactSheet(const std::vector<Tile>& tiles, const ContactSheetOptions& 
     }
     const Grid grid = gridOf(tiles.size(), options);
     Picture sheet{grid.width(), grid.height(), {}};
-    sheet.rgb.reserve(3 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height));
-    for (std::size_t i = 0; i < static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height); ++i) {
-        sheet.rgb.insert(sheet.rgb.end(), kPaper.begin(), kPaper.end());
+    sheet.rgb.resize(3 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height));
+    for (std::size_t i = 0; i < sheet.rgb.size(); i += kPaper.size()) {
+        std::copy(kPaper.begin(), kPaper.end(), sheet.rgb.begin() + static_cast<std::ptrdiff_t>(i));
     }
     const double size = 0.45 * grid.caption;
     const Pen pen{size, std::max(1.0, 0.13 * size), {60, 64, 70}};

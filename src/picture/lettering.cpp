@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace droplet {
@@ -259,21 +261,24 @@ double textWidth(std::string_view text, double size)
 
 std::string fitted(std::string_view text, double size, double width)
 {
+    constexpr const char* kEllipsis = "...";
     if (textWidth(text, size) <= width) {
         return std::string(text);
     }
-    std::string shorter(text);
-    while (!shorter.empty()) {
+    std::string kept;
+    while (kept.size() < text.size()) {
         // No character of several bytes is cut.
-        for (bool inner = true; inner && !shorter.empty();) {
-            inner = (static_cast<unsigned char>(shorter.back()) & 0xc0U) == 0x80U;
-            shorter.pop_back();
+        std::size_t end = kept.size() + 1;
+        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) {
+            ++end;
         }
-        if (textWidth(shorter + "...", size) <= width) {
-            return shorter + "...";
+        std::string longer(text.substr(0, end));
+        if (textWidth(longer + kEllipsis, size) > width) {
+            break;
         }
+        kept = std::move(longer);
     }
-    return shorter;
+    return textWidth(kept + kEllipsis, size) <= width ? kept + kEllipsis : std::string();
 }
 
 void drawText(Picture& picture, std::string_view text, Vec2 at, const Pen& pen)

@@ -94,6 +94,8 @@ TEST(Lettering, WidthsAddUpAndScale)
     EXPECT_EQ(fitted("abc", 12.0, 1000.0), "abc");
     EXPECT_LE(textWidth(fitted("a long caption", 12.0, 60.0), 12.0), 60.0);
     EXPECT_EQ(fitted("abc", 12.0, 1.0), "");
+    EXPECT_EQ(fitted("abcdef", 12.0, textWidth("abc...", 12.0)), "abc...");
+    EXPECT_EQ(fitted("\u00b0\u00b0\u00b0\u00b0\u00b0", 12.0, textWidth("\u00b0...", 12.0)), "\u00b0...");
 }
 
 // Every printable character leaves ink, none the same as another, and none is drawn beyond the picture.
