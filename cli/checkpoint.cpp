@@ -74,6 +74,25 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
         path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 
+void removeCheckpoint(const std::string& path, const droplet::OutputOptions& options)
+{
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure)) {
+        return;
+    }
+    droplet::checkWritable(path, options);
+    std::ifstream file(path, std::ios::binary);
+    std::string beginning(kBeginning.size(), '\0');
+    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    if (beginning != kBeginning) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed,
+                             path + ": stands where a checkpoint goes, and is none; it will not be replaced");
+    }
+    if (!std::filesystem::remove(path, failure)) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed, path + ": " + failure.message());
+    }
+}
+
 std::optional<Checkpoint> readCheckpoint(const std::string& path)
 {
     std::error_code ignored;

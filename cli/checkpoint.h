@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/io/output.h"
 #include "droplet/io/windshield_report.h"
 #include "droplet/wind/windshield.h"
 
@@ -22,6 +23,10 @@ struct Checkpoint {
 /// Writes it whole or not at all.
 /// @throws droplet::Error OutputFailed
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// Takes away what an earlier run left.
+/// @throws droplet::Error OutputFailed if what stands there is no checkpoint, or must not be replaced
+void removeCheckpoint(const std::string& path, const droplet::OutputOptions& options);
 
 /// @return                nothing if there is none
 /// @throws droplet::Error InvalidInput if it is damaged

@@ -63,12 +63,9 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"animate", cli::runAnimate},
-                                          {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},
-                                          {"glyphs", cli::runGlyphs},
-                                          {"wind-tunnel", cli::runWindTunnel},
-                                          {"windshield", cli::runWindshield}};
+    static const std::vector<Command> all{{"animate", cli::runAnimate},        {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},        {"glyphs", cli::runGlyphs},
+                                          {"wind-tunnel", cli::runWindTunnel}, {"windshield", cli::runWindshield}};
     return all;
 }
 

@@ -80,6 +80,32 @@ std::optional<std::size_t> NumberedPath::numberIn(const std::string& name) const
     return number;
 }
 
+std::optional<std::size_t> NumberedPath::numberOf(const std::string& path) const
+{
+    const auto place = [](const fs::path& folder) {
+        std::error_code ignored;
+        return fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, ignored), ignored);
+    };
+    const fs::path own(path);
+    // "a/" and "a" are one folder.
+    return place(own.parent_path()) == place(fs::path(folder_ + "x").parent_path()) ? numberIn(own.filename().string())
+                                                                                    : std::nullopt;
+}
+
+std::vector<std::size_t> NumberedPath::numbers() const
+{
+    std::vector<std::size_t> numbers;
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder_.empty() ? "." : folder_, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (const auto number = numberIn(entry->path().filename().string())) {
+            numbers.push_back(*number);
+        }
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
 std::vector<std::pair<std::size_t, std::string>> NumberedPath::existing() const
 {
     std::vector<std::size_t> numbers;

@@ -19,6 +19,12 @@ public:
     static std::optional<NumberedPath> of(const std::string& text, const std::string& subject);
 
     [[nodiscard]] std::string at(std::size_t number) const;
+    /// As it was given.
+    [[nodiscard]] const std::string& text() const { return text_; }
+    /// The number of a path that is one of these.
+    [[nodiscard]] std::optional<std::size_t> numberOf(const std::string& path) const;
+    /// Numbers of the files there are, in order; none if there is no such folder.
+    [[nodiscard]] std::vector<std::size_t> numbers() const;
     /// The path with a word in the number's place.
     [[nodiscard]] std::string with(const std::string& word) const { return folder_ + before_ + word + after_; }
 

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -38,11 +40,21 @@ using droplet::ErrorCode;
 
 constexpr const char* kMaps[] = {"normal", "thickness", "velocity"};
 
+std::string beforeExtension(std::string path, const char* map)
+{
+    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
+}
+
 /// Where a map of a frame goes: `maps/00001-normal.png`.
 std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map)
 {
-    std::string path = maps.at(number);
-    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
+    return beforeExtension(maps.at(number), map);
+}
+
+/// The same with the number's place left open.
+std::string mapPattern(const NumberedPath& maps, const char* map)
+{
+    return beforeExtension(maps.text(), map);
 }
 
 std::string checkpointPath(const NumberedPath& files)
@@ -80,12 +92,51 @@ void check(const WindshieldOptions& options)
     checkFiles(inputs, outputs, options.output_options);
 }
 
-/// A file's size stands for what is in it: enough to tell that another one has taken its place.
-std::string sizeOfFile(const std::optional<std::string>& path)
+/// A number for what is in a file: Fowler, Noll and Vo's hash of 64 bits (RFC 9923), eight bytes at a time.
+std::string hashOf(const std::optional<std::string>& path)
 {
-    std::error_code failure;
-    const auto size = path ? std::filesystem::file_size(*path, failure) : 0;
-    return failure ? "" : "\n" + std::to_string(size);
+    if (!path) {
+        return "\n-";
+    }
+    std::ifstream file(*path, std::ios::binary);
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    std::vector<std::uint64_t> part(std::size_t{1} << 16);
+    do {
+        std::fill(part.begin(), part.end(), 0);
+        file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(8 * part.size()));
+        const auto bytes = static_cast<std::size_t>(file.gcount());
+        for (std::size_t i = 0; 8 * i < bytes; ++i) {
+            hash = (hash ^ part[i]) * 0x100000001b3U;
+        }
+        hash = (hash ^ bytes) * 0x100000001b3U;
+    } while (file);
+    return "\n" + std::to_string(hash);
+}
+
+/// A drive cycle that begins at 0, held to what the options are held to.
+/// @param whole  all of it is to be played
+droplet::DriveCycle driveCycleFrom(const std::string& path, bool whole)
+{
+    droplet::DriveCycle cycle = droplet::readDriveCycle(path);
+    const auto refuse_file = [&](const std::string& words) {
+        throw Error(ErrorCode::InvalidInput, path + ": " + words);
+    };
+    constexpr double kFastest = 150.0;  // as of --speed
+    const double fastest = *std::max_element(cycle.speeds.begin(), cycle.speeds.end());
+    if (fastest > kFastest) {
+        std::ostringstream words;
+        words << "goes at " << fastest << " m/s; a car may go at 150 m/s at most";
+        refuse_file(words.str());
+    }
+    const double first = cycle.times.front();
+    for (double& time : cycle.times) {
+        time -= first;
+    }
+    constexpr double kLongest = 86400.0;  // as of --time
+    if (whole && cycle.times.back() > kLongest) {
+        refuse_file("lasts longer than 24h: --time tells how much of it to play");
+    }
+    return cycle;
 }
 
 class Windshield {
@@ -93,7 +144,7 @@ public:
     explicit Windshield(const WindshieldOptions& options) : options_(options), parameters_(options.parameters)
     {
         if (options_.drive_cycle) {
-            parameters_.vehicle = droplet::readDriveCycle(*options_.drive_cycle);
+            parameters_.vehicle = driveCycleFrom(*options_.drive_cycle, !options_.duration);
         }
         if (options_.surface) {
             const droplet::TexturedMesh object = droplet::readObject(*options_.surface);
@@ -143,8 +194,11 @@ public:
         constexpr double kLongest = 1.0 / 60.0;
         steps_ = static_cast<std::size_t>(std::ceil(1.0 / (kLongest * options_.frames_per_second) - 1e-9));
         step_ = 1.0 / (options_.frames_per_second * static_cast<double>(steps_));
-        fingerprint_ = options_.fingerprint + sizeOfFile(options_.background) + sizeOfFile(options_.drive_cycle) +
-                       sizeOfFile(options_.surface);
+        checkFrames();
+        fingerprint_ = options_.fingerprint;
+        if (options_.files) {
+            fingerprint_ += hashOf(options_.background) + hashOf(options_.drive_cycle) + hashOf(options_.surface);
+        }
         report_.preset = options_.preset;
         report_.drive_cycle = options_.drive_cycle;
         report_.surface = options_.surface;
@@ -218,35 +272,106 @@ private:
             video_ = std::make_unique<VideoWriter>(VideoWriterOptions{options_.output, codec_, report_.view.width,
                                                                       report_.view.height, options_.frames_per_second});
         }
-        const auto checkpoint =
-            options_.resume ? readCheckpoint(checkpointPath(*options_.files)) : std::optional<Checkpoint>();
-        if (checkpoint) {
-            if (checkpoint->fingerprint != fingerprint_) {
-                refuse("--resume: " + checkpointPath(*options_.files) + " is of a run with other options or files");
-            }
-            drawn_before_ = std::min(checkpoint->frames, frames_);
-            // What is told of every frame has to be played again; drawing it has not.
-            if (!options_.droplets && !options_.model && checkpoint->frames <= frames_) {
-                state_ = checkpoint->state;
-                report_.balance = checkpoint->balance;
-                played_ = checkpoint->frames;
-                for (std::size_t k = 0; k + 1 < std::max<std::size_t>(played_, 1); ++k) {
-                    travel();
-                }
-                background_->skip(played_);
-                return;
-            }
+        if (options_.files && takeUp()) {
+            return;
         }
         const auto steps = static_cast<std::size_t>(std::llround(options_.warm_up / step_));
         for (std::size_t k = 0; k < steps; ++k) {
             goOn();
         }
-        noteBalance();
+    }
+
+    /// Goes on where an interrupted run stood, as far as it may.
+    /// @return whether it was the checkpoint's state to go on from; otherwise it begins anew
+    bool takeUp()
+    {
+        const std::string path = checkpointPath(*options_.files);
+        const auto checkpoint = options_.resume ? readCheckpoint(path) : std::optional<Checkpoint>();
+        if (!checkpoint) {
+            // Another run's must not be taken for this one's.
+            removeCheckpoint(path, options_.output_options);
+            return false;
+        }
+        if (checkpoint->fingerprint != fingerprint_) {
+            refuse("--resume: " + path + " is of a run with other options or files");
+        }
+        drawn_before_ = std::min(checkpoint->frames, frames_);
+        bool is_whole = checkpoint->frames <= frames_;
+        for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
+            is_whole = isThere(number);
+        }
+        // What is told of every frame has to be played again, as has what is missing.
+        if (options_.droplets || options_.model || !is_whole) {
+            return false;
+        }
+        state_ = checkpoint->state;
+        report_.balance = checkpoint->balance;
+        played_ = checkpoint->frames;
+        for (std::size_t k = 1; k < played_; ++k) {
+            travel();
+        }
+        background_->skip(played_);
+        return true;
+    }
+
+    /// Whether all files of a frame stand.
+    [[nodiscard]] bool isThere(std::size_t number) const
+    {
+        std::error_code ignored;
+        bool is_there = std::filesystem::exists(options_.files->at(number), ignored);
+        for (const char* map : kMaps) {
+            is_there =
+                is_there && (!options_.maps || std::filesystem::exists(mapPath(*options_.maps, number, map), ignored));
+        }
+        return is_there;
+    }
+
+    /// Frames must not take the place of what is read or written otherwise, nor, if so asked for, of anything.
+    void checkFrames() const
+    {
+        const auto check_pattern = [&](const char* name, const NumberedPath& pattern) {
+            const auto clash = [&](const char* other, const std::optional<std::string>& path) {
+                const auto number = path && !isStream(*path) ? pattern.numberOf(*path) : std::nullopt;
+                if (number && *number >= 1 && *number <= frames_) {
+                    refuse(std::string(name) + " and " + other + " are the same, '" + *path +
+                           "'; they must be different files");
+                }
+            };
+            clash("--background", options_.background);
+            clash("--drive-cycle", options_.drive_cycle);
+            clash("--surface", options_.surface);
+            clash("--config", options_.config);
+            clash("--droplets", options_.droplets);
+            clash("--model", options_.model);
+            clash("--json", options_.json);
+            for (const std::size_t number : pattern.numbers()) {
+                if (options_.output_options.no_clobber && number >= 1 && number <= frames_) {
+                    droplet::checkWritable(pattern.at(number), options_.output_options);
+                }
+            }
+        };
+        if (options_.files) {
+            check_pattern("OUTPUT", *options_.files);
+        }
+        if (options_.maps) {
+            for (const char* map : kMaps) {
+                check_pattern("--maps", *NumberedPath::of(mapPattern(*options_.maps, map), "--maps"));
+            }
+        }
     }
 
     [[nodiscard]] double speed() const { return parameters_.vehicle.speedAt(state_.time); }
 
-    void goOn() { state_ = droplet::step(std::move(state_), parameters_, step_); }
+    void goOn()
+    {
+        // Steps add up to seconds but for rounding.
+        const auto second = [&] { return std::floor(state_.time + 1e-6); };
+        const double before = second();
+        state_ = droplet::step(std::move(state_), parameters_, step_);
+        if (second() > before) {
+            noteBalance();
+        }
+    }
 
     void noteBalance() { report_.balance.push_back(balanceRow(state_, speed())); }
 
@@ -267,9 +392,6 @@ private:
                     goOn();
                 }
                 travel();
-                if (played_ % second == 0) {
-                    noteBalance();
-                }
             }
             if (table_) {
                 table_->add(played_ + 1, state_);
@@ -277,7 +399,7 @@ private:
             if (scene_) {
                 scene_->add(state_);
             }
-            if (played_ >= drawn_before_) {
+            if (played_ >= drawn_before_ || !isThere(played_ + 1)) {
                 draw();
             } else {
                 background_->skip(1);
@@ -289,7 +411,7 @@ private:
             tellProgress();
         }
         saving_.wait();
-        if (report_.balance.back().time != state_.time) {
+        if (report_.balance.empty() || report_.balance.back().time != state_.time) {
             noteBalance();
         }
         report_.counts = state_.counts;

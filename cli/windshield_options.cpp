@@ -338,7 +338,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     // Options that tell how to go about it, or how far, are no part of what is shown.
     const std::set<std::string> beside{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
                                        "--config", "--json",   "--droplets",   "--model"};
-    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion;
+    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (beside.count(name) == 0) {
             options.fingerprint += "\n" + name + " " + value;

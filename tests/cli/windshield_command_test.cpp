@@ -165,16 +165,53 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     const CommandResult refused = play(path("cut/%d.png"), other);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.errorLines(), ElementsAre(HasSubstr("with other options")));
-    // Only what comes after the checkpoint is made again.
-    std::filesystem::remove(path("cut/3.png"));
-    ASSERT_EQ(play(path("cut/%d.png"), more).exit_code, 0);
-    EXPECT_FALSE(std::filesystem::exists(path("cut/3.png")));
-    testing::writeFile(path("cut/3.png"), whole[2]);
+    // What is gone is made again, what stands is not.
+    const auto fifth = std::filesystem::last_write_time(path("cut/5.png"));
+    for (const bool is_missing : {false, true}) {
+        if (is_missing) {
+            std::filesystem::remove(path("cut/3.png"));
+        }
+        std::filesystem::copy_file(path("cut/checkpoint.state"), path("kept.state"),
+                                   std::filesystem::copy_options::overwrite_existing);
+        ASSERT_EQ(play(path("cut/%d.png"), more).exit_code, 0);
+        EXPECT_TRUE(std::filesystem::exists(path("cut/3.png")));
+        EXPECT_EQ(std::filesystem::last_write_time(path("cut/5.png")), fifth);
+        EXPECT_FALSE(std::filesystem::exists(path("cut/checkpoint.state")));
+        EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("balance"), balance);
+        std::filesystem::rename(path("kept.state"), path("cut/checkpoint.state"));
+    }
     auto after = frames("cut");
     ASSERT_GE(after.size(), 25U);
     after.resize(25);
     EXPECT_EQ(after, whole);
-    EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("balance"), balance);
+    // A run that begins anew leaves nothing of this one to go on from.
+    EXPECT_EQ(play(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--no-clobber"}).exit_code, 4);
+    EXPECT_TRUE(std::filesystem::exists(path("cut/checkpoint.state")));
+    ASSERT_EQ(play(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--speed", "1m/s"}).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(path("cut/checkpoint.state")));
+}
+
+TEST_F(WindshieldCommand, FilesThatAreNoneOfItsOwnStay)
+{
+    std::filesystem::create_directory(path("f"));
+    stored("f/checkpoint.state", "a letter");
+    const CommandResult other = play(path("f/%d.png"));
+    EXPECT_EQ(other.exit_code, 4);
+    EXPECT_THAT(other.errorLines(), ElementsAre(HasSubstr("is none; it will not be replaced")));
+    EXPECT_EQ(readFile(path("f/checkpoint.state")), "a letter");
+    std::filesystem::remove(path("f/checkpoint.state"));
+    std::ostringstream bytes;
+    writePng(eveningRoad({.width = 96, .height = 54}), bytes);
+    const std::string road = stored("f/4.png", bytes.str());
+    const CommandResult behind = play(path("f/%d.png"), {"--background", road});
+    EXPECT_EQ(behind.exit_code, 2);
+    EXPECT_THAT(behind.errorLines(), ElementsAre(HasSubstr("OUTPUT and --background are the same")));
+    const CommandResult kept = play(path("f/%d.png"), {"--no-clobber"});
+    EXPECT_EQ(kept.exit_code, 4);
+    EXPECT_THAT(kept.errorLines(), ElementsAre(HasSubstr("4.png")));
+    EXPECT_FALSE(std::filesystem::exists(path("f/1.png"))) << "refused before any work is done";
+    EXPECT_EQ(play(path("f/%d.png"), {"--droplets", path("f/2.csv"), "--json", path("f/2.png")}).exit_code, 2);
+    EXPECT_EQ(readFile(road), bytes.str());
 }
 
 TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
@@ -257,8 +294,36 @@ TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
     const CommandResult run = play(path("x.png"), {"--drive-cycle", cycle, "--json", "-", "--time", "0.5s"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto balance = nlohmann::json::parse(run.output).at("balance");
-    EXPECT_NEAR(balance.front().at("speed_m_per_s").get<double>(), 10.0, 1e-9) << "after warming up at the first speed";
     EXPECT_NEAR(balance.back().at("speed_m_per_s").get<double>(), 10.0 + 10.0 * 14.0 / 15.0, 1e-6);
+    // It lasts from its first row to its last, whenever that was.
+    const std::string late = stored("late.csv", "time_s,speed_m_per_s\n1700000000,1\n1700000000.4,5\n");
+    std::vector<std::string> arguments =
+        argumentsOf(path("y.png"), {"--drive-cycle", late, "--json", "-", "--time", "x"});
+    arguments.erase(arguments.end() - 2, arguments.end());  // no --time
+    const CommandResult own = runDroplet(arguments);
+    ASSERT_EQ(own.exit_code, 0) << own.error;
+    EXPECT_EQ(nlohmann::json::parse(own.output).at("output").at("frames"), 12);
+    expectRefused({"--drive-cycle", stored("fast.csv", "time_s,speed_m_per_s\n0,1e300\n1,5\n")}, 3, "150 m/s at most");
+    std::vector<std::string> years = argumentsOf(
+        path("y.png"), {"--drive-cycle", stored("long.csv", "time_s,speed_m_per_s\n0,1\n1e7,5\n"), "--time", "x"});
+    years.erase(years.end() - 2, years.end());
+    const CommandResult endless = runDroplet(years);
+    EXPECT_EQ(endless.exit_code, 3);
+    EXPECT_THAT(endless.errorLines(), ElementsAre(HasSubstr("lasts longer than 24h")));
+}
+
+TEST_F(WindshieldCommand, TheBalanceIsToldEverySecond)
+{
+    for (const char* rate : {"30", "29.97", "1.5"}) {
+        const CommandResult run =
+            play(path("x.png"), {"--fps", rate, "--warm-up", "2s", "--time", "2.2s", "--json", "-"});
+        ASSERT_EQ(run.exit_code, 0) << run.error;
+        const auto balance = nlohmann::json::parse(run.output).at("balance");
+        ASSERT_GE(balance.size(), 4U) << rate;
+        for (std::size_t k = 0; k + 1 < balance.size(); ++k) {
+            EXPECT_NEAR(balance[k].at("time_s").get<double>(), static_cast<double>(k + 1), 1.0 / 59.0) << rate;
+        }
+    }
 }
 
 TEST_F(WindshieldCommand, PresetsAreTheFigures)
