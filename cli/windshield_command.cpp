@@ -166,7 +166,8 @@ public:
         for (double& time : parameters_.vehicle.times) {
             time += options_.warm_up;
         }
-        parameters_.validate();
+        forGlass([&] { parameters_.validate(); });
+        requireRain();
         if (options_.is_video) {
             codec_ = options_.codec.value_or(codecFor(options_.output));
             checkCodec(codec_, options_.output);
@@ -187,7 +188,7 @@ public:
             refuse("--size: a video's frame must have even sides, not " + std::to_string(view.width) + "x" +
                    std::to_string(view.height));
         }
-        view_ = std::make_unique<droplet::DriversView>(parameters_.glass, view);
+        forGlass([&] { view_ = std::make_unique<droplet::DriversView>(parameters_.glass, view); });
         frames_ =
             std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration_ * options_.frames_per_second)), 1);
         // No step is longer than a sixtieth of a second, and each frame is one.
@@ -219,9 +220,7 @@ public:
         if (options_.droplets) {
             files.push_back({*options_.droplets, {}});
         }
-        if (options_.is_video) {
-            files.push_back({options_.output, {}});
-        } else if (!options_.files) {
+        if (!options_.files) {
             files.push_back({options_.output, {}});
         }
         if (options_.droplets) {
@@ -258,6 +257,43 @@ public:
     }
 
 private:
+    /// Runs what may find the glass unfit, and puts its file's or option's name before the complaint.
+    template <typename Function>
+    void forGlass(const Function& function) const
+    {
+        try {
+            function();
+        } catch (const Error& error) {
+            if (options_.surface) {
+                throw Error(ErrorCode::InvalidInput, *options_.surface + ": as a glass: " + error.what());
+            }
+            throw Error(error.code(), std::string("--glass-width, --eye-distance: ") + error.what());
+        }
+    }
+
+    /// A surface may face away from the rain, above all if its triangles are the wrong way round.
+    void requireRain() const
+    {
+        if (!options_.surface) {
+            return;
+        }
+        const droplet::Glass& glass = parameters_.glass;
+        const double speed = *std::max_element(parameters_.vehicle.speeds.begin(), parameters_.vehicle.speeds.end());
+        constexpr double kFastestRaindrop = 9.65;  // [m/s], Atlas
+        constexpr int kPlaces = 32;
+        for (int j = 0; j < kPlaces; ++j) {
+            for (int i = 0; i < kPlaces; ++i) {
+                const auto place =
+                    glass.place({(i + 0.5) / kPlaces * glass.width(), (j + 0.5) / kPlaces * glass.height()});
+                if (place && kFastestRaindrop * place->normal.z + speed * place->normal.y > 0.0) {
+                    return;
+                }
+            }
+        }
+        throw Error(ErrorCode::InvalidInput,
+                    *options_.surface + ": no rain meets it: its triangles face downward, backward or inward");
+    }
+
     /// Everything before the first frame, or where an interrupted run stood.
     void begin()
     {

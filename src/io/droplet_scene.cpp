@@ -274,15 +274,18 @@ struct DropletScene::Content {
 
     void checkSize() const
     {
-        // Numbers of the keys, and about as much JSON for a node as that is long.
+        // Numbers of the keys, and as much JSON for a node with three channels. While a file is made, memory takes
+        // some fifteen times as much.
         constexpr std::uint64_t kKey = sizeof(Key);
-        constexpr std::uint64_t kNode = 1200;
+        constexpr std::uint64_t kNode = 1800;
+        constexpr std::uint64_t kMost = std::uint64_t{1} << 27;
         const std::uint64_t bytes = kKey * keys + kNode * tracks.size();
-        if (bytes >= kGltfFileLimit) {
-            throw Error(ErrorCode::InvalidArgument,
-                        std::to_string(frames) + " frames of " + std::to_string(tracks.size()) +
-                            " droplets would make a glTF file of about " + std::to_string(bytes) +
-                            " bytes; it must stay below 2 GiB: ask for fewer frames");
+        if (bytes >= kMost) {
+            throw Error(
+                ErrorCode::InvalidArgument,
+                std::to_string(frames) + " frames of " + std::to_string(tracks.size()) +
+                    " droplets would make a glTF file of about " + std::to_string(bytes) +
+                    " bytes; it must stay below 128 MiB: ask for less time, fewer frames a second or less rain");
         }
     }
 
@@ -339,7 +342,8 @@ struct DropletScene::Content {
         }
         model.scenes.push_back(std::move(scene));
         model.defaultScene = 0;
-        if (frames > 1 && !tracks.empty()) {
+        if (frames > 1 &&
+            std::any_of(tracks.begin(), tracks.end(), [](const auto& one) { return changes(one.second); })) {
             model.animations.emplace_back().name = "rain";
             int node = 1;
             for (const auto& [id, track] : tracks) {
@@ -349,19 +353,45 @@ struct DropletScene::Content {
         return model;
     }
 
+    /// Calls take(path, type, interpolation, part) for what changes of a droplet, part(key) being its numbers.
+    template <typename Take>
+    static void forChanging(const Track& track, const Take& take)
+    {
+        const auto offer = [&](const char* path, int type, const char* interpolation, const auto& part) {
+            const auto& keys = track.keys;
+            if (std::any_of(keys.begin(), keys.end(),
+                            [&](const Key& key) { return part(key) != part(keys.front()); })) {
+                take(path, type, interpolation, part);
+            }
+        };
+        offer("translation", TINYGLTF_TYPE_VEC3, "LINEAR", [](const Key& key) { return key.translation; });
+        offer("rotation", TINYGLTF_TYPE_VEC4, "LINEAR", [](const Key& key) { return key.rotation; });
+        offer("scale", TINYGLTF_TYPE_VEC3, "STEP", [](const Key& key) { return key.scale; });
+    }
+
+    static bool changes(const Track& track)
+    {
+        bool found = false;
+        forChanging(track, [&](auto&&...) { found = true; });
+        return found;
+    }
+
     static void addTrack(tinygltf::Model& model, int node, const Track& track)
     {
-        const auto addFloats = [&](int type) {
+        if (!changes(track)) {
+            return;
+        }
+        const auto add_floats = [&](int type) {
             return addArray(model, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, type, track.keys.size());
         };
-        const int times = addFloats(TINYGLTF_TYPE_SCALAR);
+        const int times = add_floats(TINYGLTF_TYPE_SCALAR);
         model.accessors.back().minValues = {track.keys.front().time};
         model.accessors.back().maxValues = {track.keys.back().time};
         tinygltf::Animation& animation = model.animations.front();
-        const auto channel = [&](const char* path, int type, const char* interpolation) {
+        forChanging(track, [&](const char* path, int type, const char* interpolation, const auto& /*part*/) {
             tinygltf::AnimationSampler sampler;
             sampler.input = times;
-            sampler.output = addFloats(type);
+            sampler.output = add_floats(type);
             sampler.interpolation = interpolation;
             tinygltf::AnimationChannel channel;
             channel.sampler = static_cast<int>(animation.samplers.size());
@@ -369,10 +399,7 @@ struct DropletScene::Content {
             channel.target_path = path;
             animation.samplers.push_back(std::move(sampler));
             animation.channels.push_back(std::move(channel));
-        };
-        channel("translation", TINYGLTF_TYPE_VEC3, "LINEAR");
-        channel("rotation", TINYGLTF_TYPE_VEC4, "LINEAR");
-        channel("scale", TINYGLTF_TYPE_VEC3, "STEP");
+        });
     }
 
     static void writeNet(const Net& net, ByteStream& bytes)
@@ -393,18 +420,22 @@ struct DropletScene::Content {
         if (frames <= 1) {
             return;
         }
-        for (const auto& [id, track] : tracks) {
-            const auto put = [&](const auto& part) {
-                for (const Key& key : track.keys) {
-                    for (const float number : part(key)) {
-                        bytes.f32(number);
-                    }
-                }
-            };
-            put([](const Key& key) { return std::array<float, 1>{key.time}; });
-            put([](const Key& key) { return key.translation; });
-            put([](const Key& key) { return key.rotation; });
-            put([](const Key& key) { return key.scale; });
+        for (const auto& entry : tracks) {
+            const Track& track = entry.second;
+            if (!changes(track)) {
+                continue;
+            }
+            for (const Key& key : track.keys) {
+                bytes.f32(key.time);
+            }
+            forChanging(track,
+                        [&](const char* /*path*/, int /*type*/, const char* /*interpolation*/, const auto& part) {
+                            for (const Key& key : track.keys) {
+                                for (const float number : part(key)) {
+                                    bytes.f32(number);
+                                }
+                            }
+                        });
         }
     }
 };

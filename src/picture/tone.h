@@ -25,6 +25,13 @@ inline const std::array<float, 256>& displayLevels()
     return levels;
 }
 
+/// The nearest whole number from 0 to most, without a call.
+inline int nearest(float value, std::size_t most)
+{
+    const float half_up = std::clamp(value, 0.0F, static_cast<float>(most)) + 0.5F;
+    return static_cast<int>(half_up);
+}
+
 /// sRGB levels of linear light in steps of 1/4096.
 using EncodedLevels = std::array<std::uint8_t, 4097>;
 
@@ -44,8 +51,7 @@ inline const EncodedLevels& encodedLevels()
 /// The sRGB level of linear light, to half a level but where they lie so close that a step of 1/4096 is more.
 inline std::uint8_t encoded(float light, const EncodedLevels& levels = encodedLevels())
 {
-    const float steps = std::clamp(light, 0.0F, 1.0F) * static_cast<float>(levels.size() - 1);
-    return levels[static_cast<std::size_t>(static_cast<std::int32_t>(steps + 0.5F))];
+    return levels[static_cast<std::size_t>(nearest(static_cast<float>(levels.size() - 1) * light, levels.size() - 1))];
 }
 
 /// A level over another, mixed by alpha and rounded to the nearest.

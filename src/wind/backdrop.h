@@ -70,7 +70,7 @@ public:
         const float right = x - static_cast<float>(column);
         const float below = y - static_cast<float>(row);
         const std::size_t next = column + 1 < own.width ? 1 : 0;
-        const Four* const upper = light + row * own.width + column;
+        const Four* const upper = light + static_cast<std::ptrdiff_t>(row) * own.width + column;
         const Four* const lower = row + 1 < own.height ? upper + own.width : upper;
         const Four above = upper[0] + four(right) * (upper[next] - upper[0]);
         const Four under = lower[0] + four(right) * (lower[next] - lower[0]);

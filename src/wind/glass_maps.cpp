@@ -77,7 +77,7 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     std::vector<std::vector<std::uint32_t>> in_band(static_cast<std::size_t>(bands));
     const auto rowOf = [&](double y) { return (glass.height() - y) / pixel - 0.5; };
     for (std::size_t k = 0; k < drops.size(); ++k) {
-        const double reach = drops[k].shape.half_length + drops[k].shape.contact_radius;
+        const double reach = drops[k].shape.half_length + drops[k].shape.silhouette();
         const double top = rowOf(drops[k].position.y + reach);
         const double bottom = rowOf(drops[k].position.y - reach);
         if (bottom < 0.0 || top > height - 1) {
@@ -103,7 +103,7 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
         for (const std::uint32_t k : in_band[static_cast<std::size_t>(band)]) {
             const Drop& drop = drops[k];
             const RunningShape& shape = drop.shape;
-            const double reach = shape.half_length + shape.contact_radius;
+            const double reach = shape.half_length + shape.silhouette();
             const int left = std::max(static_cast<int>(std::ceil((drop.position.x - reach) / pixel - 0.5)), 0);
             const int right =
                 std::min(static_cast<int>(std::floor((drop.position.x + reach) / pixel - 0.5)), width - 1);
@@ -118,11 +118,12 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
                     const double b = cross(drop.along, from);
                     const double end = std::copysign(std::max(std::abs(a) - shape.half_length, 0.0), a);
                     const double far2 = end * end + b * b;
-                    if (far2 >= shape.contact_radius * shape.contact_radius) {
+                    if (far2 >= shape.silhouette() * shape.silhouette()) {
                         continue;
                     }
                     const double up = std::sqrt(shape.radius * shape.radius - far2);
-                    const double thickness = up + shape.centre_height;
+                    // Where it overhangs its contact there is air below.
+                    const double thickness = std::min(up + shape.centre_height, 2.0 * up);
                     double& most =
                         thickest[static_cast<std::size_t>(row - band * kBand) * static_cast<std::size_t>(width) +
                                  static_cast<std::size_t>(column)];

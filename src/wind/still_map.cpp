@@ -57,7 +57,8 @@ StillMap::StillMap(const MapWindow& window, double contact_angle)
 StillMap::Box StillMap::boxOf(const StillDroplets& still, std::size_t cell) const
 {
     const auto column = static_cast<double>(cell % still.columns);
-    const auto row = static_cast<double>(cell / still.columns);
+    const std::size_t whole_rows = cell / still.columns;
+    const auto row = static_cast<double>(whole_rows);
     // A texel is the cell's in which its middle lies.
     const auto edge = [&](double at, std::int64_t first, int most) {
         const auto texel = static_cast<std::int64_t>(std::ceil(at / texel_ - 0.5)) - first;
@@ -81,10 +82,11 @@ bool StillMap::draw(const StillDroplets& still, std::size_t cell)
              c <= std::min<std::int64_t>(column + 1, still.columns - 1); ++c) {
             for (const StillDroplet& droplet :
                  still.droplets(static_cast<std::size_t>(r) * still.columns + static_cast<std::size_t>(c))) {
-                // Cells beyond the next one are not looked at.
-                const double contact = std::min(unit_radius_ * std::cbrt(droplet.volume), still.cell - texel_);
+                const double contact = unit_radius_ * std::cbrt(droplet.volume);
                 const double sphere = contact / sine_;
-                const double reach = contact + 0.5 * texel_;
+                // Cells beyond the next one are not looked at.
+                const double wide = std::min(cosine_ < 0.0 ? sphere : contact, still.cell - texel_);
+                const double reach = wide + 0.5 * texel_;
                 const double x0 = droplet.position.x / texel_ - 0.5 - static_cast<double>(first_column_);
                 const double y0 = droplet.position.y / texel_ - 0.5 - static_cast<double>(first_row_);
                 const int left = std::max(box.left, static_cast<int>(std::ceil(x0 - reach / texel_)));
@@ -96,17 +98,19 @@ bool StillMap::draw(const StillDroplets& still, std::size_t cell)
                         const double x = texel_ * (i - x0);
                         const double y = texel_ * (j - y0);
                         const double far = std::hypot(x, y);
-                        const double cover = std::min((contact - far) / texel_ + 0.5, 1.0);
+                        const double cover = std::min((wide - far) / texel_ + 0.5, 1.0);
                         if (cover <= 0.0) {
                             continue;
                         }
-                        const double inside = std::min(1.0, contact / std::max(far, 1e-12));  // of the rim, its normal
+                        const double inside = std::min(1.0, wide / std::max(far, 1e-12));  // of the rim, its normal
                         const double up = std::sqrt(std::max(sphere * sphere - far * far * inside * inside, 0.0));
                         const Vec3f normal{static_cast<float>(x * inside / sphere),
                                            static_cast<float>(y * inside / sphere), static_cast<float>(up / sphere)};
                         Texel& texel = drawn[static_cast<std::size_t>((j - box.low) * width + i - box.left)];
-                        texel = std::max(texel, Texel(up - sphere * cosine_, normal, static_cast<float>(cover),
-                                                      static_cast<float>(contact / texel_)));
+                        // Where it overhangs its contact there is air below.
+                        const double thickness = std::min(up - sphere * cosine_, 2.0 * up);
+                        texel = std::max(texel, Texel(thickness, normal, static_cast<float>(cover),
+                                                      static_cast<float>(wide / texel_)));
                     }
                 }
             }
@@ -127,11 +131,12 @@ bool StillMap::draw(const StillDroplets& still, std::size_t cell)
 std::uint8_t StillMap::reachOf(const StillDroplets& still, std::size_t cell) const
 {
     const double left = static_cast<double>(cell % still.columns) * still.cell;
-    const double low = static_cast<double>(cell / still.columns) * still.cell;
+    const std::size_t row = cell / still.columns;
+    const double low = static_cast<double>(row) * still.cell;
     std::uint8_t bits = 0;
     for (const StillDroplet& droplet : still.droplets(cell)) {
         // Two texels more: draw() decides by the middles of texels, and rounds.
-        const double reach = unit_radius_ * std::cbrt(droplet.volume) + 2.0 * texel_;
+        const double reach = unit_radius_ / (cosine_ < 0.0 ? sine_ : 1.0) * std::cbrt(droplet.volume) + 2.0 * texel_;
         const bool to_left = droplet.position.x - reach < left;
         const bool to_right = droplet.position.x + reach > left + still.cell;
         const bool down = droplet.position.y - reach < low;
@@ -154,16 +159,16 @@ std::vector<std::size_t> StillMap::follow(const StillDroplets& still)
         reaches_.assign(count, 0);
     }
     // Cells in the window, and those next to it.
-    const auto cellAt = [&](double at, std::uint32_t most) {
+    const auto cell_at = [&](double at, std::uint32_t most) {
         return static_cast<std::int64_t>(std::clamp(std::floor(at / still.cell), 0.0, static_cast<double>(most) - 1.0));
     };
     if (count == 0) {
         return {};
     }
-    const std::int64_t left = cellAt(static_cast<double>(first_column_) * texel_, still.columns);
-    const std::int64_t right = cellAt(static_cast<double>(first_column_ + columns_) * texel_, still.columns);
-    const std::int64_t low = cellAt(static_cast<double>(first_row_) * texel_, still.rows);
-    const std::int64_t high = cellAt(static_cast<double>(first_row_ + rows_) * texel_, still.rows);
+    const std::int64_t left = cell_at(static_cast<double>(first_column_) * texel_, still.columns);
+    const std::int64_t right = cell_at(static_cast<double>(first_column_ + columns_) * texel_, still.columns);
+    const std::int64_t low = cell_at(static_cast<double>(first_row_) * texel_, still.rows);
+    const std::int64_t high = cell_at(static_cast<double>(first_row_ + rows_) * texel_, still.rows);
     const auto columns = static_cast<std::int64_t>(still.columns);
     for (std::int64_t r = std::max<std::int64_t>(low - 1, 0); r <= std::min<std::int64_t>(high + 1, still.rows - 1);
          ++r) {

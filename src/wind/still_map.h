@@ -20,19 +20,20 @@ public:
 
     Texel() = default;
     /// @param cover  share of the texel that the droplet takes, over 0 up to 1
-    /// @param radius of contact [texels]
+    /// @param radius of what is seen of it [texels]
     Texel(double thickness, Vec3f normal, float cover, float radius);
 
     [[nodiscard]] bool empty() const { return bits_ == 0; }
     /// 0 … 255
     [[nodiscard]] std::uint32_t cover() const { return static_cast<std::uint32_t>((bits_ >> 8) & 0xFFU); }
     [[nodiscard]] double thickness() const { return kThickest * static_cast<double>(bits_ >> 48) / 65535.0; }
-    /// Of contact, in quarters of texels.
+    /// Radius of what is seen of the droplet, in quarters of texels.
     [[nodiscard]] std::uint8_t size() const { return static_cast<std::uint8_t>(bits_ & 0xFFU); }
     /// Unit, out of the water.
     [[nodiscard]] Vec3f normal() const;
 
-    friend constexpr auto operator<=>(const Texel&, const Texel&) = default;
+    friend constexpr bool operator==(const Texel&, const Texel&) = default;
+    friend constexpr bool operator<(const Texel& a, const Texel& b) { return a.bits_ < b.bits_; }
 
 private:
     /// From the top: 16 bits of thickness, 16 each of the normal's x and y, 8 of cover, 8 of radius.

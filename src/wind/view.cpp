@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
@@ -30,6 +31,12 @@ void require(bool holds, const char* field, double value, const char* constraint
     if (!holds) {
         throw Error(ErrorCode::InvalidArgument, std::string(field) + " " + std::to_string(value) + " " + constraint);
     }
+}
+
+/// A share in 255ths.
+std::uint8_t level8(float share)
+{
+    return static_cast<std::uint8_t>(nearest(255.0F * share, 255));
 }
 
 struct Vec2f {
@@ -82,6 +89,48 @@ struct Tile {
     std::vector<const std::vector<Ray>*> droplets;  ///< that may run and reach into it, in their order
 };
 
+/// Cells of the still droplets in which something changed.
+class ChangedCells {
+public:
+    ChangedCells(const StillDroplets& still, const std::vector<std::size_t>& changed)
+        : columns_(static_cast<int>(still.columns)),
+          rows_(static_cast<int>(still.rows)),
+          per_metre_(static_cast<float>(1.0 / still.cell)),
+          flags_(std::size_t{still.columns} * still.rows, 0)
+    {
+        for (const std::size_t cell : changed) {
+            flags_[cell] = 1;
+        }
+    }
+
+    /// Whether one is in a box [m].
+    [[nodiscard]] bool reach(Vec2f low, Vec2f high) const
+    {
+        const int top = index(high.y, rows_);
+        const int right = index(high.x, columns_);
+        for (int row = index(low.y, rows_); row <= top; ++row) {
+            for (int column = index(low.x, columns_); column <= right; ++column) {
+                if (flags_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(column)] != 0) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    [[nodiscard]] int index(float place, int count) const
+    {
+        return static_cast<int>(std::clamp(place * per_metre_, 0.0F, static_cast<float>(count - 1)));
+    }
+
+    int columns_;
+    int rows_;
+    float per_metre_;
+    std::vector<std::uint8_t> flags_;
+};
+
 /// What a ray through a droplet that may run shows.
 struct Ray {
     PlaceInPicture place;
@@ -109,7 +158,7 @@ struct Traced {
     Vec2f along;  ///< unit, of its motion
     Frame frame;  ///< x along the motion
     Capsule capsule;
-    float contact = 0.0F;
+    float wide = 0.0F;            ///< radius of what is seen of the ends [m]
     std::uint8_t level = 0;       ///< of the backdrop
     std::uint8_t calm_level = 0;  ///< where there is one ray a pixel
     int left = 0;                 ///< pixels it may reach
@@ -388,28 +437,12 @@ struct DriversView::Content {
 
     void sampleAgain(const StillDroplets& still, const std::vector<std::size_t>& changed)
     {
-        std::vector<std::uint8_t> is_changed(std::size_t{still.columns} * still.rows, 0);
-        for (const std::size_t cell : changed) {
-            is_changed[cell] = 1;
-        }
-        const auto cell = [&](float place, std::uint32_t count) {
-            return static_cast<std::size_t>(
-                std::clamp(std::floor(static_cast<double>(place) / still.cell), 0.0, static_cast<double>(count) - 1.0));
-        };
+        const ChangedCells cells(still, changed);
         tbb::parallel_for(0, rows, [&](int r) {
             for (int c = 0; c < columns; ++c) {
                 Tile& tile = tileAt(c, r);
-                bool stale = false;
-                if (tile.on_glass) {
-                    for (std::size_t j = cell(tile.low.y, still.rows); j <= cell(tile.high.y, still.rows); ++j) {
-                        for (std::size_t i = cell(tile.low.x, still.columns); i <= cell(tile.high.x, still.columns);
-                             ++i) {
-                            stale = stale || is_changed[j * still.columns + i] != 0;
-                        }
-                    }
-                }
-                if (stale) {
-                    sample(tile, c, r);
+                if (tile.on_glass && cells.reach(tile.low, tile.high)) {
+                    sample(tile, c, r, cells);
                 }
             }
         });
@@ -430,9 +463,16 @@ struct DriversView::Content {
                                 std::max(diameter * static_cast<float>(options.samples), 1.0F));
     }
 
-    void sample(Tile& tile, int column, int row)
+    /// Makes samples anew of those pixels that see a cell that changed.
+    void sample(Tile& tile, int column, int row, const ChangedCells& cells)
     {
-        tile.samples.clear();
+        const std::vector<StillSample> before = std::exchange(tile.samples, {});
+        tile.samples.reserve(before.size() + kTilePixels);
+        auto old = before.begin();
+        // A texel is the cell's in which its middle lies.
+        const float margin = 1.0F / map.perMetre();
+        const Vec2f half{0.5F * (std::abs(tile.right.x) + std::abs(tile.down.x)) + margin,
+                         0.5F * (std::abs(tile.right.y) + std::abs(tile.down.y)) + margin};
         const auto ior = static_cast<float>(options.ior);
         const float quarter = 0.25F / map.perMetre();  // of a texel
         std::uint8_t size = 0;                         // of the droplet met last, and the level for it
@@ -441,6 +481,15 @@ struct DriversView::Content {
             for (int x = column * kTile; x < std::min((column + 1) * kTile, options.width); ++x) {
                 const Vec2f middle = places[at(x, y)];
                 if (std::isnan(middle.x)) {
+                    continue;
+                }
+                const auto pixel = static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
+                const auto first = old;
+                while (old != before.end() && old->pixel == pixel) {
+                    ++old;
+                }
+                if (!cells.reach({middle.x - half.x, middle.y - half.y}, {middle.x + half.x, middle.y + half.y})) {
+                    tile.samples.insert(tile.samples.end(), first, old);
                     continue;
                 }
                 for (int j = 0; j < options.samples; ++j) {
@@ -455,9 +504,9 @@ struct DriversView::Content {
                         const Vec3f inside = intoWater(toFrame(tile.frame, ray(x, y)), ior);
                         const Interface out = intoAir(inside, seen.normal(), ior);
                         StillSample sample;
-                        sample.pixel = static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
+                        sample.pixel = pixel;
                         sample.cover = static_cast<std::uint8_t>(seen.cover());
-                        sample.light = static_cast<std::uint8_t>(255.0F * (1.0F - out.reflected) + 0.5F);
+                        sample.light = level8(1.0F - out.reflected);
                         if (out.reflected < 1.0F) {
                             if (seen.size() != size) {
                                 size = seen.size();
@@ -524,14 +573,14 @@ struct DriversView::Content {
         one.frame = {toFloats(right), toFloats(left), toFloats(place->normal)};
         one.capsule = {static_cast<float>(shape.half_length), static_cast<float>(shape.radius),
                        static_cast<float>(shape.centre_height)};
-        one.contact = static_cast<float>(shape.contact_radius);
-        const double reach = shape.half_length + shape.contact_radius;
+        one.wide = static_cast<float>(shape.silhouette());
+        const double reach = shape.half_length + shape.silhouette();
         float left_most = 1e9F;
         float right_most = -1e9F;
         float top = 1e9F;
         float bottom = -1e9F;
         for (const double x : {-reach, reach}) {
-            for (const double y : {-shape.contact_radius, shape.contact_radius}) {
+            for (const double y : {-shape.silhouette(), shape.silhouette()}) {
                 const Vec3 corner = place->point + x * right + y * left - eye;
                 if (corner.y < 1e-3) {
                     return one;
@@ -559,7 +608,7 @@ struct DriversView::Content {
         const Tile& tile =
             tiles[static_cast<std::size_t>((one.top + one.bottom) / 2 / kTile) * static_cast<std::size_t>(columns) +
                   static_cast<std::size_t>((one.left + one.right) / 2 / kTile)];
-        const float diameter = tile.on_glass ? 2.0F * one.contact / tile.pixel : right_most - left_most;
+        const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : right_most - left_most;
         one.level = levelFor(diameter);
         one.calm_level = levelFor(diameter / static_cast<float>(options.samples));
         return one;
@@ -587,8 +636,8 @@ struct DriversView::Content {
         const int n = options.samples;
         const float soft = tile.pixel / static_cast<float>(n);
         // In its middle a droplet is smooth: a ray a pixel does.
-        const float calm = 0.6F * one.contact - tile.pixel;
-        const auto beyondLine = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
+        const float calm = 0.6F * one.wide - tile.pixel;
+        const auto beyond_line = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
         for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
             for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1);
                  ++x) {
@@ -598,10 +647,10 @@ struct DriversView::Content {
                 }
                 const float dx = middle.x - one.position.x;
                 const float dy = middle.y - one.position.y;
-                const float past = beyondLine(one.along.x * dx + one.along.y * dy);
+                const float past = beyond_line(one.along.x * dx + one.along.y * dy);
                 const float aside = one.along.x * dy - one.along.y * dx;
                 const float far2 = past * past + aside * aside;
-                const float out = one.contact + 2.0F * tile.pixel;
+                const float out = one.wide + 2.0F * tile.pixel;
                 if (far2 > out * out) {
                     continue;
                 }
@@ -612,20 +661,20 @@ struct DriversView::Content {
                     const float ey = dy + u * tile.right.y + v * tile.down.y;
                     const float a = one.along.x * ex + one.along.y * ey;
                     const float b = one.along.x * ey - one.along.y * ex;
-                    const float end = beyondLine(a);
-                    const float cover = std::min((one.contact - std::sqrt(end * end + b * b)) / soft + 0.5F, 1.0F);
+                    const float end = beyond_line(a);
+                    const float cover = std::min((one.wide - std::sqrt(end * end + b * b)) / soft + 0.5F, 1.0F);
                     if (cover <= 0.0F) {
                         return;
                     }
                     const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
                     Ray found;
                     found.pixel = static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
-                    found.cover = static_cast<std::uint8_t>(255.0F * cover + 0.5F);
+                    found.cover = level8(cover);
                     found.is_whole = is_whole;
                     if (met.reflected < 1.0F) {
                         found.place = backdrop.placeOf(fromFrame(one.frame, met.transmitted));
                         found.level = is_whole ? one.calm_level : one.level;
-                        found.light = static_cast<std::uint8_t>(255.0F * (1.0F - met.reflected) + 0.5F);
+                        found.light = level8(1.0F - met.reflected);
                     }
                     rays.push_back(found);
                 };
@@ -689,8 +738,9 @@ struct DriversView::Content {
                 shine(tile, light);
                 for (int y = r * kTile; y < std::min((r + 1) * kTile, options.height); ++y) {
                     for (int x = c * kTile; x < std::min((c + 1) * kTile, options.width); ++x) {
-                        const Four& pixel = light[static_cast<std::size_t>((y % kTile) * kTile + x % kTile)];
-                        const auto alpha = static_cast<std::uint32_t>(255.0F * std::min(pixel[3], 1.0F) + 0.5F);
+                        const Four& pixel =
+                            light[static_cast<std::size_t>(y % kTile) * kTile + static_cast<std::size_t>(x % kTile)];
+                        const std::uint32_t alpha = level8(pixel[3]);
                         if (alpha > 0) {
                             const Four straight = four(1.0F / pixel[3]) * pixel;
                             take(at(x, y), encoded(straight[0], levels), encoded(straight[1], levels),

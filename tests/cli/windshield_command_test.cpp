@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -339,6 +341,67 @@ TEST_F(WindshieldCommand, PresetsAreTheFigures)
     };
     EXPECT_EQ(moving("figure-3.10"), 0);
     EXPECT_GT(moving("figure-3.11"), 10);
+}
+
+/// A pane of 400 mm by 283 mm that leans back by 45°, as a GLB; its normals the right way round or inward.
+std::string paneGlb(float outward)
+{
+    std::string buffer;
+    const auto put = [&](std::initializer_list<float> numbers) {
+        for (const float number : numbers) {
+            buffer.append(reinterpret_cast<const char*>(&number), sizeof number);
+        }
+    };
+    const float slant = outward * 0.70710678F;
+    put({-0.2F, 0.2F, 0.0F, 0.2F, 0.2F, 0.0F, -0.2F, 0.0F, -0.2F, 0.2F, 0.0F, -0.2F});
+    put({0, slant, -slant, 0, slant, -slant, 0, slant, -slant, 0, slant, -slant});
+    put({0, 0, 1.414214F, 0, 0, 1, 1.414214F, 1});
+    for (const char index : {0, 2, 3, 0, 3, 1}) {
+        buffer += outward > 0.0F ? index : static_cast<char>(index == 2 ? 3 : index == 3 ? 2 : index);
+        buffer += '\0';
+    }
+    std::string json =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
+        R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3}]}],"buffers":[{"byteLength":140}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":48},)"
+        R"({"buffer":0,"byteOffset":96,"byteLength":32},{"buffer":0,"byteOffset":128,"byteLength":12}],"accessors":[)"
+        R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-0.2,0,-0.2],"max":[0.2,0.2,0]},)"
+        R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"},)"
+        R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC2"},)"
+        R"({"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"}]})";
+    json.append((4 - json.size() % 4) % 4, ' ');
+    std::string glb = "glTF";
+    const auto word = [&](std::size_t number) {
+        for (int k = 0; k < 4; ++k) {
+            glb += static_cast<char>(number >> (8 * k));
+        }
+    };
+    word(2);
+    word(28 + json.size() + buffer.size());
+    word(json.size());
+    glb += "JSON" + json;
+    word(buffer.size());
+    glb += std::string("BIN\0", 4) + buffer;
+    return glb;
+}
+
+TEST_F(WindshieldCommand, AnySurfaceIsAGlass)
+{
+    const CommandResult run = play(path("x.png"), {"--surface", stored("pane.glb", paneGlb(1.0F)), "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto report = nlohmann::json::parse(run.output);
+    EXPECT_NEAR(report.at("glass").at("width_m").get<double>(), 0.4, 1e-5);
+    EXPECT_NEAR(report.at("glass").at("height_m").get<double>(), 0.2 * std::sqrt(2.0), 1e-5);
+    EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
+    expectRefused({"--surface", stored("inward.glb", paneGlb(-1.0F))}, 3, "no rain meets it");
+    // A droplet of the program's own has a hole in the middle, is too small, or is no glass for another reason.
+    testing::writeFile(path("dot.pgm"), "P2\n5 5\n1\n1 1 1 1 1\n1 0 0 0 1\n1 0 0 0 1\n1 0 0 0 1\n1 1 1 1 1\n");
+    ASSERT_EQ(runDroplet({path("dot.pgm"), path("drop.glb"), "--triangles", "200", "--quiet"}).exit_code, 0);
+    const CommandResult drop = play(path("y.png"), {"--surface", path("drop.glb"), "--eye-distance", "100m"});
+    EXPECT_EQ(drop.exit_code, 3) << drop.error;
+    EXPECT_THAT(drop.errorLines(), ElementsAre(HasSubstr("drop.glb: ")));
+    const CommandResult far = play(path("y.png"), {"--glass-width", "1mm"});
+    EXPECT_EQ(far.exit_code, 2);
 }
 
 TEST_F(WindshieldCommand, BadInputGetsOneLine)

@@ -261,8 +261,8 @@ TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
     state.still.revisions[number] = 1;
     // Midpoints, and a rim in which coverage goes with the distance: first order at least.
     double coarse_error = 0.0;
-    for (const double texel : {4e-5, 2e-5}) {
-        StillMap map({{0.04, 0.04}, {0.06, 0.06}, texel}, 90.0 * kDegree);
+    for (const auto& [texel, angle] : {std::pair(4e-5, 90.0), {2e-5, 90.0}, {2e-5, 140.0}, {2e-5, 60.0}}) {
+        StillMap map({{0.04, 0.04}, {0.06, 0.06}, texel}, angle * kDegree);
         map.follow(state.still);
         double sum = 0.0;
         for (const Texel& one : map.texels()) {
@@ -270,7 +270,7 @@ TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
         }
         const double error = std::abs(sum / volume - 1.0);
         EXPECT_LT(error, 0.02);
-        if (coarse_error > 0.0) {
+        if (angle == 90.0 && coarse_error > 0.0) {
             EXPECT_LT(error, std::max(0.6 * coarse_error, 1e-3));
         }
         coarse_error = error;
@@ -348,15 +348,18 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
     const WindshieldState state = rained(parameters, 20);
     GlassMapOptions options;
     options.width = 3000;
-    const GlassMaps maps = glassMaps(parameters.glass, state, options);
-    const double pixel = parameters.glass.width() / options.width;
-    double sum = 0.0;
-    for (const std::uint16_t level : maps.thickness.levels) {
-        sum += level / 65535.0 * options.full_thickness * pixel * pixel;
+    // Whatever the contact angle; but for what overlaps or reaches over the edge, more where droplets lie flat.
+    for (const double angle : {150.0, 120.0, 90.0, 60.0}) {
+        options.shape.contact_angle = angle * kDegree;
+        const GlassMaps held = glassMaps(parameters.glass, state, options);
+        double water = 0.0;
+        for (const std::uint16_t level : held.thickness.levels) {
+            water += level / 65535.0 * options.full_thickness * std::pow(parameters.glass.width() / options.width, 2);
+        }
+        const WaterBalance all = balanceOf(state);
+        EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.05) << angle;
     }
-    const WaterBalance balance = balanceOf(state);
-    const double water = balance.on_glass_still + balance.on_glass_running;
-    EXPECT_NEAR(sum / water, 1.0, 0.05) << "but for what overlaps or reaches over the edge";
+    const GlassMaps maps = glassMaps(parameters.glass, state, options);
     for (std::size_t i = 0; i < maps.thickness.levels.size(); i += 7) {
         const auto value = [&](std::size_t c) { return maps.normal.levels[3 * i + c] / 65535.0 * 2.0 - 1.0; };
         EXPECT_NEAR(value(0) * value(0) + value(1) * value(1) + value(2) * value(2), 1.0, 2e-4);

@@ -28,8 +28,8 @@ struct DropletSceneOptions {
 /// called by its id. Nodes have translation and rotation, LINEAR, and scale, STEP: it is 0 before a droplet is born and
 /// after it has gone. One that runs is lengthened along its way by λ and made narrower and lower by √λ, which keeps its
 /// volume; λ^1.5 is the capsule's length over its width (RunningShape). A droplet's keys stand only where
-/// something changes. Still droplets are left out: they are a map's (glassMaps). The glass is there, too, as a node
-/// `glass`. Metres, +Y up, −Z ahead.
+/// something changes, and only what changes of it is animated. Still droplets are left out: they are a map's
+/// (glassMaps). The glass is there, too, as a node `glass`. Metres, +Y up, −Z ahead.
 class DropletScene {
 public:
     /// @throws Error InvalidArgument
@@ -39,7 +39,7 @@ public:
     DropletScene& operator=(DropletScene&&) noexcept;
 
     /// The next frame.
-    /// @throws Error InvalidArgument: the file would reach 2 GiB
+    /// @throws Error InvalidArgument: the file would reach 128 MiB
     void add(const WindshieldState& state);
 
     /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.

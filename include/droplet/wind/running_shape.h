@@ -22,6 +22,8 @@ struct RunningShape {
     double centre_height = 0.0;   ///< of the line over the glass [m]; negative below 90°
 
     [[nodiscard]] double height() const { return radius + centre_height; }
+    /// Of what is seen of the round ends from over the glass [m]: beyond 90° more than their contact.
+    [[nodiscard]] double silhouette() const { return centre_height > 0.0 ? radius : contact_radius; }
     /// Of the water over the glass [m³].
     [[nodiscard]] double volume() const;
 };

@@ -33,10 +33,10 @@ struct ViewOptions {
 /// direction of a ray tells what is seen of it.
 ///
 /// The eye's rays pass the pane, a plate that does not turn them, and the water on it, and are refracted where they
-/// leave it (Snell, Fresnel). Droplets that can run are capsules (RunningShape), met exactly; still droplets are one
-/// map of the glass that holds normals of caps, kept up with the state: only cells that changed are drawn anew. Where
-/// running droplets have swept it, it is bare: the Lotus tracks. What leads back inside, by total reflection, is as
-/// dark as a cabin is.
+/// leave it (Snell, Fresnel); where a droplet overhangs its contact, as beyond 90°, the air below it is passed over.
+/// Droplets that can run are capsules (RunningShape), met exactly; still droplets are one map of the glass that holds
+/// normals of caps, kept up with the state: only cells that changed are drawn anew. Where running droplets have swept
+/// it, it is bare: the Lotus tracks. What leads back inside, by total reflection, is as dark as a cabin is.
 ///
 /// The picture fills the frame: it is what is seen through dry glass. Refracted rays go far beyond it: past its edge,
 /// at the tangent s₀, a direction of tangent s shows what s₀²/s does. So the picture is mirrored at its edge, as large
