@@ -85,6 +85,7 @@ int main(int argc, char** argv)
 {
     // A reader that went away is then a failed write like any other, found and named where it happens.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // so is a file beyond the limit of its size
     occupyStandardStreams();
     keepMemory();
     try {

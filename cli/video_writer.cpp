@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <ostream>
+#include <regex>
 #include <sstream>
 
 #include "droplet/error.h"
@@ -89,6 +90,21 @@ void checkCodec(const std::string& codec, const std::string& path)
     refuse({codec, "--codec"}, "a video encoder of ffmpeg's: see ffmpeg -encoders");
 }
 
+void tryVideo(const VideoWriterOptions& options)
+{
+    droplet::Picture black{options.width, options.height, {}};
+    black.rgb.assign(
+        std::size_t{3} * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height), 0);
+    try {
+        VideoWriter video(options);
+        video.add(black);
+        std::ostringstream nowhere;
+        video.finish(nowhere);
+    } catch (const Error& error) {
+        refuse("--codec " + options.codec + ": " + error.what());
+    }
+}
+
 VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path), video_(std::tmpfile())
 {
     if (video_ == nullptr) {
@@ -160,7 +176,8 @@ int VideoWriter::end()
 
 void VideoWriter::complain()
 {
-    const std::string line = firstLine(process_.words);
+    // ffmpeg tells where in memory it speaks from: [mp4 @ 0x55d0c0de].
+    const std::string line = std::regex_replace(firstLine(process_.words), std::regex(" @ 0x[0-9a-f]+"), "");
     throw Error(ErrorCode::OutputFailed, path_ + ": ffmpeg cannot write it" + (line.empty() ? "" : ": " + line));
 }
 

@@ -28,6 +28,10 @@ std::string codecFor(const std::string& path);
 /// @throws droplet::Error InvalidArgument if this is none of them; OutputFailed if there is no ffmpeg
 void checkCodec(const std::string& codec, const std::string& path);
 
+/// Makes a video of one black frame, for not every encoder goes with every kind of file.
+/// @throws droplet::Error InvalidArgument, naming --codec, with ffmpeg's words
+void tryVideo(const VideoWriterOptions& options);
+
 /// A video on its way, encoded by the program ffmpeg into a file without a name.
 class VideoWriter {
 public:

@@ -81,6 +81,9 @@ void check(const WindshieldOptions& options)
             outputs.push_back({"--maps", mapPath(*options.maps, 1, map)});
         }
     }
+    if (options.files) {
+        outputs.push_back({"OUTPUT's checkpoint", checkpointPath(*options.files)});
+    }
     const auto output = [&](const char* name, const std::optional<std::string>& path) {
         if (path) {
             outputs.push_back({name, *path});
@@ -305,8 +308,10 @@ private:
             scene_.emplace(parameters_.glass, scene);
         }
         if (options_.is_video) {
-            video_ = std::make_unique<VideoWriter>(VideoWriterOptions{options_.output, codec_, report_.view.width,
-                                                                      report_.view.height, options_.frames_per_second});
+            const VideoWriterOptions video{options_.output, codec_, report_.view.width, report_.view.height,
+                                           options_.frames_per_second};
+            tryVideo(video);
+            video_ = std::make_unique<VideoWriter>(video);
         }
         if (options_.files && takeUp()) {
             return;
@@ -331,8 +336,12 @@ private:
         if (checkpoint->fingerprint != fingerprint_) {
             refuse("--resume: " + path + " is of a run with other options or files");
         }
-        drawn_before_ = std::min(checkpoint->frames, frames_);
-        bool is_whole = checkpoint->frames <= frames_;
+        if (checkpoint->frames > frames_) {
+            refuse("--resume: " + std::to_string(checkpoint->frames) + " frames stand already, and --time asks for " +
+                   std::to_string(frames_));
+        }
+        drawn_before_ = checkpoint->frames;
+        bool is_whole = true;
         for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
             is_whole = isThere(number);
         }

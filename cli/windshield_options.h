@@ -36,9 +36,9 @@ struct WindshieldOptions {
     std::optional<double> duration;  ///< [s]
     double warm_up = 10.0;           ///< [s]
     double frames_per_second = 30.0;
-    std::optional<std::string> droplets;  ///< path or kStandardStream
+    std::optional<std::string> droplets;
     std::optional<std::string> model;
-    std::optional<std::string> json;
+    std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;
     std::string fingerprint;  ///< of all options that tell what the frames show
     std::optional<std::string> config;

@@ -143,9 +143,9 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     for (const char* folder : {"whole", "cut"}) {
         std::filesystem::create_directory(path(folder));
     }
-    ASSERT_EQ(play(path("whole/%d.png"), options("2.5s")).exit_code, 0);
+    ASSERT_EQ(play(path("whole/%d.png"), options("4s")).exit_code, 0);
     const auto whole = frames("whole");
-    ASSERT_THAT(whole, SizeIs(25));
+    ASSERT_THAT(whole, SizeIs(40));
     const auto balance = nlohmann::json::parse(readFile(path("r.json"))).at("balance");
     // A run that would take long, killed once its thirteenth frame stands.
     const std::string script =
@@ -160,13 +160,18 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     ASSERT_GE(before.size(), 13U);
     EXPECT_TRUE(std::equal(before.begin(), before.begin() + 13, whole.begin())) << "what is there is whole";
     // Frames of other options are no continuation.
-    std::vector<std::string> more = options("2.5s");
+    std::vector<std::string> more = options("4s");
     more.emplace_back("--resume");
     std::vector<std::string> other = more;
     other.insert(other.end(), {"--speed", "3m/s"});
     const CommandResult refused = play(path("cut/%d.png"), other);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.errorLines(), ElementsAre(HasSubstr("with other options")));
+    std::vector<std::string> shorter = options("0.5s");
+    shorter.emplace_back("--resume");
+    const CommandResult beyond = play(path("cut/%d.png"), shorter);
+    EXPECT_EQ(beyond.exit_code, 2);
+    EXPECT_THAT(beyond.errorLines(), ElementsAre(HasSubstr("frames stand already, and --time asks for 5")));
     // What is gone is made again, what stands is not.
     const auto fifth = std::filesystem::last_write_time(path("cut/5.png"));
     for (const bool is_missing : {false, true}) {
@@ -183,8 +188,8 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
         std::filesystem::rename(path("kept.state"), path("cut/checkpoint.state"));
     }
     auto after = frames("cut");
-    ASSERT_GE(after.size(), 25U);
-    after.resize(25);
+    ASSERT_GE(after.size(), 40U);
+    after.resize(40);
     EXPECT_EQ(after, whole);
     // A run that begins anew leaves nothing of this one to go on from.
     EXPECT_EQ(play(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--no-clobber"}).exit_code, 4);
@@ -214,6 +219,19 @@ TEST_F(WindshieldCommand, FilesThatAreNoneOfItsOwnStay)
     EXPECT_FALSE(std::filesystem::exists(path("f/1.png"))) << "refused before any work is done";
     EXPECT_EQ(play(path("f/%d.png"), {"--droplets", path("f/2.csv"), "--json", path("f/2.png")}).exit_code, 2);
     EXPECT_EQ(readFile(road), bytes.str());
+    EXPECT_EQ(play(path("f/%d.png"), {"--json", path("f/checkpoint.state")}).exit_code, 2);
+}
+
+TEST_F(WindshieldCommand, FilesBeyondTheirLimitFailAsAnyOther)
+{
+    std::vector<std::string> command{"bash", "-c", "ulimit -f 4; exec \"$@\"", "bash", DROPLET_COMMAND};
+    for (const std::string& argument : argumentsOf(path("x.png"), {"--size", "320x180"})) {
+        command.push_back(argument);
+    }
+    const CommandResult result = testing::runProgram(command);
+    EXPECT_EQ(result.exit_code, 4) << result.error;
+    EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr("x.png")));
+    EXPECT_THAT(scratch_.names(), IsEmpty());
 }
 
 TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
@@ -280,8 +298,9 @@ TEST_F(WindshieldCommand, VideosComeAndGo)
     EXPECT_THAT(codec.errorLines(), ElementsAre(HasSubstr("'no-such-codec' must be a video encoder")));
     // An encoder there is, but not for such a file: ffmpeg's own words.
     const CommandResult misfit = play(path("x.webm"), {"--codec", "libx264"});
-    EXPECT_EQ(misfit.exit_code, 4);
-    EXPECT_THAT(misfit.errorLines(), ElementsAre(HasSubstr("x.webm: ffmpeg cannot write it")));
+    EXPECT_EQ(misfit.exit_code, 2);
+    EXPECT_THAT(misfit.errorLines(), ElementsAre(HasSubstr("--codec libx264: " + path("x.webm") + ": ffmpeg cannot")));
+    EXPECT_THAT(misfit.error, ::testing::Not(HasSubstr("0x")));
     testing::CommandOptions without;
     without.environment = {{"PATH", scratch_.path().string()}};
     const CommandResult missing = runDroplet({"windshield", path("y.mp4")}, without);
@@ -356,8 +375,9 @@ std::string paneGlb(float outward)
     put({-0.2F, 0.2F, 0.0F, 0.2F, 0.2F, 0.0F, -0.2F, 0.0F, -0.2F, 0.2F, 0.0F, -0.2F});
     put({0, slant, -slant, 0, slant, -slant, 0, slant, -slant, 0, slant, -slant});
     put({0, 0, 1.414214F, 0, 0, 1, 1.414214F, 1});
-    for (const char index : {0, 2, 3, 0, 3, 1}) {
-        buffer += outward > 0.0F ? index : static_cast<char>(index == 2 ? 3 : index == 3 ? 2 : index);
+    const std::string order = outward > 0.0F ? "032013" : "023031";
+    for (const char digit : order) {
+        buffer += static_cast<char>(digit - '0');
         buffer += '\0';
     }
     std::string json =
