@@ -358,8 +358,8 @@ Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const 
     const std::vector<Panel> panels = panelsOf(swept, tunnel, drawing);
     title(drawing, swept, options);
     const WindBand winds = windsOf(swept);
-    double low = -1.0;
-    double high = 1.0;
+    double low = std::min(-1.0, options.least);
+    double high = std::max(1.0, options.most);
     for (const TunnelCase& of : tunnel.cases) {
         for (const double wind : {winds.from, winds.to}) {
             const double rate = acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0);
@@ -471,6 +471,9 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     double widest = 0.0;
     for (const Level& level : levels) {
         widest = std::max(widest, width(level));
+    }
+    if (widest < 2.0 * kHalfWord) {
+        return;
     }
     // Half the heights at which it is nearly as wide lie above the middle.
     std::vector<double> heights;
