@@ -197,9 +197,12 @@ int runWindTunnel(int argc, const char* const* argv)
     if (!files.empty()) {
         writeTogether(files, options.files);
     }
+    if (options.quiet) {
+        return 0;
+    }
     if (files.empty()) {
         print(summary(options.runs));  // it is what was asked for
-    } else if (!options.quiet) {
+    } else {
         std::cerr << summary(options.runs);
     }
     return 0;
