@@ -123,6 +123,10 @@ TEST(Thresholds, OfTheThesisAreFittedToTheMeasuredBand)
     const Thresholds found = thresholdsOf(forcesOn(preset.model, preset.reference_volume), preset.slope);
     EXPECT_NEAR(*found.lower, 7.0, 1e-12);
     EXPECT_NEAR(*found.upper, 11.0, 1e-12);
+    const DropletForces forces = forcesOn(preset.model, preset.reference_volume);
+    const double weight = forces.weight * std::sin(preset.slope);
+    EXPECT_NEAR(std::sqrt(weight / forces.drag), 9.2, 0.05) << "neutral wind";
+    EXPECT_NEAR(forces.retention / weight, 0.42, 0.005) << "(r_c/r)²";
     const auto distance = distanceFrom(kMeasuredStillBand, found);
     EXPECT_NEAR(distance->lower, 0.0, 1e-13);
     EXPECT_NEAR(distance->upper, 0.0, 1e-13);
