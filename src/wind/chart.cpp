@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -142,8 +143,9 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
         }
         std::stable_sort(panel.cases.begin(), panel.cases.end(),
                          [](const TunnelCase* a, const TunnelCase* b) { return a->cap.volume < b->cap.volume; });
+        const std::size_t row = p / columns;
         panel.corner = {kMargin + static_cast<double>(p % columns) * (kPanelWidth + kGap),
-                        kHead + static_cast<double>(p / columns) * (kPanelHeight + kGap)};
+                        kHead + static_cast<double>(row) * (kPanelHeight + kGap)};
     }
     return panels;
 }
@@ -290,6 +292,7 @@ std::vector<Vec2> curveOf(const TunnelCase& of, const Scale& x, const Scale& y)
     }
     std::sort(winds.begin(), winds.end());
     std::vector<Vec2> points;
+    points.reserve(winds.size());
     for (const double wind : winds) {
         points.push_back({x.at(wind), y.at(acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0))});
     }
@@ -336,6 +339,7 @@ void drawCurves(Plot& plot, const Panel& panel, const Scale& x, const Scale& y)
     }
     std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<double> wished;
+    wished.reserve(named.size());
     for (const auto& [at, v] : named) {
         wished.push_back(at);
     }
@@ -453,12 +457,13 @@ struct Region {
 void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
 {
     std::vector<Vec2> outline;
+    outline.reserve(2 * levels.size());
     for (const Level& level : levels) {
         outline.push_back({region.to(level), level.y});
     }
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-        outline.push_back({region.from(*level), level->y});
-    }
+    std::transform(levels.rbegin(), levels.rend(), std::back_inserter(outline), [&](const Level& level) {
+        return Vec2{region.from(level), level.y};
+    });
     plot.area(std::move(outline), region.colour, 0.3);
 }
 
