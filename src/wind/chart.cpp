@@ -424,24 +424,31 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
     for (int k = 0; k <= kLevels; ++k) {
         volumes.push_back(y.low * std::pow(y.high / y.low, static_cast<double>(k) / kLevels));
     }
-    // The corner where droplets begin to run without wind.
-    const auto critical = criticalVolume(model, slope);
-    if (critical && *critical > y.low && *critical < y.high) {
-        volumes.push_back(*critical);
-        std::sort(volumes.begin(), volumes.end());
+    // Corners: where edges meet the page's, and where they bend at the boundary layer's edge.
+    for (const double wind : {x.low, x.high}) {
+        for (const RegimeChange& change : regimeChanges(model, {slope, wind}, {y.low, y.high})) {
+            // A root's last digit may lie on either side.
+            volumes.push_back(change.volume * (1.0 - 1e-9));
+            volumes.push_back(change.volume * (1.0 + 1e-9));
+        }
     }
+    const double scale = model.air.boundary_layer / capOf(1.0, model.wetting.contact_angle).height;
+    if (const double bend = scale * scale * scale; bend > y.low && bend < y.high) {
+        volumes.push_back(bend);
+    }
+    std::sort(volumes.begin(), volumes.end());
     std::vector<Level> levels;
     for (const double volume : volumes) {
         const CapSize cap = capOf(volume, model.wetting.contact_angle);
         const Thresholds found = thresholdsOf(forcesOn(model, cap), slope);
         const auto shedding = sheddingWind(model, cap);
         const auto inside = [&](const std::optional<double>& wind) {
-            return wind && *wind >= x.low && *wind <= x.high;
+            const double rounding = 1e-6 * (x.high - x.low);
+            return wind && *wind >= x.low - rounding && *wind <= x.high + rounding;
         };
         const auto at = [&](double wind) { return x.at(std::clamp(wind, x.low, x.high)); };
         levels.push_back({y.at(volume), at(found.lower.value_or(0.0)), at(found.upper.value_or(x.high)),
-                          at(shedding.value_or(x.high)), inside(found.lower) || (volume == critical && x.low == 0.0),
-                          inside(found.upper), inside(shedding)});
+                          at(shedding.value_or(x.high)), inside(found.lower), inside(found.upper), inside(shedding)});
     }
     return levels;
 }
@@ -470,7 +477,7 @@ void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
 /// Its name, near the middle of where it is widest, clear of upright lines and of the one of shedding.
 void name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights)
 {
-    constexpr double kHalfWord = 42.0;
+    constexpr double kHalfWord = 47.0;
     constexpr double kHalfLine = 10.0;
     const auto width = [&](const Level& level) { return region.to(level) - region.from(level); };
     double widest = 0.0;
@@ -492,7 +499,7 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     double least = std::numeric_limits<double>::infinity();
     for (const Level& level : levels) {
         for (double x = region.from(level) + kHalfWord; x <= region.to(level) - kHalfWord; x += 6.0) {
-            const bool fits = level.y > plot.top() + 34.0 && level.y < plot.bottom() - 14.0;
+            const bool fits = level.y > plot.top() + 46.0 && level.y < plot.bottom() - 14.0;
             const auto clear = [&](double line) { return std::abs(line - x) > kHalfWord; };
             const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&
                                   std::all_of(levels.begin(), levels.end(), [&](const Level& other) {
@@ -517,7 +524,7 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
 }
 
 /// The wind that would tear droplets off, as far as it is on the map.
-void drawShedding(Plot& plot, const std::vector<Level>& levels)
+void drawShedding(Plot& plot, const std::vector<Level>& levels, bool is_below)
 {
     std::vector<Vec2> line;
     for (const Level& level : levels) {
@@ -527,12 +534,16 @@ void drawShedding(Plot& plot, const std::vector<Level>& levels)
     }
     if (line.size() > 1) {
         plot.line(line, kSoft, 1.2, 3.5);
-        // Beside its upper end, above the regimes' names.
-        const Vec2 end = line.back();
+        // Beside its upper end, above the regimes' names and below that of the measured band.
         constexpr double kName = 100.0;
-        const bool is_right = end.x + kName > plot.right();
+        constexpr double kRow = 16.0;
+        const double y = plot.top() + 13.0 + (is_below ? kRow : 0.0);
+        const auto at = std::min_element(line.begin(), line.end(), [&](const Vec2& a, const Vec2& b) {
+            return std::abs(a.y - y) < std::abs(b.y - y);
+        });
+        const bool is_right = at->x + kName > plot.right();
         plot.text({"torn off, We 7.5",
-                   {end.x + (is_right ? -8.0 : 10.0), end.y + 13.0},
+                   {at->x + (is_right ? -10.0 : 10.0), at->y},
                    kSmallLetters,
                    kSoft,
                    is_right ? Anchor::End : Anchor::Start});
@@ -595,7 +606,7 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
         };
         draw_edge(&Level::lower, &Level::has_lower);
         draw_edge(&Level::upper, &Level::has_upper);
-        drawShedding(plot, levels);
+        drawShedding(plot, levels, options.measured.has_value());
         std::vector<double> uprights;
         if (options.measured) {
             plot.measured(x, *options.measured);

@@ -180,6 +180,9 @@ TEST_F(WindTunnelRefusal, OfOutputs)
     expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--time", "0s"}, {"--time"});
     expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--time", "24h", "--trace-step", "1ms"},
                   {"--trace-step"});
+    expectRefused(
+        {"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--gust", "1m/s", "--gust-period", "0.001ms"},
+        {"--gust-period", "100000"});
     expectRefused({"--chart", "c.svg", "--slope", "1..13deg:1"}, {"panel", "12"});
     expectRefusal({"wind-tunnel", "--json", "old.json", "--no-clobber"}, 4, {"old.json"});
     expectRefusal({"wind-tunnel", "nowhere/out.csv"}, 4, {"nowhere"});
