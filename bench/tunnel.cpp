@@ -13,10 +13,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <functional>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "droplet/wind/trace.h"
@@ -180,9 +180,9 @@ void series()
 int main(int argc, char** argv)
 {
     std::size_t points = 1'000'000;
-    const char* const kPoints = "--points=";
-    if (argc == 2 && std::strncmp(argv[1], kPoints, std::strlen(kPoints)) == 0) {
-        points = std::strtoull(argv[1] + std::strlen(kPoints), nullptr, 10);
+    constexpr std::string_view kPoints = "--points=";
+    if (argc == 2 && std::string_view(argv[1]).starts_with(kPoints)) {
+        points = std::strtoull(argv[1] + kPoints.size(), nullptr, 10);
     } else if (argc != 1) {
         std::fputs("usage: bench_tunnel [--points=N]\n", stderr);
         return 2;
