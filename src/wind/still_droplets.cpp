@@ -82,23 +82,19 @@ double StillRules::reachOf(double volume) const
     return reach * std::cbrt(volume);
 }
 
-std::optional<StillDroplet> deposit(StillDroplets& still, StillDroplet droplet, const StillRules& rules)
+std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& droplet, const StillRules& rules)
 {
-    const Cells cells = cellsOf(still);
-    while (droplet.volume < rules.greatest) {
-        std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
-        const std::size_t cell = cells.number(droplet.position);
-        if (!other) {
-            if (still.counts[cell] < StillDroplets::kMost) {
-                still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = droplet;
-                ++still.revisions[cell];
-                return std::nullopt;
-            }
-            other = nearestIn(still, cell, droplet.position);
+    std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
+    if (!other) {
+        const std::size_t cell = cellsOf(still).number(droplet.position);
+        if (still.counts[cell] < StillDroplets::kMost) {
+            still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = droplet;
+            ++still.revisions[cell];
+            return std::nullopt;
         }
-        droplet = joined(droplet, removed(still, *other));
+        other = nearestIn(still, cell, droplet.position);
     }
-    return droplet;
+    return joined(droplet, removed(still, *other));
 }
 
 void Taking::close()
