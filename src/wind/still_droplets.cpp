@@ -99,8 +99,6 @@ std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& dro
 
 void Taking::close()
 {
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (const std::size_t cell : touched_) {
         StillDroplet* first = still_->slots.data() + cell * StillDroplets::kMost;
         StillDroplet* end = first + still_->counts[cell];

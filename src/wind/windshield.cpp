@@ -36,7 +36,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kContactCell = 8e-3;
 
 /// Droplets a thread takes at a time.
-constexpr std::size_t kShare = 256;
+constexpr std::size_t kShare = 128;
 
 /// Still droplets take 200 bytes for every 16 mm²: at most 1.25 GB.
 constexpr double kMostArea = 100.0;  // [m²]
@@ -510,7 +510,9 @@ private:
                         take(hit.owner, volume);
                         s_.swept.add(volume);
                         ++s_.counts.swept;
-                        grown.push_back(hit.owner);
+                        if (s_.droplets[hit.owner].velocity == Vec2{}) {
+                            grown.push_back(hit.owner);
+                        }
                     }
                 }
             }
@@ -519,10 +521,8 @@ private:
             pieces.clear();
             for (const std::uint32_t i : grown) {
                 const RunningDroplet& d = s_.droplets[i];
-                if (d.velocity == Vec2{}) {
-                    reach_[i] = caps_.reach(d.volume);
-                    pieces.push_back({i, d.position, d.position, reach_[i]});
-                }
+                reach_[i] = caps_.reach(d.volume);
+                pieces.push_back({i, d.position, d.position, reach_[i]});
             }
         }
         taking.close();

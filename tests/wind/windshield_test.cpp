@@ -827,7 +827,7 @@ TEST(Windshield, GivesTheSameBytesAtAnyNumberOfThreads)
     for (const std::size_t threads : {1U, 2U, 4U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const WindshieldState state = after(startWindshield(p), p, 1.0 / 30.0, 33);
-        EXPECT_GT(state.droplets.size(), 512U) << "too few to be shared among threads";
+        EXPECT_GT(state.droplets.size(), 256U) << "too few to be shared among threads";
         bytes.push_back(bytesOf(state));
     }
     EXPECT_TRUE(bytes[0] == bytes[1]);
