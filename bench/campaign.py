@@ -236,4 +236,7 @@ def run(root, build, native, quick):
 
     tell("stages and peers")
     results["stages"] = stages(build, masks, quick)
+
+    tell("the wind tunnel")
+    results["tunnel"] = output_of(build / "bench" / "bench_tunnel")
     return results

@@ -3,7 +3,7 @@
 //
 //   bench_windshield [--hour=SECONDS]
 //
-// 1. The default glass with 2000 droplets that all move and 200 000 that stand still, dry and in the rain.
+// 1. The default glass with 2000 droplets that all move, alone and among 200 000 that stand still, dry and in the rain.
 // 2. The same droplets per area on ever larger glasses: what a droplet costs.
 // 3. An hour of rain at 25 mm/h, or so many seconds of it: the balance, and how many droplets there are.
 #include "droplet/wind/windshield.h"
@@ -119,30 +119,36 @@ Timing time(WindshieldState state, const WindshieldParameters& p)
 
 void timeDefaultGlass()
 {
-    std::puts("| glass of 1.4 m x 0.8 m | threads | running droplets | of them moving | a step |");
-    std::puts("| --- | ---: | ---: | ---: | ---: |");
-    for (const double rainfall : {0.0, 5.0, 25.0}) {
+    std::puts("| glass of 1.4 m x 0.8 m | still droplets | threads | running droplets | of them moving | a step |");
+    std::puts("| --- | ---: | ---: | ---: | ---: | ---: |");
+    struct Case {
+        double rainfall;  // [mm/h]
+        std::size_t still;
+    };
+    for (const Case& c : {Case{0.0, 0}, Case{0.0, 200'000}, Case{5.0, 200'000}, Case{25.0, 200'000}}) {
         for (const std::size_t threads : {1U, 2U}) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
             WindshieldParameters p = slippery({});
-            p.rainfall = rainfall * kMillimetrePerHour;
-            const Timing t = time(scattered(p, 2000, 200'000), p);
-            std::printf("| rain of %g mm/h | %zu | %.0f | %.0f | %.3f ms |\n", rainfall, threads, t.droplets, t.moving,
-                        1e3 * t.step);
+            p.rainfall = c.rainfall * kMillimetrePerHour;
+            const Timing t = time(scattered(p, 2000, c.still), p);
+            std::printf("| rain of %g mm/h | %zu | %zu | %.0f | %.0f | %.3f ms |\n", c.rainfall, c.still, threads,
+                        t.droplets, t.moving, 1e3 * t.step);
         }
     }
 }
 
 void timeGrowth()
 {
-    std::puts("\n| running droplets | glass | a step | a droplet |");
-    std::puts("| ---: | ---: | ---: | ---: |");
-    for (const std::size_t count : {1'000U, 3'000U, 10'000U, 30'000U, 100'000U}) {
-        // 5000 droplets and 50 000 still ones to a square metre.
-        const double side = std::sqrt(static_cast<double>(count) / 5000.0);
-        const WindshieldParameters p = slippery({.width = side, .height = side, .radius = 10.0});
-        const Timing t = time(scattered(p, count, 10 * count), p);
-        std::printf("| %.0f | %.1f m² | %.3f ms | %.0f ns |\n", t.droplets, side * side, 1e3 * t.step, 1e9 * t.droplet);
+    std::puts("\n| running droplets | glass | still ones to each | a step | a droplet |");
+    std::puts("| ---: | ---: | ---: | ---: | ---: |");
+    for (const std::size_t still : {0U, 10U}) {
+        for (const std::size_t count : {1'000U, 3'000U, 10'000U, 30'000U, 100'000U}) {
+            const double side = std::sqrt(static_cast<double>(count) / 5000.0);  // 5000 to a square metre
+            const WindshieldParameters p = slippery({.width = side, .height = side, .radius = 10.0});
+            const Timing t = time(scattered(p, count, still * count), p);
+            std::printf("| %.0f | %.1f m² | %zu | %.3f ms | %.0f ns |\n", t.droplets, side * side, still, 1e3 * t.step,
+                        1e9 * t.droplet);
+        }
     }
 }
 

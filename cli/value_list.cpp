@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "value_list.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -76,12 +77,12 @@ void shareUnits(std::vector<Item>& items)
     for (const Piece* piece : pieces) {
         unit = piece->unit.empty() ? unit : piece->unit;
     }
-    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
-        if ((*piece)->unit.empty()) {
-            (*piece)->unit = unit;
+    std::for_each(pieces.rbegin(), pieces.rend(), [&](Piece* piece) {
+        if (piece->unit.empty()) {
+            piece->unit = unit;
         }
-        unit = (*piece)->unit;
-    }
+        unit = piece->unit;
+    });
 }
 
 /// A number as one would write it: sums of decimal steps have more digits than they should.

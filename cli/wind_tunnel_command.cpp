@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -105,9 +106,17 @@ std::string summary(const std::vector<droplet::TunnelRun>& runs)
 
 droplet::Drawing drawn(const std::vector<droplet::TunnelRun>& runs, bool is_map)
 {
+    droplet::ChartOptions options;
+    for (const droplet::TunnelRun& run : runs) {
+        for (const droplet::TunnelRow& row : run.tunnel.rows) {
+            options.least = std::min(options.least, row.acceleration);
+            options.most = std::max(options.most, row.acceleration);
+        }
+    }
     std::vector<droplet::Drawing> drawings;
     for (const droplet::TunnelRun& run : runs) {
-        const droplet::ChartOptions options{"Droplets in the wind tunnel: " + run.preset, run.measured};
+        options.title = "Droplets in the wind tunnel: " + run.preset;
+        options.measured = run.measured;
         drawings.push_back(is_map ? regimeMap(run.swept, run.tunnel, options)
                                   : accelerationChart(run.swept, run.tunnel, options));
     }
@@ -188,9 +197,12 @@ int runWindTunnel(int argc, const char* const* argv)
     if (!files.empty()) {
         writeTogether(files, options.files);
     }
+    if (options.quiet) {
+        return 0;
+    }
     if (files.empty()) {
         print(summary(options.runs));  // it is what was asked for
-    } else if (!options.quiet) {
+    } else {
         std::cerr << summary(options.runs);
     }
     return 0;

@@ -160,6 +160,9 @@ void readTrace(const CommandLine& line, WindTunnelOptions& options)
     if (const auto period = line.value("--gust-period")) {
         options.gust.period = quantity(*period, kTime);
     }
+    if (options.gust.amplitude > 0.0 && options.trace.duration / options.gust.period > droplet::kMostGusts) {
+        refuse("--gust-period: at most 100000 of them must make --time");
+    }
     if (options.traces &&
         options.trace.duration / options.trace.interval > static_cast<double>(droplet::kMostMotionPoints)) {
         refuse("--trace-step: at most " + std::to_string(droplet::kMostMotionPoints) + " of them must make --time");

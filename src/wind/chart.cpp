@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -142,8 +143,9 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
         }
         std::stable_sort(panel.cases.begin(), panel.cases.end(),
                          [](const TunnelCase* a, const TunnelCase* b) { return a->cap.volume < b->cap.volume; });
+        const std::size_t row = p / columns;
         panel.corner = {kMargin + static_cast<double>(p % columns) * (kPanelWidth + kGap),
-                        kHead + static_cast<double>(p / columns) * (kPanelHeight + kGap)};
+                        kHead + static_cast<double>(row) * (kPanelHeight + kGap)};
     }
     return panels;
 }
@@ -290,6 +292,7 @@ std::vector<Vec2> curveOf(const TunnelCase& of, const Scale& x, const Scale& y)
     }
     std::sort(winds.begin(), winds.end());
     std::vector<Vec2> points;
+    points.reserve(winds.size());
     for (const double wind : winds) {
         points.push_back({x.at(wind), y.at(acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0))});
     }
@@ -336,6 +339,7 @@ void drawCurves(Plot& plot, const Panel& panel, const Scale& x, const Scale& y)
     }
     std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<double> wished;
+    wished.reserve(named.size());
     for (const auto& [at, v] : named) {
         wished.push_back(at);
     }
@@ -358,8 +362,8 @@ Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const 
     const std::vector<Panel> panels = panelsOf(swept, tunnel, drawing);
     title(drawing, swept, options);
     const WindBand winds = windsOf(swept);
-    double low = -1.0;
-    double high = 1.0;
+    double low = std::min(-1.0, options.least);
+    double high = std::max(1.0, options.most);
     for (const TunnelCase& of : tunnel.cases) {
         for (const double wind : {winds.from, winds.to}) {
             const double rate = acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0);
@@ -420,24 +424,31 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
     for (int k = 0; k <= kLevels; ++k) {
         volumes.push_back(y.low * std::pow(y.high / y.low, static_cast<double>(k) / kLevels));
     }
-    // The corner where droplets begin to run without wind.
-    const auto critical = criticalVolume(model, slope);
-    if (critical && *critical > y.low && *critical < y.high) {
-        volumes.push_back(*critical);
-        std::sort(volumes.begin(), volumes.end());
+    // Corners: where edges meet the page's, and where they bend at the boundary layer's edge.
+    for (const double wind : {x.low, x.high}) {
+        for (const RegimeChange& change : regimeChanges(model, {slope, wind}, {y.low, y.high})) {
+            // A root's last digit may lie on either side.
+            volumes.push_back(change.volume * (1.0 - 1e-9));
+            volumes.push_back(change.volume * (1.0 + 1e-9));
+        }
     }
+    const double scale = model.air.boundary_layer / capOf(1.0, model.wetting.contact_angle).height;
+    if (const double bend = scale * scale * scale; bend > y.low && bend < y.high) {
+        volumes.push_back(bend);
+    }
+    std::sort(volumes.begin(), volumes.end());
     std::vector<Level> levels;
     for (const double volume : volumes) {
         const CapSize cap = capOf(volume, model.wetting.contact_angle);
         const Thresholds found = thresholdsOf(forcesOn(model, cap), slope);
         const auto shedding = sheddingWind(model, cap);
         const auto inside = [&](const std::optional<double>& wind) {
-            return wind && *wind >= x.low && *wind <= x.high;
+            const double rounding = 1e-6 * (x.high - x.low);
+            return wind && *wind >= x.low - rounding && *wind <= x.high + rounding;
         };
         const auto at = [&](double wind) { return x.at(std::clamp(wind, x.low, x.high)); };
         levels.push_back({y.at(volume), at(found.lower.value_or(0.0)), at(found.upper.value_or(x.high)),
-                          at(shedding.value_or(x.high)), inside(found.lower) || (volume == critical && x.low == 0.0),
-                          inside(found.upper), inside(shedding)});
+                          at(shedding.value_or(x.high)), inside(found.lower), inside(found.upper), inside(shedding)});
     }
     return levels;
 }
@@ -453,24 +464,28 @@ struct Region {
 void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
 {
     std::vector<Vec2> outline;
+    outline.reserve(2 * levels.size());
     for (const Level& level : levels) {
         outline.push_back({region.to(level), level.y});
     }
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-        outline.push_back({region.from(*level), level->y});
-    }
+    std::transform(levels.rbegin(), levels.rend(), std::back_inserter(outline), [&](const Level& level) {
+        return Vec2{region.from(level), level.y};
+    });
     plot.area(std::move(outline), region.colour, 0.3);
 }
 
 /// Its name, near the middle of where it is widest, clear of upright lines and of the one of shedding.
 void name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights)
 {
-    constexpr double kHalfWord = 42.0;
+    constexpr double kHalfWord = 47.0;
     constexpr double kHalfLine = 10.0;
     const auto width = [&](const Level& level) { return region.to(level) - region.from(level); };
     double widest = 0.0;
     for (const Level& level : levels) {
         widest = std::max(widest, width(level));
+    }
+    if (widest < 2.0 * kHalfWord) {
+        return;
     }
     // Half the heights at which it is nearly as wide lie above the middle.
     std::vector<double> heights;
@@ -484,7 +499,7 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     double least = std::numeric_limits<double>::infinity();
     for (const Level& level : levels) {
         for (double x = region.from(level) + kHalfWord; x <= region.to(level) - kHalfWord; x += 6.0) {
-            const bool fits = level.y > plot.top() + 34.0 && level.y < plot.bottom() - 14.0;
+            const bool fits = level.y > plot.top() + 46.0 && level.y < plot.bottom() - 14.0;
             const auto clear = [&](double line) { return std::abs(line - x) > kHalfWord; };
             const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&
                                   std::all_of(levels.begin(), levels.end(), [&](const Level& other) {
@@ -509,7 +524,7 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
 }
 
 /// The wind that would tear droplets off, as far as it is on the map.
-void drawShedding(Plot& plot, const std::vector<Level>& levels)
+void drawShedding(Plot& plot, const std::vector<Level>& levels, bool is_below)
 {
     std::vector<Vec2> line;
     for (const Level& level : levels) {
@@ -519,12 +534,16 @@ void drawShedding(Plot& plot, const std::vector<Level>& levels)
     }
     if (line.size() > 1) {
         plot.line(line, kSoft, 1.2, 3.5);
-        // Beside its upper end, above the regimes' names.
-        const Vec2 end = line.back();
+        // Beside its upper end, above the regimes' names and below that of the measured band.
         constexpr double kName = 100.0;
-        const bool is_right = end.x + kName > plot.right();
+        constexpr double kRow = 16.0;
+        const double y = plot.top() + 13.0 + (is_below ? kRow : 0.0);
+        const auto at = std::min_element(line.begin(), line.end(), [&](const Vec2& a, const Vec2& b) {
+            return std::abs(a.y - y) < std::abs(b.y - y);
+        });
+        const bool is_right = at->x + kName > plot.right();
         plot.text({"torn off, We 7.5",
-                   {end.x + (is_right ? -8.0 : 10.0), end.y + 13.0},
+                   {at->x + (is_right ? -10.0 : 10.0), at->y},
                    kSmallLetters,
                    kSoft,
                    is_right ? Anchor::End : Anchor::Start});
@@ -587,7 +606,7 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
         };
         draw_edge(&Level::lower, &Level::has_lower);
         draw_edge(&Level::upper, &Level::has_upper);
-        drawShedding(plot, levels);
+        drawShedding(plot, levels, options.measured.has_value());
         std::vector<double> uprights;
         if (options.measured) {
             plot.measured(x, *options.measured);

@@ -82,29 +82,23 @@ double StillRules::reachOf(double volume) const
     return reach * std::cbrt(volume);
 }
 
-std::optional<StillDroplet> deposit(StillDroplets& still, StillDroplet droplet, const StillRules& rules)
+std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& droplet, const StillRules& rules)
 {
-    const Cells cells = cellsOf(still);
-    while (droplet.volume < rules.greatest) {
-        std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
-        const std::size_t cell = cells.number(droplet.position);
-        if (!other) {
-            if (still.counts[cell] < StillDroplets::kMost) {
-                still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = droplet;
-                ++still.revisions[cell];
-                return std::nullopt;
-            }
-            other = nearestIn(still, cell, droplet.position);
+    std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
+    if (!other) {
+        const std::size_t cell = cellsOf(still).number(droplet.position);
+        if (still.counts[cell] < StillDroplets::kMost) {
+            still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = droplet;
+            ++still.revisions[cell];
+            return std::nullopt;
         }
-        droplet = joined(droplet, removed(still, *other));
+        other = nearestIn(still, cell, droplet.position);
     }
-    return droplet;
+    return joined(droplet, removed(still, *other));
 }
 
 void Taking::close()
 {
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (const std::size_t cell : touched_) {
         StillDroplet* first = still_->slots.data() + cell * StillDroplets::kMost;
         StillDroplet* end = first + still_->counts[cell];

@@ -33,10 +33,10 @@ struct StillRules {
     [[nodiscard]] double greatestReach() const { return reachOf(greatest); }
 };
 
-/// Puts water on the glass. It joins what it touches, the nearest first, at the centre of their masses, and so on; in a
-/// full cell it joins the nearest there.
-/// @return  what it became, where that is large enough to run; it is then no longer among the still ones
-std::optional<StillDroplet> deposit(StillDroplets& still, StillDroplet droplet, const StillRules& rules);
+/// Puts a droplet on the glass, or joins it with the nearest one that it touches, at the centre of their masses; in a
+/// full cell with the nearest there.
+/// @return  empty where it now stands; else what the two make, which is off the glass
+std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& droplet, const StillRules& rules);
 
 /// Where a still droplet stands.
 struct StillSlot {

@@ -304,6 +304,8 @@ Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, 
     require(wind.amplitude >= 0.0 && std::isfinite(wind.amplitude), "wind.amplitude", wind.amplitude,
             "finite and at least 0 m/s");
     require(isPositive(wind.period), "wind.period", wind.period, "finite and more than 0 s");
+    require(wind.amplitude == 0.0 || options.duration / wind.period <= kMostGusts, "wind.period", wind.period,
+            "at least a 100000th of the duration");
     return Tracer(forces, slope, wind, options).run();
 }
 

@@ -85,12 +85,12 @@ Thresholds thresholdsOf(const DropletForces& forces, double slope)
 namespace {
 
 /// Volumes of a range, its ends included, between which no balance of forces turns.
-std::vector<double> turningVolumes(const ForceModel& model, const Exposure& exposure, const VolumeRange& range)
+std::vector<double> turningVolumes(const ForceModel& model, const TunnelSetting& setting, const VolumeRange& range)
 {
     // Everything at one volume tells the factors of the powers.
     const DropletForces one = forcesOn(model, 1.0);
     const CapSize cap = capOf(1.0, model.wetting.contact_angle);
-    const double weight = one.weight * std::sin(exposure.slope);
+    const double weight = one.weight * std::sin(setting.slope);
     const double edge = std::pow(model.air.boundary_layer / cap.height, 3.0);
     std::vector<double> volumes{range.from, range.to};
     const auto add = [&](double volume) {
@@ -103,7 +103,7 @@ std::vector<double> turningVolumes(const ForceModel& model, const Exposure& expo
     free_air.boundary_layer = 0.0;
     ForceModel free_model = model;
     free_model.air = free_air;
-    const double full_drag = forcesOn(free_model, 1.0).drag * exposure.wind * std::abs(exposure.wind);
+    const double full_drag = forcesOn(free_model, 1.0).drag * setting.wind * std::abs(setting.wind);
     const double n = model.air.profile_exponent;
     const double slowed_drag =
         model.air.boundary_layer > 0.0 ? full_drag * std::pow(cap.height / model.air.boundary_layer, 2.0 * n) : 0.0;
@@ -125,19 +125,19 @@ std::vector<double> turningVolumes(const ForceModel& model, const Exposure& expo
 
 }  // namespace
 
-std::vector<RegimeChange> regimeChanges(const ForceModel& model, const Exposure& exposure, const VolumeRange& range)
+std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSetting& setting, const VolumeRange& range)
 {
     // Per V^(1/3), so that droplets of every size weigh alike.
     const auto beyond = [&](double direction) {
         return [&, direction](double log_volume) {
             const DropletForces forces = forcesOn(model, std::exp(log_volume));
-            return (direction * drivingForce(forces, exposure.slope, exposure.wind) - forces.retention) *
+            return (direction * drivingForce(forces, setting.slope, setting.wind) - forces.retention) *
                    std::exp(-log_volume / 3.0);
         };
     };
     const auto climbs = beyond(1.0);
     const auto runs_down = beyond(-1.0);
-    const std::vector<double> volumes = turningVolumes(model, exposure, range);
+    const std::vector<double> volumes = turningVolumes(model, setting, range);
     std::vector<RegimeChange> changes;
     const auto look = [&](const auto& balance, Regime regime, double from, double to) {
         const double a = std::log(from);

@@ -36,7 +36,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kContactCell = 8e-3;
 
 /// Droplets a thread takes at a time.
-constexpr std::size_t kShare = 256;
+constexpr std::size_t kShare = 128;
 
 /// Still droplets take 200 bytes for every 16 mm²: at most 1.25 GB.
 constexpr double kMostArea = 100.0;  // [m²]
@@ -317,39 +317,57 @@ private:
         }
     }
 
-    /// Small raindrops join the first track they touch, else the still ones.
+    /// Small raindrops, and what they make with still droplets, join the first track they touch.
     void drizzle()
     {
-        const Cells cells = contactCells();
-        for (const StillDroplet& drop : drizzle_) {
-            const double reach = rules_.reachOf(drop.volume);
-            const std::size_t cell = cells.number(drop.position);
-            const auto begin = tracks_.begin() + tracks_of_cell_[cell];
-            const auto end = tracks_.begin() + tracks_of_cell_[cell + 1];
-            const auto touched = std::find_if(begin, end, [&](std::uint32_t i) {
-                const double touching = reach + reach_[i];
-                return Way(from_[i], to_[i]).squaredDistance(drop.position) <= touching * touching;
-            });
-            if (touched != end) {
-                take(*touched, drop.volume);
-            } else {
-                put(drop);
+        for (StillDroplet drop : drizzle_) {
+            bool stands = false;
+            while (!stands && drop.volume < rules_.greatest) {
+                if (const std::optional<std::uint32_t> track = trackAt(drop)) {
+                    take(*track, drop.volume);
+                    stands = true;
+                } else {
+                    stands = !joinsStill(drop);
+                }
+            }
+            if (!stands) {
+                grow(drop);
             }
         }
     }
 
-    /// Still water on the glass, which may become enough to run.
-    void put(const StillDroplet& drop)
+    [[nodiscard]] std::optional<std::uint32_t> trackAt(const StillDroplet& drop) const
     {
-        if (const std::optional<StillDroplet> large = deposit(s_.still, drop, rules_)) {
-            owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
-            s_.droplets.push_back({s_.next_id++, large->position, {}, large->volume, 0.0, 0});
-            from_.push_back(large->position);
-            to_.push_back(large->position);
-            reach_.push_back(caps_.reach(large->volume));
-            grown_.push_back(1);
-            ++s_.counts.grown;
+        const double reach = rules_.reachOf(drop.volume);
+        const std::size_t cell = contactCells().number(drop.position);
+        for (std::uint32_t k = tracks_of_cell_[cell]; k < tracks_of_cell_[cell + 1]; ++k) {
+            const std::uint32_t i = tracks_[k];
+            const double touching = reach + reach_[i];
+            if (Way(from_[i], to_[i]).squaredDistance(drop.position) <= touching * touching) {
+                return i;
+            }
         }
+        return std::nullopt;
+    }
+
+    /// Puts it among the still ones; returns whether it is, joined with another, off the glass again.
+    bool joinsStill(StillDroplet& drop)
+    {
+        const std::optional<StillDroplet> more = settle(s_.still, drop, rules_);
+        drop = more.value_or(drop);
+        return more.has_value();
+    }
+
+    /// What stood still is enough to run.
+    void grow(const StillDroplet& drop)
+    {
+        owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
+        s_.droplets.push_back({s_.next_id++, drop.position, {}, drop.volume, 0.0, 0});
+        from_.push_back(drop.position);
+        to_.push_back(drop.position);
+        reach_.push_back(caps_.reach(drop.volume));
+        grown_.push_back(1);
+        ++s_.counts.grown;
     }
 
     /// A running droplet takes up water that was at rest: momentum is kept.
@@ -492,7 +510,9 @@ private:
                         take(hit.owner, volume);
                         s_.swept.add(volume);
                         ++s_.counts.swept;
-                        grown.push_back(hit.owner);
+                        if (s_.droplets[hit.owner].velocity == Vec2{}) {
+                            grown.push_back(hit.owner);
+                        }
                     }
                 }
             }
@@ -501,10 +521,8 @@ private:
             pieces.clear();
             for (const std::uint32_t i : grown) {
                 const RunningDroplet& d = s_.droplets[i];
-                if (d.velocity == Vec2{}) {
-                    reach_[i] = caps_.reach(d.volume);
-                    pieces.push_back({i, d.position, d.position, reach_[i]});
-                }
+                reach_[i] = caps_.reach(d.volume);
+                pieces.push_back({i, d.position, d.position, reach_[i]});
             }
         }
         taking.close();
@@ -578,7 +596,12 @@ private:
             if (d.volume - bead >= rules_.greatest && p_.glass.holds(place)) {
                 d.volume -= bead;
                 s_.shed.add(bead);
-                put({place, bead});
+                StillDroplet laid{place, bead};
+                while (laid.volume < rules_.greatest && joinsStill(laid)) {
+                }
+                if (laid.volume >= rules_.greatest) {
+                    grow(laid);
+                }
             }
         }
         s_.droplets[i].since_bead = way - at;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "droplet/error.h"
 #include "droplet/wind/windshield.h"
@@ -39,6 +40,9 @@ public:
         (put(values), ...);
     }
 
+    [[nodiscard]] std::string&& taken() { return std::move(bytes_); }
+
+private:
     std::string bytes_{kHead};
 };
 
@@ -145,7 +149,7 @@ std::string bytesOf(const WindshieldState& state)
             out.all(d.position, d.volume);
         }
     }
-    return std::move(out.bytes_);
+    return out.taken();
 }
 
 WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)

@@ -264,6 +264,7 @@ TEST(Trace, RefusesWhatIsOutOfRangeByName)
     expect_refused("wind.mean", [](MotionOptions&, Gust& w) { w.mean = std::nan(""); });
     expect_refused("wind.amplitude", [](MotionOptions&, Gust& w) { w.amplitude = -1.0; });
     expect_refused("wind.period", [](MotionOptions&, Gust& w) { w.period = 0.0; });
+    expect_refused("wind.period", [](MotionOptions&, Gust& w) { w = {9.0, 1.0, 1e-6}; });
 }
 
 }  // namespace

@@ -123,6 +123,10 @@ TEST(Thresholds, OfTheThesisAreFittedToTheMeasuredBand)
     const Thresholds found = thresholdsOf(forcesOn(preset.model, preset.reference_volume), preset.slope);
     EXPECT_NEAR(*found.lower, 7.0, 1e-12);
     EXPECT_NEAR(*found.upper, 11.0, 1e-12);
+    const DropletForces forces = forcesOn(preset.model, preset.reference_volume);
+    const double weight = forces.weight * std::sin(preset.slope);
+    EXPECT_NEAR(std::sqrt(weight / forces.drag), 9.2, 0.05) << "neutral wind";
+    EXPECT_NEAR(forces.retention / weight, 0.42, 0.005) << "(r_c/r)²";
     const auto distance = distanceFrom(kMeasuredStillBand, found);
     EXPECT_NEAR(distance->lower, 0.0, 1e-13);
     EXPECT_NEAR(distance->upper, 0.0, 1e-13);
@@ -191,13 +195,13 @@ TEST(RegimeChanges, MissNoneOnAnyProfile)
         }
         model.air.profile_exponent = k % 5 == 0 ? 0.5 : between(random, 0.0, 1.5);
         model.air.boundary_layer = k % 7 == 0 ? 0.0 : anyOf(random, 1e-4, 1e-1);
-        const Exposure exposure{between(random, 5.0, 90.0) * kDegree, anyOf(random, 1.0, 50.0)};
+        const TunnelSetting setting{between(random, 5.0, 90.0) * kDegree, anyOf(random, 1.0, 50.0)};
         const VolumeRange range{1e-12, 1e-4};
-        const auto changes = regimeChanges(model, exposure, range);
+        const auto changes = regimeChanges(model, setting, range);
         most = std::max(most, changes.size());
         const auto at = [&](double volume) {
             const DropletForces forces = forcesOn(model, volume);
-            return regimeOf(forces, drivingForce(forces, exposure.slope, exposure.wind));
+            return regimeOf(forces, drivingForce(forces, setting.slope, setting.wind));
         };
         for (const RegimeChange& change : changes) {
             EXPECT_EQ(at(change.volume * (1.0 - 1e-7)), change.below) << k;

@@ -14,6 +14,8 @@ namespace droplet {
 struct ChartOptions {
     std::string title = "Droplets in the wind tunnel";  ///< printable ASCII and the few more that drawings know
     std::optional<WindBand> measured = {};              ///< a still band to stand beside
+    double least = 0.0;  ///< an acceleration down to which the axis goes at least, for charts that stand side by side
+    double most = 0.0;   ///< and up to which [m/s²]
 };
 
 /// The most slopes and hystereses that charts show, a panel for each of both.

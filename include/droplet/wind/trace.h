@@ -13,7 +13,7 @@ namespace droplet {
 struct Gust {
     double mean = 0.0;       ///< [m/s]
     double amplitude = 0.0;  ///< [m/s], ≥ 0; 0: a steady wind
-    double period = 1.0;     ///< [s], > 0
+    double period = 1.0;     ///< [s], > 0; at most kMostGusts of them in a series
 
     [[nodiscard]] double at(double time) const;
 };
@@ -30,6 +30,8 @@ struct MotionOptions {
 };
 
 inline constexpr std::size_t kMostMotionPoints = 10'000'000;
+/// Gusts in one series: each takes some fifty steps.
+inline constexpr double kMostGusts = 1e5;
 
 /// A droplet at a time.
 struct MotionPoint {

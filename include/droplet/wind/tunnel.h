@@ -34,7 +34,7 @@ struct Thresholds {
 Thresholds thresholdsOf(const DropletForces& forces, double slope);
 
 /// A slope and a wind up it.
-struct Exposure {
+struct TunnelSetting {
     double slope = 0.0;  ///< α [rad], from 0 to π/2
     double wind = 0.0;   ///< V [m/s]
 };
@@ -55,7 +55,7 @@ struct RegimeChange {
 /// All changes in a range of volumes, in their order. None is overlooked: between the volumes where a balance of forces
 /// may turn, it has one root at most.
 /// @param model  valid
-std::vector<RegimeChange> regimeChanges(const ForceModel& model, const Exposure& exposure,
+std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSetting& setting,
                                         const VolumeRange& range = {});
 
 /// The smallest volume that runs down a slope without wind [m³]; empty where none does, or every one.
