@@ -341,7 +341,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (beside.count(name) == 0) {
-            options.fingerprint += "\n" + name + " " + value;
+            options.fingerprint.append("\n").append(name).append(" ").append(value);
         }
     }
     return options;

@@ -43,6 +43,12 @@ struct Track {
     std::size_t last_frame = 0;  ///< in which it was
 };
 
+/// From the vehicle's frame, y ahead, to the file's, whose front is +Z once it is +Y up: half a turn.
+Vec3 turned(Vec3 v)
+{
+    return {0.0 - v.x, 0.0 - v.y, v.z};
+}
+
 /// A mesh's arrays.
 struct Net {
     std::vector<Vec3> positions;
@@ -107,8 +113,8 @@ Net glassNet(const Glass& glass)
         for (int i = 0; i <= kAcross; ++i) {
             if (const auto place = glass.place({glass.width() * i / kAcross, glass.height() * j / kUpward})) {
                 knots[{i, j}] = static_cast<std::uint32_t>(net.positions.size());
-                net.positions.push_back(place->point);
-                net.normals.push_back(place->normal);
+                net.positions.push_back(turned(place->point));
+                net.normals.push_back(turned(place->normal));
             }
         }
     }
@@ -186,12 +192,12 @@ struct DropletScene::Content {
         const double narrower = 1.0 / std::sqrt(longer);
         Key key;
         key.time = timeOf(frames);
-        key.translation = floats(yUp(place.point));
+        key.translation = floats(yUp(turned(place.point)));
         // Along its width a droplet at rest is the same all around: it stays as it was turned.
         if (speed > 0.0 || track.keys.empty()) {
             const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
-            const Vec3 x = yUp(along.x * place.across + along.y * place.up);
-            const Vec3 y = yUp(place.normal);
+            const Vec3 x = yUp(turned(along.x * place.across + along.y * place.up));
+            const Vec3 y = yUp(turned(place.normal));
             // across, up and normal are left-handed; a turn is made of the way, the normal and what is square to both.
             std::array<double, 4> turn = quaternion(x, y, cross(x, y));
             if (!track.keys.empty()) {

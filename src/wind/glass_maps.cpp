@@ -75,11 +75,11 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     constexpr int kBand = 32;
     const int bands = (height + kBand - 1) / kBand;
     std::vector<std::vector<std::uint32_t>> in_band(static_cast<std::size_t>(bands));
-    const auto rowOf = [&](double y) { return (glass.height() - y) / pixel - 0.5; };
+    const auto row_of = [&](double y) { return (glass.height() - y) / pixel - 0.5; };
     for (std::size_t k = 0; k < drops.size(); ++k) {
         const double reach = drops[k].shape.half_length + drops[k].shape.silhouette();
-        const double top = rowOf(drops[k].position.y + reach);
-        const double bottom = rowOf(drops[k].position.y - reach);
+        const double top = row_of(drops[k].position.y + reach);
+        const double bottom = row_of(drops[k].position.y - reach);
         if (bottom < 0.0 || top > height - 1) {
             continue;
         }
@@ -107,8 +107,8 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
             const int left = std::max(static_cast<int>(std::ceil((drop.position.x - reach) / pixel - 0.5)), 0);
             const int right =
                 std::min(static_cast<int>(std::floor((drop.position.x + reach) / pixel - 0.5)), width - 1);
-            const int top = std::max(static_cast<int>(std::ceil(rowOf(drop.position.y + reach))), band * kBand);
-            const int bottom = std::min(static_cast<int>(std::floor(rowOf(drop.position.y - reach))),
+            const int top = std::max(static_cast<int>(std::ceil(row_of(drop.position.y + reach))), band * kBand);
+            const int bottom = std::min(static_cast<int>(std::floor(row_of(drop.position.y - reach))),
                                         std::min((band + 1) * kBand, height) - 1);
             for (int row = top; row <= bottom; ++row) {
                 for (int column = left; column <= right; ++column) {

@@ -372,8 +372,8 @@ std::string paneGlb(float outward)
         }
     };
     const float slant = outward * 0.70710678F;
-    put({-0.2F, 0.2F, 0.0F, 0.2F, 0.2F, 0.0F, -0.2F, 0.0F, -0.2F, 0.2F, 0.0F, -0.2F});
-    put({0, slant, -slant, 0, slant, -slant, 0, slant, -slant, 0, slant, -slant});
+    put({0.2F, 0.2F, 0.0F, -0.2F, 0.2F, 0.0F, 0.2F, 0.0F, 0.2F, -0.2F, 0.0F, 0.2F});
+    put({0, slant, slant, 0, slant, slant, 0, slant, slant, 0, slant, slant});
     put({0, 0, 1.414214F, 0, 0, 1, 1.414214F, 1});
     const std::string order = outward > 0.0F ? "032013" : "023031";
     for (const char digit : order) {
@@ -385,7 +385,7 @@ std::string paneGlb(float outward)
         R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3}]}],"buffers":[{"byteLength":140}],)"
         R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":48},)"
         R"({"buffer":0,"byteOffset":96,"byteLength":32},{"buffer":0,"byteOffset":128,"byteLength":12}],"accessors":[)"
-        R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-0.2,0,-0.2],"max":[0.2,0.2,0]},)"
+        R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-0.2,0,0],"max":[0.2,0.2,0.2]},)"
         R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"},)"
         R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC2"},)"
         R"({"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"}]})";

@@ -131,9 +131,9 @@ TEST(DropletScene, DropletsAreThereWhileTheyLive)
     EXPECT_FLOAT_EQ(moves[1][0], 0.1F);
     EXPECT_EQ(places[0], places[1]);
     const Vec3 last = glass.place({0.5, 0.25})->point;
-    EXPECT_NEAR(places.back()[0], last.x, 1e-6);
+    EXPECT_NEAR(places.back()[0], -last.x, 1e-6);
     EXPECT_NEAR(places.back()[1], last.z, 1e-6) << "+Y is up";
-    EXPECT_NEAR(places.back()[2], -last.y, 1e-6) << "-Z is ahead";
+    EXPECT_NEAR(places.back()[2], last.y, 1e-6) << "+Z is ahead";
 }
 
 TEST(DropletScene, KeepsVolumesAndPointsAlongTheWay)
@@ -158,8 +158,8 @@ TEST(DropletScene, KeepsVolumesAndPointsAlongTheWay)
     const Vec3 along = (0.1 / speed) * place->across + (0.9 / speed) * place->up;
     const Vec3 x = turned(turns[3], {1, 0, 0});
     const Vec3 y = turned(turns[3], {0, 1, 0});
-    EXPECT_NEAR(dot(x, Vec3{along.x, along.z, -along.y}), 1.0, 1e-5);
-    EXPECT_NEAR(dot(y, Vec3{place->normal.x, place->normal.z, -place->normal.y}), 1.0, 1e-5);
+    EXPECT_NEAR(dot(x, Vec3{-along.x, along.z, along.y}), 1.0, 1e-5);
+    EXPECT_NEAR(dot(y, Vec3{-place->normal.x, place->normal.z, place->normal.y}), 1.0, 1e-5);
 }
 
 TEST(DropletScene, PassesTheValidator)

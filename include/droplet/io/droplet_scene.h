@@ -29,7 +29,8 @@ struct DropletSceneOptions {
 /// after it has gone. One that runs is lengthened along its way by λ and made narrower and lower by √λ, which keeps its
 /// volume; λ^1.5 is the capsule's length over its width (RunningShape). A droplet's keys stand only where
 /// something changes, and only what changes of it is animated. Still droplets are left out: they are a map's
-/// (glassMaps). The glass is there, too, as a node `glass`. Metres, +Y up, −Z ahead.
+/// (glassMaps). The glass is there, too, as a node `glass`. Metres, +Y up, +Z ahead,
+/// as glTF has an object's front and Glass reads one.
 class DropletScene {
 public:
     /// @throws Error InvalidArgument
