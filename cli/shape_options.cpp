@@ -16,10 +16,10 @@ const CommandText& commandText()
     static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
-                                  "  animate      frames of a moving footprint; see droplet-shape animate --help\n"
-                                  "  batch        a droplet of each of many pictures; droplet-shape batch --help\n"
-                                  "  compare      how far two surfaces differ; see droplet-shape compare --help\n"
-                                  "  glyphs       a line of type, or a droplet per glyph; droplet-shape glyphs --help\n"
+                                  "  animate      frames of a moving footprint; see animate --help\n"
+                                  "  batch        a droplet of each of many pictures; see batch --help\n"
+                                  "  compare      how far two surfaces differ; see compare --help\n"
+                                  "  glyphs       a line of type, or a droplet per glyph; see glyphs --help\n"
                                   "  wind-tunnel  which way droplets run in the wind; see wind-tunnel --help\n"
                                   "  windshield   rain on the windshield of a moving car; see windshield --help\n"
                                   "\n" +

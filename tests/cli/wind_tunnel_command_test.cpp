@@ -246,7 +246,8 @@ TEST(WindTunnelCommand, DistanceInTheReadmeIsComputed)
     EXPECT_THAT(result.output, HasSubstr("30 µL: still from 7.70 to 10.52 m/s, +10.0 % and -4.3 % off"));
     EXPECT_THAT(result.output, HasSubstr("30 µL: still from 7.00 to 11.00 m/s, +0.0 % and +0.0 % off"));
     EXPECT_THAT(readme, HasSubstr("from 7.70 to 10.52 m/s, +10.0 % and −4.3 % off"));
-    for (const Json& one : reportOf({}).at("runs").at(0).at("cases")) {
+    const Json report = reportOf({});
+    for (const Json& one : report.at("runs").at(0).at("cases")) {
         for (const char* end : {"lower_share", "upper_share"}) {
             EXPECT_LT(std::abs(one.at("distance_from_measured").at(end).get<double>()), 0.1);
         }
