@@ -239,4 +239,7 @@ def run(root, build, native, quick):
 
     tell("the wind tunnel")
     results["tunnel"] = output_of(build / "bench" / "bench_tunnel")
+    tell("the windshield")
+    results["windshield"] = output_of(build / "bench" / "bench_windshield", f"--hour={60 if quick else 600}")
+    results["view"] = output_of(build / "bench" / "bench_view")
     return results
