@@ -185,25 +185,26 @@ void workThrough(std::size_t count, const std::function<Verdict(std::size_t inde
         require(poll(events.data(), events.size(), kLook) >= 0 || errno == EINTR, "poll");
         for (std::size_t k = 0; k < workers.size(); ++k) {
             Worker& worker = *workers[k];
-            const bool late = worker.isLate(options);
-            if (late) {
-                worker.end();
-            }
-            if (!late && events[k].revents == 0) {
+            // What has an answer, or has fallen, is not late, however late that is seen.
+            const bool silent = events[k].revents == 0;
+            if (silent && !worker.isLate(options)) {
                 continue;
+            }
+            if (silent) {
+                worker.end();
             }
             std::optional<Verdict> verdict = worker.verdict();
             const bool fallen = !verdict;
             if (fallen) {
                 verdict = Verdict{};
-                verdict->message = late ? "did not end" : worker.obituary();
+                verdict->message = silent ? "did not end" : worker.obituary();
             }
             done(worker.item(), *verdict);
             if (next == count) {
                 workers[k].reset();
                 continue;
             }
-            if (late || fallen) {
+            if (silent || fallen) {
                 workers[k] = std::make_unique<Worker>(work, options);
             }
             workers[k]->give(next++);
