@@ -77,7 +77,7 @@ WindshieldState scattered(const WindshieldParameters& p, std::size_t running, st
             static_cast<std::size_t>(place.y / s.cell) * s.columns + static_cast<std::size_t>(place.x / s.cell);
         if (s.counts[number] < StillDroplets::kMost) {
             const double volume = (0.02 + 0.38 * uniform(bits)) * 1e-9;
-            s.slots[number * StillDroplets::kMost + s.counts[number]++] = {place, volume};
+            s.put(number, {place, volume});
             state.rained.add(volume);
         }
     }

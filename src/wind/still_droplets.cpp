@@ -15,13 +15,27 @@ StillDroplet joined(const StillDroplet& a, const StillDroplet& b)
     return {(1.0 / volume) * (a.volume * a.position + b.volume * b.position), volume};
 }
 
+/// Where in its cell, as StillDroplets::places has it.
+std::uint16_t placeOf(const StillDroplets& still, std::size_t cell, Vec2 position)
+{
+    const auto part = [&](double v, std::size_t number) {
+        const double places = kPlaces * (v / still.cell - static_cast<double>(number));
+        return static_cast<std::uint32_t>(std::clamp(places, 0.0, kPlaces - 1.0));
+    };
+    const std::size_t row = cell / still.columns;
+    return static_cast<std::uint16_t>(part(position.x, cell - row * still.columns) + kPlaces * part(position.y, row));
+}
+
 StillDroplet removed(StillDroplets& still, StillSlot place)
 {
     StillDroplet* first = still.slots.data() + place.cell * StillDroplets::kMost;
+    std::uint16_t* places = still.places.data() + place.cell * StillDroplets::kMost;
     const StillDroplet gone = first[place.slot];
     const std::uint8_t left = --still.counts[place.cell];
     std::move(first + place.slot + 1, first + left + 1, first + place.slot);
+    std::move(places + place.slot + 1, places + left + 1, places + place.slot);
     first[left] = {};
+    places[left] = 0;
     ++still.revisions[place.cell];
     return gone;
 }
@@ -33,20 +47,16 @@ std::optional<StillSlot> nearestTouched(const StillDroplets& still, const StillD
     const double most = reach + rules.greatestReach();
     double nearest = most * most;
     std::optional<StillSlot> found;
-    cellsOf(still).visitAround(droplet.position, droplet.position, most, [&](std::size_t first, std::size_t last) {
-        for (std::size_t cell = first; cell <= last; ++cell) {
-            const auto here = still.droplets(cell);
-            for (std::size_t k = 0; k < here.size(); ++k) {
-                const Vec2 apart = here[k].position - droplet.position;
-                const double squared = dot(apart, apart);
-                // The root, which costs most, only where it can matter.
-                if (squared < nearest) {
-                    const double touching = reach + rules.reachOf(here[k].volume);
-                    if (squared <= touching * touching) {
-                        nearest = squared;
-                        found = StillSlot{cell, static_cast<std::uint8_t>(k)};
-                    }
-                }
+    visitNear(still, droplet.position, droplet.position, most, [&](StillSlot slot) {
+        const StillDroplet& other = at(still, slot);
+        const Vec2 apart = other.position - droplet.position;
+        const double squared = dot(apart, apart);
+        // The root, which costs most, only where it can matter.
+        if (squared < nearest) {
+            const double touching = reach + rules.reachOf(other.volume);
+            if (squared <= touching * touching) {
+                nearest = squared;
+                found = slot;
             }
         }
     });
@@ -64,6 +74,19 @@ StillSlot nearestIn(const StillDroplets& still, std::size_t cell, Vec2 p)
 
 }  // namespace
 
+void StillDroplets::put(std::size_t number, const StillDroplet& droplet)
+{
+    const std::size_t slot = number * kMost + counts[number]++;
+    slots[slot] = droplet;
+    places[slot] = placeOf(*this, number, droplet.position);
+    ++revisions[number];
+}
+
+std::size_t StillDroplets::count() const
+{
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
 StillDroplets noStillDroplets(Vec2 size)
 {
     const Cells cells = Cells::over(size, kStillCell);
@@ -72,6 +95,7 @@ StillDroplets noStillDroplets(Vec2 size)
     still.columns = cells.columns;
     still.rows = cells.rows;
     still.slots.resize(cells.count() * StillDroplets::kMost);
+    still.places.resize(still.slots.size());
     still.counts.resize(cells.count());
     still.revisions.resize(cells.count());
     return still;
@@ -88,8 +112,7 @@ std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& dro
     if (!other) {
         const std::size_t cell = cellsOf(still).number(droplet.position);
         if (still.counts[cell] < StillDroplets::kMost) {
-            still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = droplet;
-            ++still.revisions[cell];
+            still.put(cell, droplet);
             return std::nullopt;
         }
         other = nearestIn(still, cell, droplet.position);
@@ -100,11 +123,19 @@ std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& dro
 void Taking::close()
 {
     for (const std::size_t cell : touched_) {
-        StillDroplet* first = still_->slots.data() + cell * StillDroplets::kMost;
-        StillDroplet* end = first + still_->counts[cell];
-        StillDroplet* kept = std::remove_if(first, end, [](const StillDroplet& d) { return d.volume == 0.0; });
-        std::fill(kept, end, StillDroplet{});
-        still_->counts[cell] = static_cast<std::uint8_t>(kept - first);
+        const std::size_t begin = cell * StillDroplets::kMost;
+        std::size_t kept = begin;
+        for (std::size_t slot = begin; slot < begin + still_->counts[cell]; ++slot) {
+            if (still_->slots[slot].volume > 0.0) {
+                still_->slots[kept] = still_->slots[slot];
+                still_->places[kept++] = still_->places[slot];
+            }
+        }
+        for (std::size_t slot = kept; slot < begin + still_->counts[cell]; ++slot) {
+            still_->slots[slot] = {};
+            still_->places[slot] = 0;
+        }
+        still_->counts[cell] = static_cast<std::uint8_t>(kept - begin);
         ++still_->revisions[cell];
     }
     touched_.clear();

@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/vector.h"
 #include "droplet/wind/windshield.h"
 #include "wind/cells.h"
+#include "wind/way.h"
 
 namespace droplet {
 
@@ -43,6 +45,41 @@ struct StillSlot {
     std::size_t cell = 0;
     std::uint8_t slot = 0;
 };
+
+inline const StillDroplet& at(const StillDroplets& still, StillSlot place)
+{
+    return still.slots[place.cell * StillDroplets::kMost + place.slot];
+}
+
+/// Parts of a cell, across and up, that StillDroplets::places tells apart.
+inline constexpr std::uint32_t kPlaces = 256;
+
+/// Calls visit(StillSlot) for all within `radius` of the straight way from a to b, and a few more. It goes by their
+/// places, of which a cell's are a quarter of a cache line: droplets themselves are too many for the cache.
+template <class Visit>
+void visitNear(const StillDroplets& still, Vec2 a, Vec2 b, double radius, const Visit& visit)
+{
+    // In places, from the glass's corner on.
+    const double scale = kPlaces / still.cell;
+    const Way way(scale * a, scale * b);
+    constexpr double kHalfDiagonal = 0.7072;
+    const double near = scale * radius * (1.0 + 1e-9) + kHalfDiagonal;
+    cellsOf(still).visitAround(a, b, radius, [&](std::size_t first, std::size_t last) {
+        const std::size_t row = first / still.columns;
+        const double up = kPlaces * static_cast<double>(row) + 0.5;
+        for (std::size_t cell = first; cell <= last; ++cell) {
+            const double across = kPlaces * static_cast<double>(cell - row * still.columns) + 0.5;
+            const std::uint16_t* places = still.places.data() + cell * StillDroplets::kMost;
+            for (std::uint8_t k = 0; k < still.counts[cell]; ++k) {
+                const std::uint32_t part_across = places[k] % kPlaces;
+                const std::uint32_t part_up = places[k] / kPlaces;
+                if (way.squaredDistance({across + part_across, up + part_up}) <= near * near) {
+                    visit(StillSlot{cell, k});
+                }
+            }
+        }
+    });
+}
 
 /// Takes still droplets away one by one; gaps are closed at the end, so that slots stay what they are until then.
 class Taking {

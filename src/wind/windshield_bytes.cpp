@@ -181,17 +181,18 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     still.counts.resize(cells);
     still.revisions.resize(cells);
     still.slots.resize(cells * StillDroplets::kMost);
+    still.places.resize(still.slots.size());
     for (std::size_t cell = 0; cell < cells; ++cell) {
         std::uint64_t both = 0;
         in.get(both);
         in.require((both & 0xFFU) <= StillDroplets::kMost && both >> 8U <= kMost);
-        still.counts[cell] = static_cast<std::uint8_t>(both & 0xFFU);
-        still.revisions[cell] = static_cast<std::uint32_t>(both >> 8U);
-        for (std::size_t k = 0; k < still.counts[cell]; ++k) {
-            StillDroplet& d = still.slots[cell * StillDroplets::kMost + k];
+        for (std::uint64_t k = 0; k < (both & 0xFFU); ++k) {
+            StillDroplet d;
             in.all(d.position, d.volume);
             in.require(d.volume > 0.0);
+            still.put(cell, d);
         }
+        still.revisions[cell] = static_cast<std::uint32_t>(both >> 8U);
     }
     in.require(in.ended());
     return state;

@@ -256,9 +256,7 @@ TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
     const auto cell = static_cast<std::size_t>(0.05 / state.still.cell);
     const std::size_t number = cell * state.still.columns + cell;
     const double volume = 0.4e-9;
-    state.still.slots[number * StillDroplets::kMost] = {{0.0501, 0.0503}, volume};
-    state.still.counts[number] = 1;
-    state.still.revisions[number] = 1;
+    state.still.put(number, {{0.0501, 0.0503}, volume});
     // Midpoints, and a rim in which coverage goes with the distance: first order at least.
     double coarse_error = 0.0;
     for (const auto& [texel, angle] : {std::pair(4e-5, 90.0), {2e-5, 90.0}, {2e-5, 140.0}, {2e-5, 60.0}}) {

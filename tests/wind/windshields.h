@@ -45,7 +45,7 @@ inline void addStill(WindshieldState& state, Vec2 position, double volume)
     const auto column = static_cast<std::size_t>(position.x / still.cell);
     const auto row = static_cast<std::size_t>(position.y / still.cell);
     const std::size_t cell = row * still.columns + column;
-    still.slots[cell * StillDroplets::kMost + still.counts[cell]++] = {position, volume};
+    still.put(cell, {position, volume});
     state.rained.add(volume);
 }
 

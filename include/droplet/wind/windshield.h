@@ -46,6 +46,7 @@ struct StillDroplets {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
     std::vector<StillDroplet> slots;       ///< kMost for each cell, those in use first
+    std::vector<std::uint16_t> places;     ///< for each slot in use: where in its cell, in 256ths: column + 256 · row
     std::vector<std::uint8_t> counts;      ///< of those in use, for each cell
     std::vector<std::uint32_t> revisions;  ///< for each cell: raised with everything that changes in it
 
@@ -53,6 +54,8 @@ struct StillDroplets {
     {
         return {slots.data() + number * kMost, counts[number]};
     }
+    /// Puts one into a cell that has room and holds its position.
+    void put(std::size_t number, const StillDroplet& droplet);
     /// How many there are.
     [[nodiscard]] std::size_t count() const;
 
