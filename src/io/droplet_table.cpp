@@ -18,7 +18,7 @@ void append(std::string& row, Number number)
 {
     std::array<char, 32> room{};
     const auto end = std::to_chars(room.data(), room.data() + room.size(), number).ptr;
-    if (row.size() > 0 && row.back() != '[') {
+    if (!row.empty() && row.back() != '[') {
         row += ',';
     }
     row.append(room.data(), end);

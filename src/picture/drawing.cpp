@@ -33,8 +33,8 @@ std::vector<std::vector<Vec2>> dashesOf(const Line& line)
         if (drawn && dash.empty()) {
             dash.push_back(from);
         }
-        for (double rest = length(to - from); rest > left; rest = length(to - from)) {
-            from = from + (left / rest) * (to - from);
+        while (length(to - from) > left) {
+            from = from + (left / length(to - from)) * (to - from);
             dash.push_back(from);
             if (drawn) {
                 dashes.push_back(dash);

@@ -498,7 +498,10 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     std::optional<Vec2> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Level& level : levels) {
-        for (double x = region.from(level) + kHalfWord; x <= region.to(level) - kHalfWord; x += 6.0) {
+        const double first = region.from(level) + kHalfWord;
+        const double last = region.to(level) - kHalfWord;
+        for (int k = 0; first + 6.0 * k <= last; ++k) {
+            const double x = first + 6.0 * k;
             const bool fits = level.y > plot.top() + 46.0 && level.y < plot.bottom() - 14.0;
             const auto clear = [&](double line) { return std::abs(line - x) > kHalfWord; };
             const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&

@@ -255,12 +255,11 @@ private:
     /// A time at which the droplet has some speed, or the step's end.
     static double firstMoving(const std::function<double(double)>& speed, double step)
     {
-        for (double part = 0.5 * step; part > 1e-9 * step; part *= 0.5) {
-            if (speed(part) > 0.0) {
-                return part;
-            }
+        double part = 0.5 * step;
+        while (part > 1e-9 * step && !(speed(part) > 0.0)) {
+            part *= 0.5;
         }
-        return step;
+        return part > 1e-9 * step ? part : step;
     }
 
     const DropletForces* forces_;
