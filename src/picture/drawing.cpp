@@ -33,8 +33,9 @@ std::vector<std::vector<Vec2>> dashesOf(const Line& line)
         if (drawn && dash.empty()) {
             dash.push_back(from);
         }
-        while (length(to - from) > left) {
-            from = from + (left / length(to - from)) * (to - from);
+        double rest = length(to - from);
+        while (rest > left) {
+            from = from + (left / rest) * (to - from);
             dash.push_back(from);
             if (drawn) {
                 dashes.push_back(dash);
@@ -44,8 +45,9 @@ std::vector<std::vector<Vec2>> dashesOf(const Line& line)
             }
             drawn = !drawn;
             left = line.dash;
+            rest = length(to - from);
         }
-        left -= length(to - from);
+        left -= rest;
         if (drawn) {
             dash.push_back(to);
         }

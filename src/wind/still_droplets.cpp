@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace droplet {
 namespace {
@@ -26,17 +27,30 @@ std::uint16_t placeOf(const StillDroplets& still, std::size_t cell, Vec2 positio
     return static_cast<std::uint16_t>(part(position.x, cell - row * still.columns) + kPlaces * part(position.y, row));
 }
 
+/// Closes the gaps that droplets without volume leave in a cell; the others keep their order.
+void closeGaps(StillDroplets& still, std::size_t cell)
+{
+    const std::size_t begin = cell * StillDroplets::kMost;
+    const std::size_t end = begin + still.counts[cell];
+    std::size_t kept = begin;
+    for (std::size_t slot = begin; slot < end; ++slot) {
+        if (still.slots[slot].volume > 0.0) {
+            still.slots[kept] = still.slots[slot];
+            still.places[kept++] = still.places[slot];
+        }
+    }
+    still.counts[cell] = static_cast<std::uint8_t>(kept - begin);
+    for (; kept < end; ++kept) {
+        still.slots[kept] = {};
+        still.places[kept] = 0;
+    }
+    ++still.revisions[cell];
+}
+
 StillDroplet removed(StillDroplets& still, StillSlot place)
 {
-    StillDroplet* first = still.slots.data() + place.cell * StillDroplets::kMost;
-    std::uint16_t* places = still.places.data() + place.cell * StillDroplets::kMost;
-    const StillDroplet gone = first[place.slot];
-    const std::uint8_t left = --still.counts[place.cell];
-    std::move(first + place.slot + 1, first + left + 1, first + place.slot);
-    std::move(places + place.slot + 1, places + left + 1, places + place.slot);
-    first[left] = {};
-    places[left] = 0;
-    ++still.revisions[place.cell];
+    const StillDroplet gone = std::exchange(still.slots[place.cell * StillDroplets::kMost + place.slot], {});
+    closeGaps(still, place.cell);
     return gone;
 }
 
@@ -123,20 +137,7 @@ std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& dro
 void Taking::close()
 {
     for (const std::size_t cell : touched_) {
-        const std::size_t begin = cell * StillDroplets::kMost;
-        std::size_t kept = begin;
-        for (std::size_t slot = begin; slot < begin + still_->counts[cell]; ++slot) {
-            if (still_->slots[slot].volume > 0.0) {
-                still_->slots[kept] = still_->slots[slot];
-                still_->places[kept++] = still_->places[slot];
-            }
-        }
-        for (std::size_t slot = kept; slot < begin + still_->counts[cell]; ++slot) {
-            still_->slots[slot] = {};
-            still_->places[slot] = 0;
-        }
-        still_->counts[cell] = static_cast<std::uint8_t>(kept - begin);
-        ++still_->revisions[cell];
+        closeGaps(*still_, cell);
     }
     touched_.clear();
 }

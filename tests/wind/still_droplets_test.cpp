@@ -10,15 +10,14 @@
 #include <set>
 #include <utility>
 
+#include "wind/windshields.h"
+
 namespace droplet {
 namespace {
 
-constexpr Vec2 kSize{0.103, 0.058};  // no whole number of cells
+using testing::uniform;
 
-double uniform(std::mt19937_64& bits, double low, double high)
-{
-    return low + (high - low) * static_cast<double>(bits() >> 11U) * 0x1p-53;
-}
+constexpr Vec2 kSize{0.103, 0.058};  // no whole number of cells
 
 /// Droplets as rain and tracks leave them: settled, joined, and some taken away again.
 StillDroplets weathered(std::mt19937_64& bits)

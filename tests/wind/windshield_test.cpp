@@ -27,6 +27,7 @@ using ::testing::AllOf;
 using testing::busyGlass;
 using ::testing::HasSubstr;
 using testing::quietGlass;
+using testing::uniform;
 
 constexpr double kDt = 1.0 / 60.0;
 
@@ -44,11 +45,6 @@ void visitStill(const WindshieldState& state, const Visit& visit)
             visit(cell, d);
         }
     }
-}
-
-double uniform(std::mt19937_64& bits, double low, double high)
-{
-    return low + (high - low) * static_cast<double>(bits() >> 11U) * 0x1p-53;
 }
 
 // ---- forces -------------------------------------------------------------------------------------------------------

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <limits>
+#include <random>
 #include <utility>
 
 #include "droplet/wind/windshield.h"
 
 namespace droplet::testing {
+
+/// The same everywhere: the standard fixes its engines, not its distributions.
+inline double uniform(std::mt19937_64& bits, double low, double high)
+{
+    return low + (high - low) * static_cast<double>(bits() >> 11U) * 0x1p-53;
+}
 
 /// A small flat glass without rain, wind, shaking or wipers: what happens on it can be told in closed form.
 inline WindshieldParameters quietGlass()
