@@ -7,7 +7,7 @@
 // view, and it goes on to rain, 60 frames a second; behind it a picture that stays, or a new one for every frame. The
 // step of the simulation is not counted. Processor time, of all threads together, is told beside the clock's: on a
 // machine that has other things to do, it is what to go by.
-#include "droplet/wind/view.h"
+#include "droplet/view/view.h"
 
 #include <tbb/global_control.h>
 

@@ -6,7 +6,7 @@
 // 1. The default glass with 2000 droplets that all move, alone and among 200 000 that stand still, dry and in the rain.
 // 2. The same droplets per area on ever larger glasses: what a droplet costs.
 // 3. An hour of rain at 25 mm/h, or so many seconds of it: the balance, and how many droplets there are.
-#include "droplet/wind/windshield.h"
+#include "droplet/windshield/windshield.h"
 
 #include <tbb/global_control.h>
 

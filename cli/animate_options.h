@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "droplet/io/output.h"
-#include "droplet/sequence.h"
+#include "droplet/sequence/sequence.h"
 #include "droplet_options.h"
 #include "numbered_path.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "droplet/picture/picture.h"
-#include "droplet/wind/view.h"
+#include "droplet/view/view.h"
 #include "video.h"
 
 namespace cli {

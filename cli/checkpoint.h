@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "droplet/io/output.h"
-#include "droplet/io/windshield_report.h"
-#include "droplet/wind/windshield.h"
+#include "droplet/wind_io/windshield_report.h"
+#include "droplet/windshield/windshield.h"
 
 namespace cli {
 

@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "command_line.h"
+#include "droplet/compare/compare.h"
+#include "droplet/compare/comparison_report.h"
 #include "droplet/error.h"
-#include "droplet/io/comparison_report.h"
 #include "droplet/io/output.h"
 #include "droplet/io/read_surface.h"
 #include "droplet/picture/paint.h"
 #include "droplet/picture/picture.h"
 #include "droplet/picture/render.h"
-#include "droplet/surface/compare.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "files.h"

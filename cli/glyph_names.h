@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/font.h"
+#include "droplet/type/font.h"
 
 namespace cli {
 

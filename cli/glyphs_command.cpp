@@ -93,7 +93,9 @@ droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
     type.family = font.family();
     type.style = font.style();
     type.face_index = options.face.face_index;
-    type.axes = options.face.axes;
+    for (const auto& [tag, value] : options.face.axes) {
+        type.axes.emplace_back(tag, value);
+    }
     type.em = options.type.glyph.em;
     return type;
 }

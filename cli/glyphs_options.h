@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "batch.h"
-#include "droplet/footprint/font.h"
-#include "droplet/footprint/glyph.h"
+#include "droplet/type/font.h"
+#include "droplet/type/glyph.h"
 #include "option_values.h"
 #include "shape_options.h"
 

@@ -89,8 +89,8 @@ std::string type(const droplet::InputReport& input)
     const droplet::TypeReport& type = *input.type;
     std::string text = type.text ? "'" + oneLine(*type.text) + "'" : "glyph '" + oneLine(type.glyph_name) + "'";
     text += " in " + (type.family.empty() ? oneLine(input.path) : oneLine(type.family + " " + type.style));
-    for (const droplet::AxisSetting& axis : type.axes) {
-        text += ", " + oneLine(axis.tag) + " " + digits(axis.value);
+    for (const auto& [tag, value] : type.axes) {
+        text += ", " + oneLine(tag) + " " + digits(value);
     }
     text += ", em " + millimetres(type.em);
     if (input.specks_dropped > 0) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "droplet/droplet.h"
-#include "droplet/footprint/height_map.h"
+#include "droplet/image/height_map.h"
 #include "droplet/io/report.h"
 #include "droplet/picture/picture.h"
 #include "droplet/shape/base_surface.h"

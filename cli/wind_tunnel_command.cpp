@@ -15,10 +15,10 @@
 
 #include "droplet/picture/drawing.h"
 #include "droplet/units.h"
-#include "droplet/wind/chart.h"
 #include "droplet/wind/trace.h"
 #include "droplet/wind/tunnel.h"
-#include "droplet/wind/tunnel_report.h"
+#include "droplet/wind_io/chart.h"
+#include "droplet/wind_io/tunnel_report.h"
 #include "files.h"
 #include "wind_tunnel_options.h"
 

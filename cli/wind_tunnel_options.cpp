@@ -7,7 +7,7 @@
 
 #include "command_line.h"
 #include "droplet/version.h"
-#include "droplet/wind/chart.h"
+#include "droplet/wind_io/chart.h"
 #include "force_options.h"
 #include "option_values.h"
 #include "value_list.h"

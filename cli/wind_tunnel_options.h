@@ -8,7 +8,7 @@
 
 #include "droplet/io/output.h"
 #include "droplet/wind/trace.h"
-#include "droplet/wind/tunnel_report.h"
+#include "droplet/wind_io/tunnel_report.h"
 #include "files.h"
 
 namespace cli {

@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "droplet/io/output.h"
-#include "droplet/wind/glass_maps.h"
-#include "droplet/wind/view.h"
-#include "droplet/wind/windshield.h"
+#include "droplet/view/glass_maps.h"
+#include "droplet/view/view.h"
+#include "droplet/windshield/windshield.h"
 #include "numbered_path.h"
 
 namespace cli {

@@ -9,7 +9,7 @@
 #include "droplet/error.h"
 #include "droplet/shape/spread.h"
 #include "droplet/units.h"
-#include "river.h"
+#include "pipeline.h"
 #include "shape/cap.h"
 
 namespace droplet {

@@ -21,6 +21,7 @@
 #include "support/command.h"
 #include "support/flood.h"
 #include "support/masks.h"
+#include "support/paths.h"
 #include "support/sound.h"
 
 namespace droplet {
@@ -36,7 +37,7 @@ using testing::readFile;
 using testing::runDroplet;
 using testing::ScratchDirectory;
 
-const std::string kData = DROPLET_SOURCE_DIR "/data/";
+const std::string kData = testing::inSource("data/");
 
 std::size_t triangles(const Droplet& droplet)
 {

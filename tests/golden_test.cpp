@@ -21,6 +21,7 @@
 
 #include "support/command.h"
 #include "support/compare.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -31,7 +32,7 @@ using testing::runDroplet;
 using testing::ScratchDirectory;
 using testing::TriangleMesh;
 
-const std::filesystem::path kRoot = DROPLET_SOURCE_DIR;
+const std::filesystem::path kRoot = testing::kSourceDir;
 
 /// One line of tests/golden/cases.
 struct Case {

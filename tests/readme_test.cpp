@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -25,7 +26,7 @@ using testing::runDroplet;
 
 std::filesystem::path inSource(const std::string& name)
 {
-    return std::filesystem::path(DROPLET_SOURCE_DIR) / name;
+    return std::filesystem::path(testing::kSourceDir) / name;
 }
 
 std::string sourceFile(const std::string& name)

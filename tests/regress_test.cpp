@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -19,8 +20,7 @@ using ::testing::StartsWith;
 
 CommandResult regress(std::vector<std::string> arguments)
 {
-    arguments.insert(arguments.begin(),
-                     {std::string(DROPLET_SOURCE_DIR) + "/scripts/regress", "--program", DROPLET_COMMAND});
+    arguments.insert(arguments.begin(), {testing::inSource("scripts/regress"), "--program", testing::kCommand});
     return testing::runProgram(arguments);
 }
 

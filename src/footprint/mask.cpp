@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "footprint/image.h"
+#include "image/image.h"
 
 namespace droplet {
 

@@ -2,8 +2,8 @@
 #include <new>
 
 #include "droplet/footprint/mask.h"
-#include "footprint/image.h"
-#include "footprint/image_file.h"
+#include "image/image.h"
+#include "image/image_file.h"
 
 namespace droplet {
 

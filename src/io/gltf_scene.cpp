@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "droplet/units.h"
+#include "file_bytes.h"
 #include "io/axes.h"
-#include "io/file_bytes.h"
 #include "io/vertex_normals.h"
 
 namespace droplet {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "io/file_bytes.h"
+#include "file_bytes.h"
 #include "io/gltf_scene.h"
 
 namespace droplet {

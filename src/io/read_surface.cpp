@@ -24,8 +24,8 @@
 
 #include "droplet/io/output.h"
 #include "droplet/units.h"
+#include "file_bytes.h"
 #include "io/axes.h"
-#include "io/file_bytes.h"
 #include "io/gltf_scene.h"
 #include "io/vertex_normals.h"
 

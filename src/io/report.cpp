@@ -12,6 +12,7 @@
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "io/report_sections.h"
+#include "utf8.h"
 
 namespace droplet {
 namespace {
@@ -89,21 +90,15 @@ Json angles(const ContactAngle& angle)
             {"max_at_m", place(angle.max_at)}};
 }
 
-std::string codePoint(char32_t character)
-{
-    const std::string shown = shownCharacter(character);
-    return shown.substr(0, shown.find(' '));
-}
-
 Json typeSection(const TypeReport& type)
 {
     Json axes = Json::object();
-    for (const AxisSetting& axis : type.axes) {
-        axes[axis.tag] = axis.value;
+    for (const auto& [tag, value] : type.axes) {
+        axes[tag] = value;
     }
     Json missing = Json::array();
     for (const char32_t character : type.missing) {
-        missing.push_back(codePoint(character));
+        missing.push_back(codePointOf(character));
     }
     return {{"family", type.family},
             {"style", type.style},
@@ -112,7 +107,7 @@ Json typeSection(const TypeReport& type)
             {"text", type.text ? Json(*type.text) : Json()},
             {"glyph", type.glyph ? Json(*type.glyph) : Json()},
             {"glyph_name", type.glyph ? Json(type.glyph_name) : Json()},
-            {"character", type.character ? Json(codePoint(*type.character)) : Json()},
+            {"character", type.character ? Json(codePointOf(*type.character)) : Json()},
             {"missing", missing},
             {"em_m", type.em}};
 }

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "droplet/compare/compare.h"
 #include "droplet/error.h"
-#include "droplet/surface/compare.h"
 #include "droplet/units.h"
 
 namespace droplet {

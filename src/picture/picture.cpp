@@ -17,8 +17,8 @@
 #include <string_view>
 
 #include "droplet/error.h"
-#include "footprint/image.h"
-#include "footprint/image_file.h"
+#include "image/image.h"
+#include "image/image_file.h"
 #include "picture/tone.h"
 
 namespace droplet {

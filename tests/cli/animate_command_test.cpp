@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -257,7 +258,7 @@ TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
 
 TEST_F(AnimateTest, ReportHasTheKeysOfTheReadme)
 {
-    const std::string readme = readFile(std::string(DROPLET_SOURCE_DIR) + "/README.md");
+    const std::string readme = readFile(testing::inSource("README.md"));
     const std::string fence = "```sequence-report\n";
     const auto begin = readme.find(fence) + fence.size();
     const std::string block = readme.substr(begin, readme.find("```", begin) - begin);

@@ -16,6 +16,7 @@
 #include "droplet/picture/picture.h"
 #include "droplet/version.h"
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -214,7 +215,7 @@ TEST_F(BatchTest, OutOfMemoryIsOnePicturesFault)
     options.directory = directory();
     const auto result = runProgram(
         {"sh", "-c", "ulimit -v 600000; exec \"$0\" batch masks -o 'out/{stem}.glb' --triangles 200 --keep-going -j 1",
-         DROPLET_COMMAND},
+         testing::kCommand},
         options);
     EXPECT_EQ(result.exit_code, 6) << result.error;
     EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
@@ -420,7 +421,7 @@ TEST_F(BatchTest, InterruptedBatchIsTakenUpWhereItEnded)
     const std::string script =
         "\"$0\" batch masks -o 'out/{stem}.glb' --triangles 30k -j 1 & "
         "while [ ! -e out/12.glb ]; do sleep 0.01; done; kill -TERM $!; wait $!; echo $?";
-    const auto result = runProgram({"sh", "-c", script, DROPLET_COMMAND}, options);
+    const auto result = runProgram({"sh", "-c", script, testing::kCommand}, options);
     EXPECT_EQ(result.output, "143\n") << result.error;
     const auto made = files("out");
     ASSERT_LT(made.size(), 50U);

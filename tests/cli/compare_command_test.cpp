@@ -15,6 +15,7 @@
 #include "droplet/io/output.h"
 #include "droplet/picture/picture.h"
 #include "support/command.h"
+#include "support/paths.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -158,7 +159,7 @@ TEST_F(CompareCommand, ReportHasEveryKey)
     EXPECT_THAT(json["exceeded"], SizeIs(1));
     EXPECT_THAT(json["warnings"], IsEmpty());
     // README names them all.
-    const std::string readme = testing::readFile(std::string(DROPLET_SOURCE_DIR) + "/README.md");
+    const std::string readme = testing::readFile(testing::inSource("README.md"));
     const auto begin = readme.find("```compare-report\n");
     ASSERT_NE(begin, std::string::npos);
     const std::string block = readme.substr(begin + 18, readme.find("\n```", begin) - begin - 18);

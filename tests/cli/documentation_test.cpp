@@ -11,6 +11,7 @@
 #include "droplet/droplet.h"
 #include "droplet/units.h"
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -25,7 +26,7 @@ using ::testing::SizeIs;
 
 std::string sourceFile(const std::string& name)
 {
-    return readFile(std::string(DROPLET_SOURCE_DIR) + "/cli/" + name);
+    return readFile(testing::inSource("cli/") + name);
 }
 
 std::string help(const std::string& command = "")
@@ -82,7 +83,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
         script += " '" + word + "'";
     }
     script += "); COMP_CWORD=" + std::to_string(words.size()) + R"(; _droplet_shape; printf '%s\n' "${COMPREPLY[@]}")";
-    const std::string file = std::string(DROPLET_SOURCE_DIR) + "/cli/droplet-shape.bash";
+    const std::string file = testing::inSource("cli/droplet-shape.bash");
     const auto result = runProgram({"bash", "-c", script, "bash", file});
     EXPECT_EQ(result.error, "");
     std::istringstream lines(result.output);
@@ -221,7 +222,7 @@ TEST(Documentation, CompletionOffersFiles)
 
 TEST(Documentation, ManualIsCleanRoff)
 {
-    const std::string file = std::string(DROPLET_SOURCE_DIR) + "/cli/droplet-shape.1";
+    const std::string file = testing::inSource("cli/droplet-shape.1");
     const auto formatted = runProgram({"groff", "-man", "-ww", "-Tutf8", file});
     ASSERT_EQ(formatted.exit_code, 0) << "groff (Debian: groff-base) formats the manual page";
     EXPECT_EQ(formatted.error, "");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/paths.h"
 #include "support/refusal.h"
 
 namespace droplet {
@@ -44,7 +45,7 @@ protected:
     {
         CommandOptions options;
         options.directory = directory();
-        return testing::runProgram({"sh", "-c", before + "exec \"$0\" " + arguments, DROPLET_COMMAND}, options);
+        return testing::runProgram({"sh", "-c", before + "exec \"$0\" " + arguments, testing::kCommand}, options);
     }
 
     void expectBadOutput(const std::vector<std::string>& outputs, const std::vector<std::string>& words,

@@ -17,6 +17,7 @@
 #include "droplet/units.h"
 #include "droplet/wind/tunnel.h"
 #include "support/command.h"
+#include "support/paths.h"
 #include "support/refusal.h"
 
 namespace droplet {
@@ -192,7 +193,7 @@ TEST_F(WindTunnelRefusal, OfOutputs)
 
 TEST(WindTunnelCommand, ReportHasTheKeysTheReadmeShows)
 {
-    const std::string readme = readFile(std::string(DROPLET_SOURCE_DIR) + "/README.md");
+    const std::string readme = readFile(testing::inSource("README.md"));
     const std::string fence = "```wind-tunnel-report\n";
     ASSERT_THAT(readme, HasSubstr(fence));
     const auto begin = readme.find(fence) + fence.size();
@@ -240,7 +241,7 @@ TEST(WindTunnelCommand, ReportSaysWhatTheLibraryFinds)
 // The README's words on the distance from what was measured are the program's.
 TEST(WindTunnelCommand, DistanceInTheReadmeIsComputed)
 {
-    const std::string readme = readFile(std::string(DROPLET_SOURCE_DIR) + "/README.md");
+    const std::string readme = readFile(testing::inSource("README.md"));
     const CommandResult result = tunnel({"--preset", "thesis,hashimoto"});
     ASSERT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, HasSubstr("30 µL: still from 7.70 to 10.52 m/s, +10.0 % and -4.3 % off"));

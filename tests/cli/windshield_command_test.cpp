@@ -16,6 +16,7 @@
 #include "droplet/picture/evening_road.h"
 #include "droplet/picture/picture.h"
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -146,7 +147,7 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     // A run that would take long, killed once its thirteenth frame stands.
     const std::string script =
         R"("$@" & id=$!; while [ ! -e "$0" ]; do sleep 0.005; kill -0 $id || exit 1; done; kill -9 $id)";
-    std::vector<std::string> command{"bash", "-c", script, path("cut/13.png"), DROPLET_COMMAND};
+    std::vector<std::string> command{"bash", "-c", script, path("cut/13.png"), testing::kCommand};
     for (const std::string& argument : argumentsOf(path("cut/%d.png"), options("600s"))) {
         command.push_back(argument);
     }
@@ -224,7 +225,7 @@ TEST_F(WindshieldCommand, FilesThatAreNoneOfItsOwnStay)
 
 TEST_F(WindshieldCommand, FilesBeyondTheirLimitFailAsAnyOther)
 {
-    std::vector<std::string> command{"bash", "-c", "ulimit -f 4; exec \"$@\"", "bash", DROPLET_COMMAND};
+    std::vector<std::string> command{"bash", "-c", "ulimit -f 4; exec \"$@\"", "bash", testing::kCommand};
     for (const std::string& argument : argumentsOf(path("x.png"), {"--size", "320x180"})) {
         command.push_back(argument);
     }

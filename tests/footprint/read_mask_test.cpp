@@ -7,7 +7,7 @@
 
 #include <thread>
 
-#include "footprint/encoded_images.h"
+#include "image/encoded_images.h"
 
 namespace droplet {
 namespace {

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "fuzz/targets.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
 
 void replay(const char* corpus, const std::function<void(std::span<const std::byte>)>& target)
 {
-    const std::filesystem::path folder = std::filesystem::path(DROPLET_SOURCE_DIR) / "tests/fuzz/corpus" / corpus;
+    const std::filesystem::path folder = std::filesystem::path(testing::kSourceDir) / "tests/fuzz/corpus" / corpus;
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         paths.push_back(entry.path());

@@ -14,6 +14,7 @@
 #include "droplet/io/animation.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
+#include "support/paths.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -29,7 +30,7 @@ struct Verdict {
 // Of the Khronos validator; a missing node or package is a failure as any other.
 Verdict validated(const std::vector<fs::path>& files)
 {
-    std::string command = "node '" DROPLET_VALIDATOR "'";
+    std::string command = "node '" + std::string(testing::kValidator) + "'";
     for (const fs::path& file : files) {
         command += " '" + file.string() + "'";
     }
@@ -49,7 +50,7 @@ Verdict validated(const std::vector<fs::path>& files)
 
 fs::path folder()
 {
-    fs::path path = fs::path(DROPLET_TEST_TMP) / "gltf_validator";
+    fs::path path = fs::path(testing::kScratchDir) / "gltf_validator";
     fs::create_directories(path);
     return path;
 }

@@ -21,6 +21,7 @@
 #include "droplet/io/gltf.h"
 #include "droplet/surface/onto.h"
 #include "support/command.h"
+#include "support/paths.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -341,7 +342,7 @@ TEST_F(Object, MissingNormalsAreThoseOfThePlacesAngles)
 // The can in data/: metres as its generator says, normals outward, and a texture as wide as it is around.
 TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
 {
-    const TexturedMesh mesh = readObject(DROPLET_SOURCE_DIR "/data/can.glb");
+    const TexturedMesh mesh = readObject(testing::inSource("data/can.glb"));
     double radius = 0.0;
     double top = 0.0;
     double bottom = 1.0;

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "support/paths.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -142,8 +143,8 @@ class Output : public ::testing::Test {
 protected:
     void SetUp() override
     {
-        fs::create_directories(DROPLET_TEST_TMP);
-        std::string pattern = (fs::path(DROPLET_TEST_TMP) / "output-XXXXXX").string();
+        fs::create_directories(testing::kScratchDir);
+        std::string pattern = (fs::path(testing::kScratchDir) / "output-XXXXXX").string();
         ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
         folder = pattern;
         target = folder / "droplet.glb";

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "droplet/compare/compare.h"
 #include "droplet/error.h"
 #include "droplet/io/output.h"
-#include "droplet/surface/compare.h"
 #include "support/command.h"
 #include "support/surfaces.h"
 

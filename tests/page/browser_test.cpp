@@ -9,6 +9,7 @@
 
 #include "droplet/io/page.h"
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -48,7 +49,7 @@ void makePages(const fs::path& folder)
         ASSERT_EQ(run.exit_code, 0) << run.error;
     };
     writeFile(folder / "disc.pgm", testing::discPicture(64, 24.0));
-    writeFile(folder / "picture.png", readFile(fs::path(DROPLET_SOURCE_DIR) / "data/letter_g_1bit.png"));
+    writeFile(folder / "picture.png", readFile(fs::path(testing::inSource("data/letter_g_1bit.png"))));
     make("water.html", {"--material", "ink"});
     make("exact.html", {"--model", "exact"});
     std::ofstream hostile(folder / "hostile.html", std::ios::binary);
@@ -61,7 +62,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
 {
     const testing::ScratchDirectory scratch;
     makePages(scratch.path());
-    const auto run = runProgram({"node", DROPLET_PAGE_DRIVER, DROPLET_CHROMIUM, scratch.path().string()});
+    const auto run = runProgram({"node", testing::kPageDriver, testing::kChromium, scratch.path().string()});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto seen = nlohmann::json::parse(run.output);
     SCOPED_TRACE(seen.dump(1));

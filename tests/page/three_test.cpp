@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -21,7 +22,7 @@ using testing::writeFile;
 
 nlohmann::json played(const std::string& file, int frames = 0)
 {
-    const auto run = runProgram({"node", DROPLET_PLAYER, DROPLET_THREE, "24", std::to_string(frames), file});
+    const auto run = runProgram({"node", testing::kPlayer, testing::kThree, "24", std::to_string(frames), file});
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return nlohmann::json::parse(run.output, nullptr, false);
 }
@@ -50,7 +51,7 @@ TEST(Three, PlaysOneMeshAfterAnother)
     testing::ScratchDirectory scratch;
     const std::string file = (scratch.path() / "closing.glb").string();
     const auto run = runDroplet(
-        {"animate", DROPLET_SOURCE_DIR "/data/closing/%04d.png", file, "--fps", "24", "--triangles", "1k", "-q"});
+        {"animate", testing::inSource("data/closing/%04d.png"), file, "--fps", "24", "--triangles", "1k", "-q"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto seen = played(file, kFrames);
     EXPECT_EQ(seen.at("clips"), 1);

@@ -19,6 +19,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/paths.h"
+
 namespace droplet::testing {
 namespace {
 
@@ -228,7 +230,7 @@ CommandResult runProgram(const std::vector<std::string>& command, const CommandO
 
 CommandResult runDroplet(const std::vector<std::string>& arguments, const CommandOptions& options)
 {
-    std::vector<std::string> command{DROPLET_COMMAND};
+    std::vector<std::string> command{kCommand};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return runProgram(command, options);
 }
@@ -246,8 +248,8 @@ bool canRespectPermissions()
 
 ScratchDirectory::ScratchDirectory()
 {
-    std::filesystem::create_directories(DROPLET_TEST_TMP);
-    std::string name = (std::filesystem::path(DROPLET_TEST_TMP) / "XXXXXX").string();
+    std::filesystem::create_directories(kScratchDir);
+    std::string name = (std::filesystem::path(kScratchDir) / "XXXXXX").string();
     require(::mkdtemp(name.data()) != nullptr, "mkdtemp");
     path_ = name;
 }

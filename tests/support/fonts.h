@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/font.h"
 #include "droplet/footprint/mask.h"
+#include "droplet/type/font.h"
 #include "droplet/vector.h"
 
 namespace droplet::testing {

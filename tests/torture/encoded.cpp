@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "footprint/encoded_images.h"
+#include "image/encoded_images.h"
 #include "torture/corpus.h"
 #include "torture/random.h"
 

@@ -2,6 +2,7 @@
 // Every picture the torture ever failed on, in the ordinary tests.
 #include <gtest/gtest.h>
 
+#include "support/paths.h"
 #include "torture/corpus.h"
 #include "torture/trial.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 TEST(TortureReplay, EveryPictureKept)
 {
-    const Corpus kept = files({DROPLET_SOURCE_DIR "/tests/torture/kept"});
+    const Corpus kept = files({testing::inSource("tests/torture/kept")});
     for (std::size_t k = 0; k < kept.count; ++k) {
         const Item item = kept.item(k);
         SCOPED_TRACE(item.name);

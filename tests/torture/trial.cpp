@@ -18,6 +18,7 @@
 #include "droplet/units.h"
 #include "support/command.h"
 #include "support/flood.h"
+#include "support/paths.h"
 #include "support/sound.h"
 
 namespace droplet::torture {
@@ -156,7 +157,7 @@ Verdict tryCommand(const Item& item)
     // Whoever runs us may be ended before it, and would leave it running for ever.
     constexpr const char* kPatience = "60";  // [s]
     const testing::CommandResult result = testing::runProgram(
-        {"timeout", kPatience, DROPLET_COMMAND, "--quiet", "--triangles", std::to_string(kTriangles), "--channel",
+        {"timeout", kPatience, testing::kCommand, "--quiet", "--triangles", std::to_string(kTriangles), "--channel",
          isGreymap(item) ? "luma" : "auto", input.string(), output.string()});
     Verdict verdict;
     verdict.seconds = childrensSeconds() - begin;

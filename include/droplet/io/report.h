@@ -7,9 +7,9 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "droplet/footprint/font.h"
 #include "droplet/footprint/mask.h"
 #include "droplet/io/output.h"
 #include "droplet/progress.h"
@@ -28,9 +28,9 @@ struct TypeReport {
     std::string family;  ///< as the font says
     std::string style;
     std::size_t face_index = 0;
-    std::vector<AxisSetting> axes;    ///< as given
-    std::optional<std::string> text;  ///< empty where there is a glyph
-    std::optional<GlyphId> glyph;     ///< empty where there is a text
+    std::vector<std::pair<std::string, double>> axes;  ///< tags and values as given
+    std::optional<std::string> text;                   ///< empty where there is a glyph
+    std::optional<std::uint32_t> glyph;                ///< empty where there is a text
     std::string glyph_name;
     std::optional<char32_t> character;  ///< that the glyph stands for
     std::vector<char32_t> missing;      ///< characters of the text that the font lacks

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "droplet/footprint/height_map.h"
+#include "droplet/image/height_map.h"
 #include "droplet/vector.h"
 
 namespace droplet {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "droplet/picture/picture.h"
+#include "droplet/units.h"
+#include "droplet/vector.h"
+#include "droplet/windshield/glass.h"
+#include "droplet/windshield/running_shape.h"
+#include "droplet/windshield/windshield.h"
+
+namespace droplet {
+
+/// How the driver looks through the glass; defaults as in the thesis, section 3.2.3.
+struct ViewOptions {
+    int width = 1280;                      ///< [px] 16 … 8192
+    int height = 720;                      ///< [px] 16 … 8192
+    double field_of_view = 45 * kDegree;   ///< of the width [rad], 1° … 150°
+    double eye_distance = 0.5;             ///< from the glass, straight ahead [m], 0.01 … 100
+    std::optional<Vec2> aim = {};          ///< place on the glass that is straight ahead [m]; empty: its middle
+    ShapeOptions shape = {};               ///< of droplets
+    double ior = 1.333;                    ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
+    int samples = 2;                       ///< rays a pixel and droplet, across and down; 1 … 4
+    Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
+
+    /// @throws Error InvalidArgument
+    void validate() const;
+};
+
+/// What the driver sees: an eye behind the glass that looks straight ahead, and a picture so far away that only the
+/// direction of a ray tells what is seen of it.
+///
+/// The eye's rays pass the pane, a plate that does not turn them, and the water on it, and are refracted where they
+/// leave it (Snell, Fresnel); where a droplet overhangs its contact, as beyond 90°, the air below it is passed over.
+/// Droplets that can run are capsules (RunningShape), met exactly; still droplets are one map of the glass that holds
+/// normals of caps, kept up with the state: only cells that changed are drawn anew. Where running droplets have swept
+/// it, it is bare: the Lotus tracks. What leads back inside, by total reflection, is as dark as a cabin is.
+///
+/// The picture fills the frame: it is what is seen through dry glass. Refracted rays go far beyond it: past its edge,
+/// at the tangent s₀, a direction of tangent s shows what s₀²/s does. So the picture is mirrored at its edge, as large
+/// there as before it, and at a right angle its middle is seen again.
+///
+/// Guarantees: what is seen depends on the state and the picture alone, not on those before, as long as all states are
+/// of one run: the same bytes, at any number of threads. Nothing of what is given is kept by reference.
+class DriversView {
+public:
+    /// @throws Error InvalidArgument, also where the eye sees nothing of the glass
+    DriversView(const Glass& glass, const ViewOptions& options = {});
+    ~DriversView();
+    DriversView(DriversView&&) noexcept;
+    DriversView& operator=(DriversView&&) noexcept;
+
+    /// What is behind the glass from now on; black before.
+    /// @param picture  valid, as large as the frame: see covering
+    /// @throws Error   InvalidArgument
+    void lookAt(const Picture& picture);
+
+    /// The water that is on the glass from now on; none before.
+    /// @param state  of this glass
+    void show(const WindshieldState& state);
+
+    /// The picture behind the glass, through the dry pane.
+    [[nodiscard]] const Picture& bare() const;
+    /// The droplets alone: what they show of the picture behind, and how much they hide of it.
+    [[nodiscard]] Layer layer() const;
+    /// All that the driver sees: over(layer(), bare()), in one go.
+    [[nodiscard]] Picture frame() const;
+
+    /// Where on the glass the middle of a pixel is seen [m]; empty beside the glass.
+    [[nodiscard]] std::optional<Vec2> onGlass(int x, int y) const;
+    /// How many cells of still droplets have been drawn into the map so far.
+    [[nodiscard]] std::size_t cellsDrawn() const;
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace droplet

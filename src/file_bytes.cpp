@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_bytes.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+std::string oneLine(std::string text)
+{
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
+}  // namespace
+
+Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(std::byte)>& expected)
+{
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    if (!file) {
+        throw Damage(std::generic_category().message(errno));
+    }
+    Bytes bytes;
+    Bytes chunk(std::size_t{1} << 16);
+    while (bytes.size() < most) {
+        errno = 0;
+        const std::size_t count = std::fread(chunk.data(), 1, std::min(chunk.size(), most - bytes.size()), file.get());
+        const int error = errno;
+        bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
+        if (std::ferror(file.get()) != 0) {
+            throw Damage(std::generic_category().message(error));
+        }
+        if (count == 0 || !expected(bytes.front())) {
+            break;
+        }
+    }
+    return bytes;
+}
+
+void readFile(const std::filesystem::path& path, const std::function<void()>& read)
+{
+    const auto refuse = [&path](const std::string& why) {
+        throw Error(ErrorCode::InvalidInput, "cannot use " + oneLine(path.string()) + ": " + oneLine(why));
+    };
+    try {
+        read();
+    } catch (const Damage& damage) {
+        refuse(damage.what());
+    } catch (const nlohmann::json::exception&) {
+        refuse("its JSON does not follow the specification");
+    } catch (const std::bad_alloc&) {
+        refuse("it needs more memory than there is");
+    } catch (const std::length_error&) {
+        refuse("it needs more memory than there is");
+    }
+}
+
+}  // namespace droplet

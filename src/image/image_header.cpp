@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// After: Portable Network Graphics (W3C), 11.2.2 and 11.3 (eXIf); ITU-T T.81, B.1 and B.2.2; TIFF 6.0, section 2
+// and BigTIFF; EXIF 2.32, 4.5.4 and 4.7.2; WebP container specification; RFC 6386, 9.1; the Netpbm manual pages
+// pbm(5), pgm(5), ppm(5); the BITMAPCOREHEADER and BITMAPINFOHEADER structures.
+#include "image/image_header.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "droplet/error.h"
+#include "image/image_bytes.h"
+
+namespace droplet {
+
+namespace {
+
+constexpr std::uint16_t kTagWidth = 256;
+constexpr std::uint16_t kTagHeight = 257;
+constexpr std::uint16_t kTagOrientation = 274;
+
+struct Size {
+    std::uint64_t width = 0;
+    std::uint64_t height = 0;
+    int orientation = 1;
+};
+
+int orientationIn(std::span<const std::byte> tiff)
+{
+    const std::uint64_t value = tiffField(tiff, kTagOrientation).value_or(1);
+    return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
+}
+
+/// An EXIF block is a TIFF file without pixels, after a mark that JPEG demands and some WebP writers add.
+int exifOrientation(std::span<const std::byte> block)
+{
+    using namespace std::string_view_literals;
+    constexpr std::string_view kMark = "Exif\0\0"sv;
+    const bool marked = ByteView(block, ImageFormat::Tiff).startsWith(kMark);
+    return orientationIn(marked ? block.subspan(kMark.size()) : block);
+}
+
+Size pngSize(std::span<const std::byte> encoded)
+{
+    constexpr std::size_t kSignature = 8;
+    constexpr std::size_t kAroundData = 12;  // length and type before it, checksum after
+    const ByteView view(encoded, ImageFormat::Png);
+    if (!view.startsWith("IHDR", kSignature + 4)) {
+        throwDamaged(ImageFormat::Png, "it does not begin with a header");
+    }
+    Size size{view.be32(kSignature + 8), view.be32(kSignature + 12)};
+    for (std::size_t chunk = kSignature; view.has(chunk, kAroundData);) {
+        const std::size_t length = view.be32(chunk);
+        if (!view.has(chunk, kAroundData + length)) {
+            break;
+        }
+        if (view.startsWith("eXIf", chunk + 4)) {
+            size.orientation = exifOrientation(encoded.subspan(chunk + 8, length));
+        }
+        chunk += kAroundData + length;
+    }
+    return size;
+}
+
+Size jpegSize(std::span<const std::byte> encoded)
+{
+    constexpr std::uint32_t kFirstFrame = 0xC0;
+    constexpr std::uint32_t kLastFrame = 0xCF;
+    const ByteView view(encoded, ImageFormat::Jpeg);
+    int orientation = 1;
+    for (std::size_t at = 2;;) {
+        if (view.u8(at) != 0xFF) {
+            ++at;
+            continue;
+        }
+        const std::uint32_t marker = view.u8(at + 1);
+        if (marker == 0xFF) {
+            ++at;
+            continue;
+        }
+        at += 2;
+        if (marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD8)) {
+            continue;  // these stand alone: stuffing, TEM, restarts, start of image
+        }
+        if (marker == 0xD9 || marker == 0xDA) {
+            throwDamaged(ImageFormat::Jpeg, "it has no frame header");
+        }
+        const std::size_t length = view.be16(at);
+        // C4, C8 and CC lie among the frame markers: Huffman tables, reserved, arithmetic conditioning.
+        if (marker >= kFirstFrame && marker <= kLastFrame && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) {
+            return {view.be16(at + 5), view.be16(at + 3), orientation};
+        }
+        if (marker == 0xE1 && view.startsWith("Exif", at + 2) && length > 2 && view.has(at, length)) {
+            orientation = exifOrientation(encoded.subspan(at + 2, length - 2));
+        }
+        at += length < 2 ? 2 : length;
+    }
+}
+
+Size bmpSize(std::span<const std::byte> encoded)
+{
+    const ByteView view(encoded, ImageFormat::Bmp);
+    if (view.le32(14) == 12) {
+        return {view.le16(18), view.le16(20)};
+    }
+    // Both are signed; a negative height means rows from the top down, a negative width nothing.
+    const std::uint32_t width = view.le32(18);
+    const std::uint32_t height = view.le32(22);
+    constexpr std::uint32_t kSign = 0x80000000U;
+    return {width < kSign ? width : 0U, height < kSign ? height : ~height + 1U};
+}
+
+Size tiffSize(std::span<const std::byte> encoded)
+{
+    const auto width = tiffField(encoded, kTagWidth);
+    const auto height = tiffField(encoded, kTagHeight);
+    if (!width || !height) {
+        throwDamaged(ImageFormat::Tiff, "its directory names no width and height");
+    }
+    return {*width, *height, orientationIn(encoded)};
+}
+
+Size webpSize(std::span<const std::byte> encoded)
+{
+    constexpr std::size_t kChunk = 12;
+    constexpr std::size_t kData = kChunk + 8;
+    const ByteView view(encoded, ImageFormat::Webp);
+    if (view.startsWith("VP8 ", kChunk)) {
+        constexpr std::uint32_t kWithoutScale = 0x3fff;
+        return {view.le16(kData + 6) & kWithoutScale, view.le16(kData + 8) & kWithoutScale};
+    }
+    if (view.startsWith("VP8L", kChunk)) {
+        const std::uint32_t bits = view.le32(kData + 1);
+        return {(bits & 0x3fffU) + 1, (bits >> 14 & 0x3fffU) + 1};
+    }
+    if (!view.startsWith("VP8X", kChunk)) {
+        throwDamaged(ImageFormat::Webp, "it begins with no known chunk");
+    }
+    Size size{std::uint64_t{view.le24(kData + 4)} + 1, std::uint64_t{view.le24(kData + 7)} + 1};
+    for (std::size_t chunk = kChunk; view.has(chunk, 8);) {
+        const std::size_t length = view.le32(chunk + 4);
+        if (!view.has(chunk + 8, length)) {
+            break;
+        }
+        if (view.startsWith("EXIF", chunk)) {
+            size.orientation = exifOrientation(encoded.subspan(chunk + 8, length));
+        }
+        chunk += 8 + length + length % 2;
+    }
+    return size;
+}
+
+Size sizeIn(ImageFormat format, std::span<const std::byte> encoded)
+{
+    switch (format) {
+        case ImageFormat::Png:
+            return pngSize(encoded);
+        case ImageFormat::Jpeg:
+            return jpegSize(encoded);
+        case ImageFormat::Bmp:
+            return bmpSize(encoded);
+        case ImageFormat::Tiff:
+            return tiffSize(encoded);
+        case ImageFormat::Webp:
+            return webpSize(encoded);
+        case ImageFormat::Pnm:
+        case ImageFormat::Svg:
+            break;
+    }
+    const PnmHeader header = readPnmHeader(encoded);
+    return {header.width, header.height};
+}
+
+bool isSpace(std::uint32_t c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// The number at `at`, after white space and comments; `at` ends up behind its last digit.
+std::uint64_t pnmNumber(const ByteView& view, std::size_t& at)
+{
+    while (isSpace(view.u8(at)) || view.u8(at) == '#') {
+        if (view.u8(at) == '#') {
+            while (view.u8(at) != '\n' && view.u8(at) != '\r') {
+                ++at;
+            }
+        }
+        ++at;
+    }
+    constexpr std::uint64_t kEnough = std::uint64_t{1} << 40;  // any size above fails, and nothing overflows
+    const std::size_t first = at;
+    std::uint64_t value = 0;
+    for (; view.has(at, 1) && view.u8(at) >= '0' && view.u8(at) <= '9'; ++at) {
+        value = value < kEnough ? 10 * value + (view.u8(at) - '0') : value;
+    }
+    if (at == first) {
+        throwDamaged(ImageFormat::Pnm, "its header holds something other than numbers");
+    }
+    return value;
+}
+
+/// Whether a file begins as markup and soon comes to an svg element, or is markup in UTF-16.
+bool beginsLikeSvg(std::span<const std::byte> encoded)
+{
+    using namespace std::string_view_literals;
+    constexpr std::size_t kSoon = std::size_t{1} << 16;
+    const auto bytes = encoded.first(std::min(encoded.size(), kSoon));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view start = text.starts_with("\xef\xbb\xbf"sv) ? text.substr(3) : text;
+    const auto first = start.find_first_not_of(" \t\r\n");
+    if (first != std::string_view::npos && start[first] == '<') {
+        return text.find("<svg") != std::string_view::npos || text.find(":svg") != std::string_view::npos;
+    }
+    return text.starts_with("\xff\xfe<\0"sv) || text.starts_with("\xfe\xff\0<"sv);
+}
+
+}  // namespace
+
+const char* name(ImageFormat format)
+{
+    switch (format) {
+        case ImageFormat::Png:
+            return "PNG";
+        case ImageFormat::Jpeg:
+            return "JPEG";
+        case ImageFormat::Bmp:
+            return "BMP";
+        case ImageFormat::Tiff:
+            return "TIFF";
+        case ImageFormat::Webp:
+            return "WebP";
+        case ImageFormat::Svg:
+            return "SVG";
+        case ImageFormat::Pnm:
+            break;
+    }
+    return "PBM/PGM/PPM";
+}
+
+std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
+{
+    using namespace std::string_view_literals;
+    const ByteView view(encoded, ImageFormat::Pnm);
+    if (view.startsWith("\x89PNG\r\n\x1a\n"sv)) {
+        return ImageFormat::Png;
+    }
+    if (view.startsWith("\xff\xd8\xff"sv)) {
+        return ImageFormat::Jpeg;
+    }
+    for (const auto magic : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) {
+        if (view.startsWith(magic)) {
+            return ImageFormat::Tiff;
+        }
+    }
+    if (view.startsWith("RIFF"sv) && view.startsWith("WEBP"sv, 8)) {
+        return ImageFormat::Webp;
+    }
+    if (view.startsWith("BM"sv)) {
+        return ImageFormat::Bmp;
+    }
+    if (view.startsWith("P"sv) && view.has(0, 3) && view.u8(1) >= '1' && view.u8(1) <= '6' &&
+        (isSpace(view.u8(2)) || view.u8(2) == '#')) {
+        return ImageFormat::Pnm;
+    }
+    if (view.startsWith("\x1f\x8b"sv) || beginsLikeSvg(encoded)) {
+        return ImageFormat::Svg;
+    }
+    return std::nullopt;
+}
+
+ImageHeader readImageHeader(std::span<const std::byte> encoded, std::size_t max_pixels)
+{
+    const auto format = imageFormat(encoded);
+    if (!format) {
+        throw Error(ErrorCode::InvalidInput,
+                    encoded.empty() ? "empty, not an image"
+                                    : "not an image this program reads (PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM, SVG)");
+    }
+    const Size size = sizeIn(*format, encoded);
+    if (size.width == 0 || size.height == 0) {
+        throwDamaged(*format, "its header claims a width or height of zero");
+    }
+    constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+    if (size.width > kLongest || size.height > kLongest || size.width > max_pixels / size.height) {
+        throw Error(ErrorCode::InvalidInput, std::string(name(*format)) + " image of " + std::to_string(size.width) +
+                                                 " x " + std::to_string(size.height) +
+                                                 " pixels, more than the limit of " + std::to_string(max_pixels));
+    }
+    return {*format, static_cast<int>(size.width), static_cast<int>(size.height), size.orientation};
+}
+
+std::optional<std::uint64_t> tiffField(std::span<const std::byte> tiff, std::uint16_t tag)
+{
+    const ByteView view(tiff, ImageFormat::Tiff);
+    if (!view.has(0, 8)) {
+        return std::nullopt;
+    }
+    const bool little = view.startsWith("II");
+    const auto number = [&](std::uint64_t offset, int bytes) {
+        std::uint64_t value = 0;
+        for (int i = 0; i < bytes; ++i) {
+            const int place = little ? bytes - 1 - i : i;
+            value = value << 8 | view.u8(static_cast<std::size_t>(offset) + static_cast<std::size_t>(place));
+        }
+        return value;
+    };
+    // BigTIFF is the classic layout with every offset and count twice or four times as wide.
+    const bool big = number(2, 2) == 43;
+    const int wide = big ? 8 : 4;
+    const int entry_size = big ? 20 : 12;
+    const std::uint64_t directory_at = big ? 8 : 4;
+    const auto fits = [&](std::uint64_t offset, int bytes) {
+        return offset <= tiff.size() && static_cast<std::uint64_t>(bytes) <= tiff.size() - offset;
+    };
+    if (!fits(directory_at, wide)) {
+        return std::nullopt;
+    }
+    const std::uint64_t directory = number(directory_at, wide);
+    const int count_bytes = big ? 8 : 2;
+    if (!fits(directory, count_bytes)) {
+        return std::nullopt;
+    }
+    const std::uint64_t entries = number(directory, count_bytes);
+    std::uint64_t entry = directory + static_cast<std::uint64_t>(count_bytes);
+    for (std::uint64_t i = 0; i < entries && fits(entry, entry_size); ++i) {
+        if (number(entry, 2) == tag) {
+            const std::uint64_t value_at = entry + 4 + static_cast<std::uint64_t>(wide);
+            switch (number(entry + 2, 2)) {
+                case 1:  // BYTE
+                    return number(value_at, 1);
+                case 3:  // SHORT
+                    return number(value_at, 2);
+                case 4:  // LONG
+                    return number(value_at, 4);
+                case 16:  // LONG8
+                    return big ? std::optional(number(value_at, 8)) : std::nullopt;
+                default:
+                    return std::nullopt;
+            }
+        }
+        entry += static_cast<std::uint64_t>(entry_size);
+    }
+    return std::nullopt;
+}
+
+PnmHeader readPnmHeader(std::span<const std::byte> encoded)
+{
+    const ByteView view(encoded, ImageFormat::Pnm);
+    PnmHeader header;
+    header.kind = static_cast<int>(view.u8(1) - '0');
+    std::size_t at = 2;
+    header.width = pnmNumber(view, at);
+    header.height = pnmNumber(view, at);
+    if (header.kind != 1 && header.kind != 4) {
+        const std::uint64_t maximum = pnmNumber(view, at);
+        if (maximum < 1 || maximum > 65535) {
+            throwDamaged(ImageFormat::Pnm, "its level of white is " + std::to_string(maximum) + ", not 1 to 65535");
+        }
+        header.maximum = static_cast<std::uint32_t>(maximum);
+    }
+    if (!isSpace(view.u8(at))) {
+        throwDamaged(ImageFormat::Pnm, "no white space after its header");
+    }
+    header.payload = at + 1;
+    return header;
+}
+
+}  // namespace droplet

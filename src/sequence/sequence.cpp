@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The thesis, section 4.2.4: every frame solved for itself, the total volume fixed. Added to it: volumes of single
+// droplets, and vertices that keep their identity.
+#include "droplet/sequence/sequence.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/footprint/overlap.h"
+#include "droplet/mesh/follow.h"
+#include "pipeline.h"
+
+namespace droplet {
+namespace {
+
+/// Share of the smaller footprint from which an overlap joins two droplets. A droplet that moves on by half its width
+/// into the place of the one before it overlaps that by less.
+constexpr double kJoins = 0.25;
+
+double volumeOf(const std::vector<Ancestry>& droplets)
+{
+    return std::accumulate(droplets.begin(), droplets.end(), 0.0,
+                           [](double sum, const Ancestry& droplet) { return sum + droplet.volume; });
+}
+
+/// Half a pixel; of outlines that come from no picture, a fraction of the extent.
+double rowOf(const Outline& outline)
+{
+    constexpr double kRows = 2048.0;
+    return outline.pixel_size > 0.0 ? 0.5 * outline.pixel_size : outline.extent.y / kRows;
+}
+
+/// Droplets of two frames that belong together.
+struct Link {
+    std::size_t before = 0;
+    std::size_t after = 0;
+    double area = 0.0;
+};
+
+std::vector<Link> linksOf(const Domain& before, const Domain& after, double row)
+{
+    const std::vector<Overlap> all = overlaps(before, after, row);
+    std::vector<double> most_before(before.droplets.size(), 0.0);
+    std::vector<double> most_after(after.droplets.size(), 0.0);
+    for (const Overlap& overlap : all) {
+        most_before[overlap.first] = std::max(most_before[overlap.first], overlap.area);
+        most_after[overlap.second] = std::max(most_after[overlap.second], overlap.area);
+    }
+    std::vector<Link> links;
+    for (const Overlap& overlap : all) {
+        const double smaller = std::min(area(before.droplets[overlap.first]), area(after.droplets[overlap.second]));
+        const bool nearest = overlap.area == most_before[overlap.first] && overlap.area == most_after[overlap.second];
+        if (overlap.area >= kJoins * smaller || nearest) {
+            links.push_back({overlap.first, overlap.second, overlap.area});
+        }
+    }
+    return links;
+}
+
+/// What hangs together by links.
+struct Group {
+    std::vector<std::size_t> before;
+    std::vector<std::size_t> after;
+};
+
+/// In the order of their first droplets before, then those that are new.
+std::vector<Group> groupsOf(std::size_t before, std::size_t after, const std::vector<Link>& links)
+{
+    // Droplets after count on from those before; each is named by the smallest it hangs together with.
+    std::vector<std::size_t> name(before + after);
+    std::iota(name.begin(), name.end(), std::size_t{0});
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const Link& link : links) {
+            std::size_t& a = name[link.before];
+            std::size_t& b = name[before + link.after];
+            changed = changed || a != b;
+            a = b = std::min(a, b);
+        }
+    }
+    std::vector<Group> groups(before + after);
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        Group& group = groups[name[i]];
+        (i < before ? group.before : group.after).push_back(i < before ? i : i - before);
+    }
+    groups.erase(std::remove_if(groups.begin(), groups.end(),
+                                [](const Group& group) { return group.before.empty() && group.after.empty(); }),
+                 groups.end());
+    return groups;
+}
+
+/// Volumes of droplets on these meshes at one pressure, as shares of the whole.
+std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+{
+    SolveOptions level = options;
+    level.model = Model::Linear;
+    level.gravity = std::max(planeGravity(options).normal, 0.0);
+    level.tilt = 0.0;
+    level.ground = {};
+    level.no_penetration = false;
+    level.volumes.clear();
+    double whole = 0.0;
+    for (const PlanarMesh& mesh : meshes) {
+        whole += std::pow(area(mesh), 1.5);  // of the order of what they hold, so that nothing overflows
+    }
+    level.fill = {FillBy::Volume, whole, FillSharing::Total};
+    const Solution solution = solve(meshes, level);
+    std::vector<double> shares;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        shares.push_back(solution.report.usable() ? measure(meshes[k], solution.droplets[k], level).volume
+                                                  : area(meshes[k]));
+        sum += shares.back();
+    }
+    for (double& share : shares) {
+        share /= sum;
+    }
+    return shares;
+}
+
+/// Volumes of new droplets by themselves.
+std::vector<double> newVolumes(const std::vector<PlanarMesh>& meshes, SolveOptions options)
+{
+    options.volumes.clear();
+    const Solution solution = solve(meshes, options);
+    if (!solution.report.usable()) {
+        throw Error(ErrorCode::NoSuchDroplet, "a droplet that appears cannot be filled as asked; ask for less");
+    }
+    std::vector<double> volumes;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        volumes.push_back(measure(meshes[k], solution.droplets[k], options).volume);
+    }
+    return volumes;
+}
+
+template <typename Value>
+std::vector<Value> chosen(const std::vector<Value>& all, const std::vector<std::size_t>& which)
+{
+    std::vector<Value> some;
+    some.reserve(which.size());
+    for (const std::size_t k : which) {
+        some.push_back(all[k]);
+    }
+    return some;
+}
+
+/// Gives every droplet its id and where it comes from.
+void nameDroplets(const Frame& before, const std::vector<Group>& groups, const std::vector<Link>& links, Frame& frame)
+{
+    frame.next_id = before.next_id;
+    for (const Group& group : groups) {
+        std::vector<std::size_t> ids;
+        std::size_t heir = 0;
+        for (const std::size_t i : group.before) {
+            ids.push_back(before.droplets[i].id);
+            heir = before.droplets[i].volume > before.droplets[heir].volume || i == group.before.front() ? i : heir;
+        }
+        // The id goes to what covers most of the heir's ground.
+        std::size_t keeper = frame.droplets.size();
+        double most = -1.0;
+        for (const std::size_t k : group.after) {
+            double common = 0.0;
+            for (const Link& link : links) {
+                common += link.before == heir && link.after == k && !group.before.empty() ? link.area : 0.0;
+            }
+            if (common > most) {
+                most = common;
+                keeper = k;
+            }
+        }
+        for (const std::size_t k : group.after) {
+            frame.droplets[k].from = ids;
+            frame.droplets[k].id = !group.before.empty() && k == keeper ? before.droplets[heir].id : frame.next_id++;
+        }
+    }
+}
+
+/// Hands the volumes of the frame before on.
+void passVolumes(const Frame& before, const std::vector<Group>& groups, const SolveOptions& options, Frame& frame)
+{
+    std::vector<std::size_t> appeared;
+    for (const Group& group : groups) {
+        double volume = 0.0;
+        for (const std::size_t i : group.before) {
+            volume += before.droplets[i].volume;
+        }
+        if (group.after.empty()) {
+            frame.volume_lost += volume;
+        } else if (group.before.empty()) {
+            appeared.insert(appeared.end(), group.after.begin(), group.after.end());
+        } else if (group.after.size() == 1) {
+            frame.droplets[group.after.front()].volume = volume;
+        } else {
+            const std::vector<double> shares = sharesOf(chosen(frame.droplet.meshes, group.after), options);
+            for (std::size_t k = 0; k < shares.size(); ++k) {
+                frame.droplets[group.after[k]].volume = shares[k] * volume;
+            }
+        }
+    }
+    if (!appeared.empty()) {
+        const std::vector<double> volumes = newVolumes(chosen(frame.droplet.meshes, appeared), options);
+        for (std::size_t k = 0; k < appeared.size(); ++k) {
+            frame.droplets[appeared[k]].volume = volumes[k];
+            frame.volume_gained += volumes[k];
+        }
+    }
+}
+
+/// Whether every droplet goes on as one; then the footprints are put in the order they had.
+bool putInOrder(std::size_t count, const std::vector<Group>& groups, Domain& domain)
+{
+    const bool one_to_one =
+        domain.droplets.size() == count && std::all_of(groups.begin(), groups.end(), [](const Group& group) {
+            return group.before.size() == 1 && group.after.size() == 1;
+        });
+    if (!one_to_one) {
+        return false;
+    }
+    std::vector<Footprint> ordered(count);
+    for (const Group& group : groups) {
+        ordered[group.before.front()] = std::move(domain.droplets[group.after.front()]);
+    }
+    domain.droplets = std::move(ordered);
+    return true;
+}
+
+bool anyDry(const Droplet& droplet)
+{
+    return std::any_of(droplet.solution.droplets.begin(), droplet.solution.droplets.end(),
+                       [](const HeightField& field) { return !field.dry.empty(); });
+}
+
+/// Moves meshes and bases along with their footprints, if all of them can.
+bool followAll(const Frame& before, Frame& frame)
+{
+    const std::size_t count = before.first_meshes.size();
+    std::vector<std::optional<PlanarMesh>> meshes(count);
+    std::vector<PlanarMesh> bases(before.bases.size());
+    std::vector<std::uint8_t> whole(count, 0);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        meshes[k] = follow(before.first_meshes[k], before.droplet.meshes[k], frame.droplet.domain.droplets[k]);
+        whole[k] = meshes[k] ? 1 : 0;
+        if (meshes[k] && !bases.empty()) {
+            const auto rim = meshes[k]->vertices.begin();
+            bases[k] = withRim(before.first_bases[k], {rim, rim + meshes[k]->rimVertexCount()});
+            whole[k] = std::all_of(bases[k].triangles.begin(), bases[k].triangles.end(),
+                                   [&](const Triangle& t) { return doubleArea(bases[k], t) > 0.0; })
+                           ? 1
+                           : 0;
+        }
+    });
+    if (std::find(whole.begin(), whole.end(), std::uint8_t{0}) != whole.end()) {
+        return false;
+    }
+    for (std::optional<PlanarMesh>& mesh : meshes) {
+        frame.droplet.meshes.push_back(std::move(*mesh));
+    }
+    frame.bases = std::move(bases);
+    frame.first_meshes = before.first_meshes;
+    frame.first_bases = before.first_bases;
+    return true;
+}
+
+void meshAnew(const DropletOptions& options, Frame& frame)
+{
+    frame.droplet.meshes = meshesOf(frame.droplet.domain, options);
+    frame.bases.clear();
+    if (!options.open && options.solve.ground.flat()) {
+        frame.bases.resize(frame.droplet.meshes.size());
+        tbb::parallel_for(std::size_t{0}, frame.bases.size(),
+                          [&](std::size_t k) { frame.bases[k] = cover(frame.droplet.meshes[k]); });
+    }
+    frame.first_meshes = frame.droplet.meshes;
+    frame.first_bases = frame.bases;
+}
+
+}  // namespace
+
+void SequenceOptions::validate() const
+{
+    checkRiver(droplet);
+    if (droplet.fill_range) {
+        throw Error(ErrorCode::InvalidArgument, "fill_range has no place in a sequence");
+    }
+    if (!droplet.solve.volumes.empty()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "volumes of each droplet have no place in a sequence: fill says how "
+                    "much the first frame has");
+    }
+    if (volume_mode == VolumeMode::Total && droplet.solve.fill.sharing != FillSharing::Total) {
+        throw Error(ErrorCode::InvalidArgument, "volume_mode total needs fill.sharing total: one reservoir");
+    }
+}
+
+Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress)
+{
+    options.validate();
+    Frame frame;
+    frame.droplet.outline = std::move(outline);
+    frame.droplet.domain = split(frame.droplet.outline);
+    if (progress) {
+        progress(Stage::Triangulate);
+    }
+    meshAnew(options.droplet, frame);
+    finish(frame.droplet, options.droplet, frame.bases, progress);
+    for (const ShapeFigures& figures : frame.droplet.figures) {
+        frame.droplets.push_back({frame.next_id++, {}, figures.volume});
+    }
+    return frame;
+}
+
+Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress)
+{
+    options.validate();
+    if (outline.extent != before.droplet.outline.extent) {
+        throw Error(ErrorCode::InvalidInput, "frames of a sequence must have one extent");
+    }
+    Frame frame;
+    frame.droplet.outline = std::move(outline);
+    Domain& domain = frame.droplet.domain;
+    domain = split(frame.droplet.outline);
+    const double row = rowOf(frame.droplet.outline);
+    const std::size_t count = before.droplets.size();
+    std::vector<Link> links = linksOf(before.droplet.domain, domain, row);
+    std::vector<Group> groups = groupsOf(count, domain.droplets.size(), links);
+    if (progress) {
+        progress(Stage::Triangulate);
+    }
+    const bool one_to_one = putInOrder(count, groups, domain);
+    if (one_to_one) {
+        links.clear();
+        for (Group& group : groups) {
+            group.after = group.before;
+            links.push_back({group.before.front(), group.after.front(), 1.0});
+        }
+    }
+    DropletOptions now = options.droplet;
+    if (options.volume_mode == VolumeMode::Total) {
+        now.solve.fill = {FillBy::Volume, volumeOf(before.droplets), FillSharing::Total};
+    }
+    const bool followed = options.keep_vertices && one_to_one && !anyDry(before.droplet) && followAll(before, frame);
+    if (!followed) {
+        meshAnew(now, frame);
+    }
+    frame.droplets.resize(domain.droplets.size());
+    nameDroplets(before, groups, links, frame);
+    if (options.volume_mode == VolumeMode::Track) {
+        passVolumes(before, groups, options.droplet.solve, frame);
+        now.solve.fill.by = FillBy::Volume;
+        now.solve.fill.sharing = FillSharing::Each;
+        for (const Ancestry& droplet : frame.droplets) {
+            now.solve.volumes.push_back(droplet.volume);
+        }
+    }
+    finish(frame.droplet, now, frame.bases, progress);
+    if (options.volume_mode == VolumeMode::Total) {
+        const double scale = now.solve.fill.amount / frame.droplet.total.volume;  // so that nothing drifts
+        for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
+            frame.droplets[k].volume = scale * frame.droplet.figures[k].volume;
+        }
+    }
+    frame.continues = followed && !anyDry(frame.droplet);
+    return frame;
+}
+
+}  // namespace droplet

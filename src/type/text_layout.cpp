@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Directions by the Unicode bidirectional algorithm (Unicode Standard Annex 9), as FriBidi has it; scripts as HarfBuzz
+// knows them, characters that all scripts share (UAX 24: Common, Inherited) going with what stands before them.
+
+#include "type/text_layout.h"
+
+#include <fribidi.h>
+#include <hb.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+struct LeveledRun {
+    TextRun run;
+    FriBidiLevel level = 0;
+};
+
+std::vector<hb_script_t> scriptsOf(const std::u32string& text)
+{
+    hb_unicode_funcs_t* unicode = hb_unicode_funcs_get_default();
+    std::vector<hb_script_t> scripts;
+    for (const char32_t c : text) {
+        scripts.push_back(hb_unicode_script(unicode, c));
+    }
+    const auto shared = [](hb_script_t script) {
+        return script == HB_SCRIPT_COMMON || script == HB_SCRIPT_INHERITED || script == HB_SCRIPT_UNKNOWN;
+    };
+    const auto first = std::find_if_not(scripts.begin(), scripts.end(), shared);
+    hb_script_t current = first == scripts.end() ? HB_SCRIPT_COMMON : *first;
+    for (hb_script_t& script : scripts) {
+        current = shared(script) ? current : script;
+        script = current;
+    }
+    return scripts;
+}
+
+/// Embedding levels; the line starts on the right where its base level is odd.
+struct Levels {
+    std::vector<FriBidiLevel> of;
+    bool leftward = false;
+};
+
+Levels levelsOf(const std::u32string& text)
+{
+    const std::vector<FriBidiChar> characters(text.begin(), text.end());
+    const auto count = static_cast<FriBidiStrIndex>(text.size());
+    std::vector<FriBidiCharType> types(text.size());
+    std::vector<FriBidiBracketType> brackets(text.size());
+    fribidi_get_bidi_types(characters.data(), count, types.data());
+    fribidi_get_bracket_types(characters.data(), count, types.data(), brackets.data());
+    Levels levels{std::vector<FriBidiLevel>(text.size()), false};
+    FriBidiParType base = FRIBIDI_PAR_ON;
+    if (fribidi_get_par_embedding_levels_ex(types.data(), brackets.data(), count, &base, levels.of.data()) == 0) {
+        throw Error(ErrorCode::InvalidInput, "the directions of the text cannot be told");
+    }
+    levels.leftward = FRIBIDI_IS_RTL(base);
+    return levels;
+}
+
+/// Runs in the order they stand in the text.
+std::vector<LeveledRun> runsOf(const std::u32string& text, const std::vector<FriBidiLevel>& levels)
+{
+    const std::vector<hb_script_t> scripts = scriptsOf(text);
+    std::vector<LeveledRun> runs;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (runs.empty() || runs.back().level != levels[i] ||
+            runs.back().run.script != static_cast<unsigned>(scripts[i])) {
+            runs.push_back({{i, i, static_cast<unsigned>(scripts[i]), levels[i] % 2 != 0}, levels[i]});
+        }
+        runs.back().run.end = i + 1;
+    }
+    return runs;
+}
+
+/// Rule L2: from the highest level down to the lowest odd one, what has that level or a higher one is reversed.
+void reorder(std::vector<LeveledRun>& runs)
+{
+    FriBidiLevel highest = 0;
+    for (const LeveledRun& run : runs) {
+        highest = std::max(highest, run.level);
+    }
+    for (FriBidiLevel level = highest; level > 0; --level) {
+        for (auto begin = runs.begin(); begin != runs.end();) {
+            const auto lower = [&](const LeveledRun& run) { return run.level < level; };
+            begin = std::find_if_not(begin, runs.end(), lower);
+            const auto end = std::find_if(begin, runs.end(), lower);
+            std::reverse(begin, end);
+            begin = end;
+        }
+    }
+}
+
+}  // namespace
+
+LaidLine layLine(const FontFace& face, const std::u32string& text)
+{
+    LaidLine line;
+    if (text.empty()) {
+        return line;
+    }
+    const Levels levels = levelsOf(text);
+    line.leftward = levels.leftward;
+    std::vector<LeveledRun> runs = runsOf(text, levels.of);
+    reorder(runs);
+    for (const LeveledRun& run : runs) {
+        const std::vector<ShapedGlyph> shaped = face.shape(text, run.run);
+        line.glyphs.insert(line.glyphs.end(), shaped.begin(), shaped.end());
+    }
+    for (const ShapedGlyph& glyph : line.glyphs) {
+        line.advance += glyph.advance;
+    }
+    return line;
+}
+
+}  // namespace droplet

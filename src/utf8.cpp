@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "utf8.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+/// How many bytes follow a first one; more than 3 if it cannot be one.
+std::size_t following(unsigned char first)
+{
+    if (first < 0x80) {
+        return 0;
+    }
+    if (first < 0xc0) {
+        return 4;
+    }
+    return first < 0xe0 ? 1 : (first < 0xf0 ? 2 : (first < 0xf8 ? 3 : 4));
+}
+
+bool isScalarValue(char32_t c)
+{
+    return c <= 0x10ffff && (c < 0xd800 || c > 0xdfff);
+}
+
+}  // namespace
+
+std::u32string decodeUtf8(std::string_view text, const std::string& subject)
+{
+    std::u32string characters;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const std::size_t count = following(first);
+        bool good = count < 4 && i + count < text.size();
+        char32_t c = count == 0 ? first : static_cast<char32_t>(first & (0x3fU >> count));
+        for (std::size_t k = 1; good && k <= count; ++k) {
+            const auto next = static_cast<unsigned char>(text[i + k]);
+            good = (next & 0xc0U) == 0x80U;
+            c = (c << 6U) | (next & 0x3fU);
+        }
+        // The shortest form alone.
+        constexpr char32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+        if (!good || c < kLeast[count] || !isScalarValue(c)) {
+            throw Error(ErrorCode::InvalidArgument, subject + " is not UTF-8 at byte " + std::to_string(i + 1));
+        }
+        characters.push_back(c);
+        i += count + 1;
+    }
+    return characters;
+}
+
+std::string encodeUtf8(char32_t c)
+{
+    const auto byte = [](char32_t bits) { return static_cast<char>(static_cast<unsigned char>(bits)); };
+    if (c < 0x80) {
+        return {byte(c)};
+    }
+    if (c < 0x800) {
+        return {byte(0xc0 | (c >> 6U)), byte(0x80 | (c & 0x3fU))};
+    }
+    if (c < 0x10000) {
+        return {byte(0xe0 | (c >> 12U)), byte(0x80 | ((c >> 6U) & 0x3fU)), byte(0x80 | (c & 0x3fU))};
+    }
+    return {byte(0xf0 | (c >> 18U)), byte(0x80 | ((c >> 12U) & 0x3fU)), byte(0x80 | ((c >> 6U) & 0x3fU)),
+            byte(0x80 | (c & 0x3fU))};
+}
+
+std::string codePointOf(char32_t c)
+{
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "U+%04lX", static_cast<unsigned long>(c));
+    return text.data();
+}
+
+}  // namespace droplet

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// J. S. Marshall, W. M. Palmer, "The distribution of raindrops with size", J. Meteor. 5 (1948) 165: N(D) and Λ(R).
+// D. Atlas, R. C. Srivastava, R. S. Sekhon, "Doppler radar characteristics of precipitation at vertical incidence",
+// Rev. Geophys. 11 (1973) 1: v(D).
+#include "droplet/windshield/rain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+
+namespace droplet {
+namespace {
+
+// v = kFastest − kSlowed e^(−kFall D), Atlas et al., eq. 8 (there in mm).
+constexpr double kFastest = 9.65;  // [m/s]
+constexpr double kSlowed = 10.3;   // [m/s]
+constexpr double kFall = 600.0;    // [1/m]
+
+/// The diameter that falls at a speed, 0 ≤ speed; infinity where none does.
+double diameterAt(double speed)
+{
+    return speed < kFastest ? std::log(kSlowed / (kFastest - speed)) / kFall : std::numeric_limits<double>::infinity();
+}
+
+/// ∫ e^(−kD) dD.
+double integral(double k, double from, double to)
+{
+    return from < to ? std::exp(-k * from) * -std::expm1(-k * (to - from)) / k : 0.0;
+}
+
+/// ∫ N dD and ∫ N v dD.
+double met(const RaindropSizes& sizes, double from, double to)
+{
+    return sizes.slope > 0.0 ? sizes.intercept * integral(sizes.slope, from, to) : 0.0;
+}
+double fallen(const RaindropSizes& sizes, double from, double to)
+{
+    from = std::max(from, diameterAt(0.0));
+    return sizes.slope > 0.0 ? sizes.intercept * (kFastest * integral(sizes.slope, from, to) -
+                                                  kSlowed * integral(sizes.slope + kFall, from, to))
+                             : 0.0;
+}
+
+/// e^(−x) Σ xᵏ/k!, k ≤ 3: the share of water in diameters over x/Λ, for D³ N is a gamma density of shape 4.
+double waterOver(double x)
+{
+    return std::exp(-x) * (1.0 + x * (1.0 + x / 2.0 * (1.0 + x / 3.0)));
+}
+
+}  // namespace
+
+double RaindropSizes::density(double diameter) const
+{
+    return slope > 0.0 ? intercept * std::exp(-slope * diameter) : 0.0;
+}
+
+double RaindropSizes::largerThan(double diameter) const
+{
+    return slope > 0.0 ? intercept / slope * std::exp(-slope * diameter) : 0.0;
+}
+
+double RaindropSizes::waterContent() const
+{
+    return slope > 0.0 ? std::numbers::pi * intercept / std::pow(slope, 4.0) : 0.0;
+}
+
+double RaindropSizes::waterShare(double least, double greatest) const
+{
+    return slope > 0.0 ? waterOver(slope * least) - waterOver(slope * greatest) : 0.0;
+}
+
+RaindropSizes raindropSizes(double rainfall)
+{
+    if (!(rainfall >= 0.0) || !std::isfinite(rainfall)) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "rainfall is " + std::to_string(rainfall / kMillimetrePerHour) + " mm/h; it must be at least 0");
+    }
+    RaindropSizes sizes;
+    if (rainfall > 0.0) {
+        sizes.slope = 4.1e3 * std::pow(rainfall / kMillimetrePerHour, -0.21);  // Marshall and Palmer, eq. 3
+    }
+    return sizes;
+}
+
+double terminalSpeed(double diameter)
+{
+    return std::max(0.0, kFastest - kSlowed * std::exp(-kFall * diameter));  // Atlas et al., eq. 8
+}
+
+void RaindropRange::validate() const
+{
+    if (!(least > 0.0 && greatest > least && std::isfinite(greatest))) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "raindrops.least and greatest are " + std::to_string(least / kMillimetre) + " and " +
+                        std::to_string(greatest / kMillimetre) + " mm; they must be above 0 and rise");
+    }
+}
+
+Exposure Exposure::ofSlope(double slope)
+{
+    return {std::cos(slope), std::sin(slope)};
+}
+
+double RainImpacts::density(double diameter, const Exposure& exposure) const
+{
+    if (diameter < range.least || diameter > range.greatest) {
+        return 0.0;
+    }
+    return sizes.density(diameter) *
+           std::max(0.0, terminalSpeed(diameter) * exposure.upward + speed * exposure.forward);
+}
+
+double RainImpacts::rate(double least, const Exposure& exposure) const
+{
+    double from = std::max(least, range.least);
+    double to = range.greatest;
+    const double wall = speed * exposure.forward;
+    // One of the two may turn the surface's back to the rain: raindrops of one speed then run along it.
+    if (exposure.upward > 0.0 && wall < 0.0) {
+        from = std::max(from, diameterAt(-wall / exposure.upward));
+    } else if (exposure.upward < 0.0 && wall > 0.0) {
+        to = std::min(to, diameterAt(-wall / exposure.upward));
+    } else if (exposure.upward <= 0.0 && wall <= 0.0) {
+        return 0.0;
+    }
+    return from < to ? exposure.upward * fallen(sizes, from, to) + wall * met(sizes, from, to) : 0.0;
+}
+
+double RainImpacts::bound() const
+{
+    return fallen(sizes, range.least, range.greatest) + speed * met(sizes, range.least, range.greatest);
+}
+
+RaindropSampler::RaindropSampler(const RainImpacts& impacts)
+    : impacts_(impacts),
+      floor_share_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest) / impacts.bound()),
+      fallen_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest)),
+      met_(-std::expm1(-impacts.sizes.slope * (impacts.range.greatest - impacts.range.least)))
+{
+}
+
+double RaindropSampler::diameter(double which, double u) const
+{
+    const RaindropSizes& sizes = impacts_.sizes;
+    const auto [least, greatest] = impacts_.range;
+    if (which >= floor_share_) {
+        return std::min(least - std::log1p(-u * met_) / sizes.slope, greatest);
+    }
+    // Newton's method on the share that has fallen, kept between bounds that close in.
+    double low = std::max(least, diameterAt(0.0));
+    double high = greatest;
+    const double from = low;
+    double diameter = std::min(from + 1.0 / sizes.slope, 0.5 * (low + high));
+    for (int tries = 0; tries < 60; ++tries) {
+        const double miss = fallen(sizes, from, diameter) - u * fallen_;
+        (miss > 0.0 ? high : low) = diameter;
+        const double slope = sizes.density(diameter) * terminalSpeed(diameter);
+        const double newton = slope > 0.0 ? diameter - miss / slope : low;
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        const double moved = std::abs(next - diameter);
+        diameter = next;
+        if (moved <= 1e-9 * diameter) {
+            break;
+        }
+    }
+    return diameter;
+}
+
+double RainImpacts::kept(double diameter, const Exposure& exposure) const
+{
+    const double fall = terminalSpeed(diameter);
+    const double all = fall + speed;
+    return all > 0.0 ? std::max(0.0, fall * exposure.upward + speed * exposure.forward) / all : 0.0;
+}
+
+}  // namespace droplet

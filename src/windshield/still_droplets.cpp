@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield/still_droplets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace droplet {
+namespace {
+
+StillDroplet joined(const StillDroplet& a, const StillDroplet& b)
+{
+    const double volume = a.volume + b.volume;
+    return {(1.0 / volume) * (a.volume * a.position + b.volume * b.position), volume};
+}
+
+/// Where in its cell, as StillDroplets::places has it.
+std::uint16_t placeOf(const StillDroplets& still, std::size_t cell, Vec2 position)
+{
+    const auto part = [&](double v, std::size_t number) {
+        const double places = kPlaces * (v / still.cell - static_cast<double>(number));
+        return static_cast<std::uint32_t>(std::clamp(places, 0.0, kPlaces - 1.0));
+    };
+    const std::size_t row = cell / still.columns;
+    return static_cast<std::uint16_t>(part(position.x, cell - row * still.columns) + kPlaces * part(position.y, row));
+}
+
+/// Closes the gaps that droplets without volume leave in a cell; the others keep their order.
+void closeGaps(StillDroplets& still, std::size_t cell)
+{
+    const std::size_t begin = cell * StillDroplets::kMost;
+    const std::size_t end = begin + still.counts[cell];
+    std::size_t kept = begin;
+    for (std::size_t slot = begin; slot < end; ++slot) {
+        if (still.slots[slot].volume > 0.0) {
+            still.slots[kept] = still.slots[slot];
+            still.places[kept++] = still.places[slot];
+        }
+    }
+    still.counts[cell] = static_cast<std::uint8_t>(kept - begin);
+    for (; kept < end; ++kept) {
+        still.slots[kept] = {};
+        still.places[kept] = 0;
+    }
+    ++still.revisions[cell];
+}
+
+StillDroplet removed(StillDroplets& still, StillSlot place)
+{
+    const StillDroplet gone = std::exchange(still.slots[place.cell * StillDroplets::kMost + place.slot], {});
+    closeGaps(still, place.cell);
+    return gone;
+}
+
+std::optional<StillSlot> nearestTouched(const StillDroplets& still, const StillDroplet& droplet,
+                                        const StillRules& rules)
+{
+    const double reach = rules.reachOf(droplet.volume);
+    const double most = reach + rules.greatestReach();
+    double nearest = most * most;
+    std::optional<StillSlot> found;
+    visitNear(still, droplet.position, droplet.position, most, [&](StillSlot slot) {
+        const StillDroplet& other = at(still, slot);
+        const Vec2 apart = other.position - droplet.position;
+        const double squared = dot(apart, apart);
+        // The root, which costs most, only where it can matter.
+        if (squared < nearest) {
+            const double touching = reach + rules.reachOf(other.volume);
+            if (squared <= touching * touching) {
+                nearest = squared;
+                found = slot;
+            }
+        }
+    });
+    return found;
+}
+
+StillSlot nearestIn(const StillDroplets& still, std::size_t cell, Vec2 p)
+{
+    const auto here = still.droplets(cell);
+    const auto nearest = std::min_element(here.begin(), here.end(), [p](const StillDroplet& a, const StillDroplet& b) {
+        return dot(a.position - p, a.position - p) < dot(b.position - p, b.position - p);
+    });
+    return {cell, static_cast<std::uint8_t>(nearest - here.begin())};
+}
+
+}  // namespace
+
+void StillDroplets::put(std::size_t number, const StillDroplet& droplet)
+{
+    const std::size_t slot = number * kMost + counts[number]++;
+    slots[slot] = droplet;
+    places[slot] = placeOf(*this, number, droplet.position);
+    ++revisions[number];
+}
+
+std::size_t StillDroplets::count() const
+{
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
+StillDroplets noStillDroplets(Vec2 size)
+{
+    const Cells cells = Cells::over(size, kStillCell);
+    StillDroplets still;
+    still.cell = cells.width;
+    still.columns = cells.columns;
+    still.rows = cells.rows;
+    still.slots.resize(cells.count() * StillDroplets::kMost);
+    still.places.resize(still.slots.size());
+    still.counts.resize(cells.count());
+    still.revisions.resize(cells.count());
+    return still;
+}
+
+double StillRules::reachOf(double volume) const
+{
+    return reach * std::cbrt(volume);
+}
+
+std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& droplet, const StillRules& rules)
+{
+    std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
+    if (!other) {
+        const std::size_t cell = cellsOf(still).number(droplet.position);
+        if (still.counts[cell] < StillDroplets::kMost) {
+            still.put(cell, droplet);
+            return std::nullopt;
+        }
+        other = nearestIn(still, cell, droplet.position);
+    }
+    return joined(droplet, removed(still, *other));
+}
+
+void Taking::close()
+{
+    for (const std::size_t cell : touched_) {
+        closeGaps(*still_, cell);
+    }
+    touched_.clear();
+}
+
+}  // namespace droplet

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// SVG: what is drawn is what the drawing says, on the page it says; files that mean harm do none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <thread>
+
+#include "droplet/footprint/domain.h"
+#include "droplet/footprint/outline.h"
+#include "image/encoded_images.h"
+
+namespace droplet {
+namespace {
+
+using namespace encoded;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Bytes svg(const std::string& attributes, const std::string& content)
+{
+    return bytesOf(R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" )" +
+                   attributes + ">" + content + "</svg>");
+}
+
+/// On a page of 10 × 10.
+Bytes drawing(const std::string& content)
+{
+    return svg(R"(viewBox="0 0 10 10")", content);
+}
+
+MaskOptions side(int pixels)
+{
+    MaskOptions options;
+    options.vector_long_side = pixels;
+    return options;
+}
+
+/// Of the whole page.
+double coveredPart(const Mask& mask)
+{
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 /
+           static_cast<double>(mask.coverage.size());
+}
+
+double coveredPart(const Bytes& encoded, int pixels = 100)
+{
+    return coveredPart(decodeMask(encoded, side(pixels)));
+}
+
+/// The outline on a page one metre wide.
+Outline outlineOf(const Bytes& encoded, int pixels)
+{
+    TraceOptions options;
+    options.width = 1.0;
+    return trace(decodeMask(encoded, side(pixels)), options);
+}
+
+double areaOf(const Outline& outline)
+{
+    double area = 0.0;
+    for (const Loop& loop : outline.loops) {
+        area += signedArea(loop);
+    }
+    return area;
+}
+
+Bytes gzipped(const Bytes& bytes)
+{
+    z_stream stream{};
+    constexpr int kGzip = 16 + MAX_WBITS;
+    deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY);
+    Bytes compressed(deflateBound(&stream, bytes.size()));
+    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+    stream.avail_out = static_cast<uInt>(compressed.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    compressed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return compressed;
+}
+
+TEST(Svg, CircleEnclosesTheAreaOfADisc)
+{
+    // Renderers draw circles of cubic curves, which are up to 0.03 % larger, and cut those into chords.
+    const Outline outline = outlineOf(drawing(R"(<circle cx="5.013" cy="4.987" r="4"/>)"), 1024);
+    ASSERT_EQ(outline.loops.size(), 1U);
+    EXPECT_TRUE(outline.anti_aliased);
+    EXPECT_NEAR(areaOf(outline) / (0.16 * std::numbers::pi), 1.0, 4e-4);
+    for (const Vec2 p : outline.loops[0].points) {
+        ASSERT_NEAR(std::hypot(p.x - 0.0013, p.y - 0.0013), 0.4, 3e-4);
+    }
+}
+
+TEST(Svg, OutlineConvergesWithTheResolution)
+{
+    std::string path;
+    std::vector<Vec2> corners;
+    for (int i = 0; i < 10; ++i) {
+        const double radius = i % 2 == 0 ? 4.3 : 1.7;
+        const double angle = i * std::numbers::pi / 5.0 + 0.1;
+        corners.push_back({5.0 + radius * std::sin(angle), 5.0 - radius * std::cos(angle)});
+        path += (i == 0 ? "M" : "L") + std::to_string(corners.back().x) + "," + std::to_string(corners.back().y);
+    }
+    double exact = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        exact += 0.5 * cross(corners[i], corners[(i + 1) % corners.size()]) / 100.0;
+    }
+    const Bytes star = drawing("<path d='" + path + "z'/>");
+    const auto error = [&](int pixels) { return std::abs(areaOf(outlineOf(star, pixels)) / std::abs(exact) - 1.0); };
+    const double coarse = error(256);
+    const double fine = error(2048);
+    EXPECT_LT(coarse, 1e-3);
+    EXPECT_LT(fine, 0.25 * coarse);
+}
+
+TEST(Svg, FillRuleDecidesOverHoles)
+{
+    const std::string squares = R"( d="M1,1H9V9H1zM3,3H7V7H3z"/>)";
+    const Outline filled = outlineOf(drawing("<path" + squares), 200);
+    EXPECT_EQ(filled.loops.size(), 1U);
+    EXPECT_NEAR(areaOf(filled), 0.64, 1e-3);
+    const Outline holed = outlineOf(drawing(R"(<path fill-rule="evenodd")" + squares), 200);
+    EXPECT_EQ(holed.loops.size(), 2U);
+    EXPECT_NEAR(areaOf(holed), 0.48, 1e-3);
+    // Non-zero, but the inner square runs the other way.
+    const Outline wound = outlineOf(drawing(R"(<path d="M1,1H9V9H1zM3,3V7H7V3z"/>)"), 200);
+    EXPECT_EQ(wound.loops.size(), 2U);
+    EXPECT_NEAR(areaOf(wound), 0.48, 1e-3);
+}
+
+TEST(Svg, PathsAndGroupsAreUnited)
+{
+    const Bytes two = drawing(
+        "<g transform='translate(1 1)'><rect width='2' height='2'/><g transform='scale(2)'><rect x='.5' y='.5' "
+        "width='1' height='1'/></g></g><g><g><path d='M6 6h3v3h-3z'/></g></g><rect display='none' x='4' width='5' "
+        "height='5'/>");
+    const Outline outline = outlineOf(two, 500);
+    EXPECT_EQ(outline.loops.size(), 2U);
+    EXPECT_NEAR(areaOf(outline), 0.07 + 0.09, 1e-3);
+    // Strokes are drawn, too.
+    EXPECT_NEAR(coveredPart(drawing(R"(<path d="M1 5h8" stroke="red" stroke-width="2"/>)"), 100), 0.16, 1e-3);
+}
+
+TEST(Svg, TextIsDrawnWhereThereAreFonts)
+{
+    const Bytes text = drawing(R"(<text x="1" y="8" font-size="8">W</text>)");
+    const Mask mask = decodeMask(text, side(100));
+    if (coveredPart(mask) == 0.0) {
+        GTEST_SKIP() << "no fonts";
+    }
+    EXPECT_GT(coveredPart(mask), 0.05);
+    EXPECT_LT(coveredPart(mask), 0.6);
+}
+
+TEST(Svg, TransparentPageIsReadByAlphaAndOpaqueOneByLuma)
+{
+    const std::string square = R"(x="2" y="2" width="4" height="4"/>)";
+    for (const char* colour : {"white", "black", "#c04020", "white' opacity='.5"}) {
+        const Mask mask = decodeMask(drawing("<rect fill='" + std::string(colour) + "' " + square), side(100));
+        EXPECT_EQ(mask.channel, Channel::Alpha) << colour;
+        EXPECT_NEAR(coveredPart(mask), 0.16, 1e-3) << colour;
+    }
+    for (const auto& [page, colour] : {std::pair{"white", "black"}, {"#123", "yellow"}}) {
+        const std::string background = "<rect width='10' height='10' fill='" + std::string(page) + "'/>";
+        const Mask mask = decodeMask(drawing(background + "<rect fill='" + colour + "' " + square), side(100));
+        EXPECT_EQ(mask.channel, Channel::Luma) << colour;
+        EXPECT_NEAR(coveredPart(mask), 0.16, 1e-3) << colour;
+    }
+    EXPECT_NEAR(coveredPart(decodeMask(drawing("<rect " + square), only(Channel::Alpha))), 0.16, 1e-3);
+}
+
+struct PageCase {
+    std::string attributes;
+    int width;
+    int height;
+    double page_px;                  ///< CSS px across
+    std::optional<double> physical;  ///< [m]
+};
+
+TEST(Svg, PageIsWhatTheFileSaysItIs)
+{
+    const std::vector<PageCase> cases{
+        {R"(width="80" height="40")", 200, 100, 80, {}},
+        {R"(width="80px" height="160px")", 100, 200, 80, {}},
+        {R"(width="80mm" height="40mm")", 200, 100, 80 / 25.4 * 96, 0.08},
+        {R"(width="8cm" height="4cm")", 200, 100, 80 / 25.4 * 96, 0.08},
+        {R"(width="2in" height="1in")", 200, 100, 192, 0.0508},
+        {R"(width="72pt" height="36pt")", 200, 100, 96, 0.0254},
+        {R"(width="6pc" height="3pc")", 200, 100, 96, 0.0254},
+        {R"(viewBox="0 0 30 10")", 200, 67, 30, {}},
+        {R"(viewBox="5 5 10 30")", 67, 201, 10, {}},
+        {R"(width="100%" height="100%" viewBox="0 0 30 10")", 200, 67, 30, {}},
+        {R"(width="60mm" viewBox="0 0 30 10")", 200, 67, 60 / 25.4 * 96, 0.06},
+        {R"(height="60mm" viewBox="0 0 30 10")", 200, 67, 180 / 25.4 * 96, 0.18},
+        {R"(width="90" viewBox="0 0 30 10")", 200, 67, 90, {}},
+        {R"(height="90" viewBox="0 0 30 10")", 200, 67, 270, {}},
+        {R"(width="80mm" height="80mm" viewBox="0 0 30 10")", 200, 200, 80 / 25.4 * 96, 0.08},
+    };
+    for (const PageCase& page : cases) {
+        const Mask mask = decodeMask(svg(page.attributes, R"(<rect x="1" y="1" width="7" height="7"/>)"), side(200));
+        EXPECT_EQ(mask.width, page.width) << page.attributes;
+        EXPECT_EQ(mask.height, page.height) << page.attributes;
+        ASSERT_TRUE(mask.drawn_scale) << page.attributes;
+        EXPECT_NEAR(mask.width / *mask.drawn_scale, page.page_px, 1e-9 * page.page_px) << page.attributes;
+        ASSERT_EQ(mask.physical_width.has_value(), page.physical.has_value()) << page.attributes;
+        EXPECT_NEAR(mask.physical_width.value_or(0.0), page.physical.value_or(0.0), 1e-12) << page.attributes;
+    }
+}
+
+TEST(Svg, PageWithoutASizeIsAsLargeAsWhatIsDrawn)
+{
+    for (const char* place : {"x='500' y='-80'", "x='0' y='0'"}) {
+        const Mask mask = decodeMask(svg("", "<rect width='60' height='20' " + std::string(place) + "/>"),
+                                     {Channel::Alpha, false, 1 << 20, 300});
+        EXPECT_EQ(mask.width, 300);
+        EXPECT_EQ(mask.height, 100);
+        EXPECT_NEAR(coveredPart(mask), 1.0, 1e-3);
+    }
+}
+
+TEST(Svg, ContentKeepsItsShapeOnAPageOfAnother)
+{
+    const std::string disc = R"(<circle cx="5" cy="5" r="5"/>)";
+    const double fitted = coveredPart(svg(R"(width="40" height="20" viewBox="0 0 10 10")", disc), 400);
+    EXPECT_NEAR(fitted, 0.25 * std::numbers::pi / 2.0, 1e-3);
+    const double stretched =
+        coveredPart(svg(R"(width="40" height="20" viewBox="0 0 10 10" preserveAspectRatio="none")", disc), 400);
+    EXPECT_NEAR(stretched, 0.25 * std::numbers::pi, 1e-3);
+}
+
+TEST(Svg, UnitsOfThePageDoNotMatter)
+{
+    const auto scaled = [](double unit) {
+        const auto u = [unit](double length) { return std::to_string(length * unit); };
+        return svg("viewBox='0 0 " + u(10) + " " + u(10) + "'",
+                   "<circle cx='" + u(5) + "' cy='" + u(5) + "' r='" + u(4) + "'/>");
+    };
+    const double disc = 0.16 * std::numbers::pi;
+    for (const double unit : {1e-3, 1.0, 1e3, 1e6}) {
+        EXPECT_NEAR(coveredPart(scaled(unit), 200), disc, 1e-3 * disc) << unit;
+    }
+}
+
+TEST(Svg, ResolutionStaysWithinItsBounds)
+{
+    const std::string rect = R"(<rect width="5" height="5"/>)";
+    MaskOptions few = side(5000);
+    few.max_pixels = 10'000;
+    const Mask small = decodeMask(drawing(rect), few);
+    EXPECT_EQ(small.width, 100);
+    EXPECT_EQ(small.height, 100);
+    EXPECT_EQ(decodeMask(drawing(rect)).width, 2048);
+    // A hair is drawn larger, so that it is more than a row of pixels.
+    const Mask hair = decodeMask(svg(R"(viewBox="0 0 1000 2")", rect), side(2000));
+    EXPECT_EQ(hair.height, 16);
+    EXPECT_EQ(hair.width, 8000);
+    EXPECT_EQ(decodeMask(svg(R"(viewBox="0 0 2 1000")", rect), side(2000)).width, 16);
+    EXPECT_THAT(messageOf(svg(R"(viewBox="0 0 1 1e6")", rect)), HasSubstr("too narrow"));
+    for (const char* none : {"width='0' height='5'", "viewBox='0 0 0 0' width='0' height='0'", ""}) {
+        EXPECT_THAT(messageOf(svg(none, "")), AnyOf(HasSubstr("no size"), HasSubstr("without area"))) << none;
+    }
+}
+
+TEST(Svg, CompressedAndInOtherEncodingsIsTheSamePicture)
+{
+    const std::string text =
+        R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><circle cx="5" cy="5" r="4"/></svg>)";
+    const Mask plain = decodeMask(bytesOf(text), side(64));
+    const auto expect_same = [&](const Bytes& encoded) {
+        EXPECT_EQ(decodeMask(encoded, side(64)).coverage, plain.coverage);
+    };
+    expect_same(gzipped(bytesOf(text)));
+    expect_same(bytesOf("\xef\xbb\xbf" + text));
+    expect_same(bytesOf("\n  \t" + text));
+    expect_same(bytesOf("<?xml version=\"1.0\"?>\n<!-- a drawing -->\n" + text));
+    expect_same(bytesOf("<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"svg11.dtd\">" + text));
+    expect_same(
+        bytesOf("<s:svg xmlns:s=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10 10\"><s:circle cx=\"5\" "
+                "cy=\"5\" r=\"4\"/></s:svg>"));
+    for (const bool little : {true, false}) {
+        std::string wide = little ? "\xff\xfe" : "\xfe\xff";
+        for (const char c : text) {
+            wide += little ? std::string{c, '\0'} : std::string{'\0', c};
+        }
+        expect_same(bytesOf(wide));
+    }
+}
+
+TEST(Svg, NothingOutsideTheFileIsRead)
+{
+    const Folder folder;
+    writeFile(folder / "full.svg", drawing(R"(<rect width="10" height="10"/>)"));
+    const std::string full = (folder / "full.svg").string();
+    const std::string dot = R"(<rect width="1" height="1"/>)";
+    for (const std::string& harm :
+         {"<image width='10' height='10' xlink:href='" + full + "'/>",
+          "<image width='10' height='10' xlink:href='file://" + full + "'/>",
+          "<use xlink:href='file://" + full + "#r'/>",
+          std::string("<image width='10' height='10' xlink:href='http://127.0.0.1:9/x.png'/>"),
+          "<xi:include xmlns:xi='http://www.w3.org/2001/XInclude' href='" + full + "'/>",
+          "<style>@import url(file://" + full + ");</style>",
+          std::string("<script>document.documentElement.remove()</script>")}) {
+        EXPECT_NEAR(coveredPart(drawing(dot + harm)), 0.01, 1e-4) << harm;
+    }
+    const std::string entity = "<!DOCTYPE svg [<!ENTITY x SYSTEM \"file://" + full + "\">]>";
+    const Bytes outside = bytesOf(entity + R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">&x;</svg>)");
+    EXPECT_THAT(messageOf(outside), HasSubstr("SVG"));
+    // What the file holds itself is drawn: a black pixel as a PNG.
+    const Bytes inside = drawing(
+        dot +
+        R"(<image x="5" y="5" width="5" height="5" xlink:href="data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAA)"
+        R"(AAAA6fptVAAAACklEQVR4nGNgAAAAAgABSK+kcQAAAABJRU5ErkJggg=="/>)");
+    EXPECT_NEAR(coveredPart(inside), 0.26, 1e-3);
+}
+
+TEST(Svg, MoreThanCanBeDrawnIsRefused)
+{
+    // 10^7 squares, if every use were followed.
+    std::string bomb = R"(<defs><g id="a0"/>)";
+    for (int i = 1; i <= 7; ++i) {
+        bomb += "<g id='a" + std::to_string(i) + "'>";
+        for (int k = 0; k < 10; ++k) {
+            bomb += "<use xlink:href='#a" + std::to_string(i - 1) + "'/>";
+        }
+        bomb += "</g>";
+    }
+    EXPECT_THAT(messageOf(drawing(bomb + R"(</defs><use xlink:href="#a7"/>)")), HasSubstr("more than 500000"));
+
+    std::string tags;
+    for (int i = 0; i < 250'001; ++i) {
+        tags += "<g/>";
+    }
+    EXPECT_THAT(messageOf(drawing(tags)), HasSubstr("tags, more than the limit of 250000"));
+
+    const Bytes blank = drawing(std::string((std::size_t{1} << 26) + 1, ' '));
+    EXPECT_THAT(messageOf(blank), HasSubstr("more than 64 MiB"));
+    EXPECT_THAT(messageOf(gzipped(blank)), HasSubstr("more than 64 MiB"));
+
+    std::string laughs = "<!DOCTYPE svg [<!ENTITY a0 \"ha\">";
+    for (int i = 1; i <= 9; ++i) {
+        laughs += "<!ENTITY a" + std::to_string(i) + " \"";
+        for (int k = 0; k < 10; ++k) {
+            laughs += "&a" + std::to_string(i - 1) + ";";
+        }
+        laughs += "\">";
+    }
+    const std::string laughing =
+        laughs + R"(]><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><text>&a9;</text></svg>)";
+    EXPECT_THAT(messageOf(bytesOf(laughing)), HasSubstr("SVG"));
+
+    std::string nested;
+    for (int i = 0; i < 1000; ++i) {
+        nested = "<g>" + nested + "</g>";
+    }
+    EXPECT_THAT(messageOf(drawing(nested)), HasSubstr("depth"));
+}
+
+TEST(Svg, ElementsMayReferToOneAnotherAsDeepAsTheyLike)
+{
+    // Each would take the stack of an ordinary thread many times over.
+    const auto chain = [](const std::string& first, const std::string& link, const std::string& last) {
+        std::string content = "<defs>" + first;
+        const int links = 3000;
+        for (int i = 1; i < links; ++i) {
+            std::string next = link;
+            next.replace(next.find('@'), 1, std::to_string(i));
+            next.replace(next.find('@'), 1, std::to_string(i - 1));
+            content += next;
+        }
+        return drawing(content + "</defs>" + last + "#a" + std::to_string(links - 1) +
+                       (last.back() == '(' ? ")'/>" : "'/>"));
+    };
+    const Bytes uses =
+        chain("<rect id='a0' width='5' height='5'/>", "<use id='a@' xlink:href='#a@'/>", "<use xlink:href='");
+    EXPECT_NEAR(coveredPart(uses, 16), 0.25, 1e-3);
+    const Bytes patterns =
+        chain("<pattern id='a0' width='1' height='1'><rect width='9' height='9'/></pattern>",
+              "<pattern id='a@' width='1' height='1'><rect width='9' height='9' fill='url(#a@)'/></pattern>",
+              "<rect width='5' height='5' fill='url(");
+    EXPECT_GT(coveredPart(patterns, 16), 0.1);
+}
+
+TEST(Svg, WhatIsBrokenIsRefusedInOneLine)
+{
+    const Bytes whole = svg("width='8' height='8'", "<g transform='scale(2)'><path d='M1 1h2v2z'/></g>");
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+        const std::string message = messageOf(cut, side(16));
+        ASSERT_FALSE(message.empty()) << length;
+        ASSERT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+    const Bytes compressed = gzipped(whole);
+    for (std::size_t length = 2; length < compressed.size(); ++length) {
+        const Bytes cut(compressed.begin(), compressed.begin() + static_cast<std::ptrdiff_t>(length));
+        ASSERT_FALSE(messageOf(cut, side(16)).empty()) << length;
+    }
+    EXPECT_THAT(messageOf(bytesOf("<svg><circle></svg>")), AllOf(HasSubstr("damaged SVG"), HasSubstr("line 1")));
+    EXPECT_THAT(messageOf(bytesOf("<html><svg/></html>")), HasSubstr("damaged SVG"));
+    EXPECT_THAT(messageOf(bytesOf("<html><body/></html>")), HasSubstr("not an image this program reads"));
+    EXPECT_THAT(messageOf(gzipped(bytesOf("some text"))), HasSubstr("without an SVG image"));
+    EXPECT_THAT(messageOf(gzipped(gzipped(whole))), HasSubstr("without an SVG image"));
+}
+
+TEST(Svg, ThreadsDrawSideBySide)
+{
+    const Bytes encoded = drawing(
+        "<filter id='f'><feGaussianBlur stdDeviation='.2'/></filter><circle cx='5' cy='5' r='4' filter='url(#f)'/>"
+        "<text x='1' y='8' font-size='8'>W</text>");
+    const Mask alone = decodeMask(encoded, side(200));
+    std::vector<Mask> masks(4);
+    std::vector<std::thread> threads;
+    for (Mask& mask : masks) {
+        threads.emplace_back([&] { mask = decodeMask(encoded, side(200)); });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    for (const Mask& mask : masks) {
+        EXPECT_EQ(mask.coverage, alone.coverage);
+    }
+}
+
+TEST(Svg, PixelSizeIsThatOfThePage)
+{
+    TraceOptions options;
+    options.pixel_size = 1e-3;
+    const Bytes encoded = svg(R"(width="30" height="20")", R"(<rect x="5" y="5" width="10" height="10"/>)");
+    for (const int pixels : {300, 1000}) {
+        const Outline outline = trace(decodeMask(encoded, side(pixels)), options);
+        EXPECT_NEAR(outline.extent.x, 30e-3, 1e-12);
+        EXPECT_NEAR(areaOf(outline), 1e-4, 1e-7);
+    }
+}
+
+}  // namespace
+}  // namespace droplet

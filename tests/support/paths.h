@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace droplet::testing {
+
+// Where the build keeps what tests need. CMake writes them into a file of its own, so that what is compiled does not
+// depend on where the checkout lies, and a compiler cache serves every checkout.
+extern const char* const kCommand;     ///< droplet-shape
+extern const char* const kSourceDir;   ///< the checkout
+extern const char* const kScratchDir;  ///< for files of tests
+extern const char* const kValidator;   ///< node script: glTF validator
+extern const char* const kChromium;    ///< browser
+extern const char* const kPageDriver;  ///< node script: drives a page in the browser
+extern const char* const kPlayer;      ///< node script: plays an animation in three.js
+extern const char* const kThree;       ///< folder of three.js
+
+/// A file of the checkout.
+inline std::string inSource(const std::string& name)
+{
+    return std::string(kSourceDir) + "/" + name;
+}
+
+}  // namespace droplet::testing

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/view/view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/picture/evening_road.h"
+#include "droplet/view/glass_maps.h"
+#include "view/still_map.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kFlat = std::numeric_limits<double>::infinity();
+
+Picture filled(int width, int height, std::array<std::uint8_t, 3> upper, std::array<std::uint8_t, 3> lower)
+{
+    Picture picture{width, height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const auto& colour = 2 * y < height ? upper : lower;
+            picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
+        }
+    }
+    return picture;
+}
+
+WindshieldParameters heavyRain()
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.3, .height = 0.25, .radius = 5.0});
+    parameters.rainfall = 100.0 * kMillimetrePerHour;
+    parameters.vehicle = constantSpeed(17.0);
+    parameters.forces.wetting.hysteresis = 0.2;
+    parameters.wipers = tandemWipers(parameters.glass, 1.2);
+    return parameters;
+}
+
+WindshieldState rained(const WindshieldParameters& parameters, int steps)
+{
+    WindshieldState state = startWindshield(parameters);
+    for (int k = 0; k < steps; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+    }
+    return state;
+}
+
+ViewOptions small()
+{
+    ViewOptions options;
+    options.width = 160;
+    options.height = 90;
+    options.eye_distance = 0.2;
+    return options;
+}
+
+/// A single droplet on an upright flat glass, straight ahead.
+WindshieldState oneDroplet(const WindshieldParameters& parameters, double volume)
+{
+    WindshieldState state = startWindshield(parameters);
+    RunningDroplet droplet;
+    droplet.id = 1;
+    droplet.position = {0.5 * parameters.glass.width(), 0.5 * parameters.glass.height()};
+    droplet.volume = volume;
+    state.droplets.push_back(droplet);
+    return state;
+}
+
+TEST(View, PixelsSeeTheGlassWhereTheirRaysMeetIt)
+{
+    // Upright and flat: a tangent of the angle is a length over the distance.
+    const Glass glass(Glass::Cylinder{.width = 0.6, .height = 0.4, .radius = kFlat, .slope = 90.0 * kDegree});
+    ViewOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.eye_distance = 0.3;
+    const DriversView view(glass, options);
+    const double pixel = 2.0 * std::tan(22.5 * kDegree) * options.eye_distance / options.width;
+    for (const auto& [x, y] : {std::pair(0, 0), std::pair(63, 47), std::pair(31, 24), std::pair(50, 3)}) {
+        const auto place = view.onGlass(x, y);
+        ASSERT_TRUE(place);
+        EXPECT_NEAR(place->x, 0.3 + pixel * (x + 0.5 - 32.0), 1e-6);
+        EXPECT_NEAR(place->y, 0.2 - pixel * (y + 0.5 - 24.0), 1e-6);
+    }
+    EXPECT_FALSE(view.onGlass(-1, 0));
+    EXPECT_FALSE(view.onGlass(0, 48));
+}
+
+TEST(View, RaysMeetTheBentGlassOfTheThesis)
+{
+    const Glass glass;
+    const DriversView view(glass, {.width = 128, .height = 72});
+    const auto ahead = glass.place({0.5 * glass.width(), 0.5 * glass.height()});
+    const Vec3 eye = ahead->point - Vec3{0.0, 0.5, 0.0};
+    const double pixel = 2.0 * std::tan(22.5 * kDegree) / 128;
+    for (int y = 0; y < 72; y += 7) {
+        for (int x = 0; x < 128; x += 9) {
+            const auto place = view.onGlass(x, y);
+            ASSERT_TRUE(place);
+            const Vec3 seen = glass.place(*place)->point - eye;
+            // 10 µm: a thirtieth of a pixel of a frame 1280 wide.
+            EXPECT_NEAR(seen.x / seen.y, pixel * (x + 0.5 - 64.0), 2e-5);
+            EXPECT_NEAR(seen.z / seen.y, pixel * (36.0 - y - 0.5), 2e-5);
+        }
+    }
+}
+
+TEST(View, DryGlassShowsThePictureThroughThePane)
+{
+    ViewOptions options = small();
+    options.glass_colour = {1.0, 1.0, 1.0};
+    const WindshieldParameters parameters = heavyRain();
+    DriversView view(parameters.glass, options);
+    const Picture road = eveningRoad({.width = 160, .height = 90});
+    view.lookAt(road);
+    view.show(startWindshield(parameters));
+    EXPECT_EQ(view.frame(), road);
+    const Layer layer = view.layer();
+    EXPECT_TRUE(std::all_of(layer.rgba.begin(), layer.rgba.end(), [](std::uint8_t level) { return level == 0; }));
+}
+
+TEST(View, DropletsTurnTheSceneUpsideDown)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.2, .height = 0.2, .radius = kFlat, .slope = 90.0 * kDegree});
+    ViewOptions options;
+    options.width = 160;
+    options.height = 160;
+    options.eye_distance = 0.01;
+    options.shape.contact_angle = 90.0 * kDegree;
+    DriversView view(parameters.glass, options);
+    view.lookAt(filled(160, 160, {255, 0, 0}, {0, 0, 255}));
+    view.show(oneDroplet(parameters, 20e-9));
+    const Layer layer = view.layer();
+    const auto at = [&](int x, int y) { return layer.rgba.data() + 4 * (160 * y + x); };
+    const double radius = runningShape(20e-9, 0.0, options.shape).contact_radius;
+    const int pixels = static_cast<int>(radius / (2.0 * 0.01 * std::tan(22.5 * kDegree) / 160));
+    ASSERT_GT(pixels, 20);
+    const int third = pixels / 3;
+    EXPECT_EQ(at(80, 80)[3], 255);
+    EXPECT_GT(at(80, 80 - third)[2], 150) << "blue, of below, above the middle";
+    EXPECT_LT(at(80, 80 - third)[0], 60);
+    EXPECT_GT(at(80, 80 + third)[0], 150);
+    EXPECT_LT(at(80, 80 + third)[2], 60);
+}
+
+TEST(View, RunningDropletsAreLongerAlongTheirWay)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.2, .height = 0.2, .radius = kFlat, .slope = 90.0 * kDegree});
+    ViewOptions options;
+    options.width = 200;
+    options.height = 200;
+    options.eye_distance = 0.03;
+    DriversView view(parameters.glass, options);
+    WindshieldState state = oneDroplet(parameters, 20e-9);
+    const auto extents = [&] {
+        view.show(state);
+        const Layer layer = view.layer();
+        int left = 200;
+        int right = 0;
+        int top = 200;
+        int bottom = 0;
+        for (int y = 0; y < 200; ++y) {
+            for (int x = 0; x < 200; ++x) {
+                if (layer.rgba[static_cast<std::size_t>(4 * (200 * y + x) + 3)] > 127) {
+                    left = std::min(left, x);
+                    right = std::max(right, x);
+                    top = std::min(top, y);
+                    bottom = std::max(bottom, y);
+                }
+            }
+        }
+        return std::pair(right - left + 1, bottom - top + 1);
+    };
+    const double pixel = 2.0 * 0.03 * std::tan(22.5 * kDegree) / 200;
+    const auto rest = extents();
+    EXPECT_NEAR(rest.first, rest.second, 1);
+    EXPECT_NEAR(rest.first * pixel, 2.0 * runningShape(20e-9, 0.0, options.shape).contact_radius, 1.5 * pixel);
+    state.droplets[0].velocity = {0.0, 1.0};
+    const auto climbing = extents();
+    const RunningShape shape = runningShape(20e-9, 1.0, options.shape);
+    EXPECT_NEAR(climbing.first * pixel, 2.0 * shape.contact_radius, 1.5 * pixel);
+    EXPECT_NEAR(climbing.second * pixel, 2.0 * (shape.contact_radius + shape.half_length), 1.5 * pixel);
+    state.droplets[0].velocity = {1.0, 0.0};
+    EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
+}
+
+TEST(View, LayerOverTheBarePictureIsTheFrame)
+{
+    const WindshieldParameters parameters = heavyRain();
+    for (const int samples : {1, 2, 3}) {
+        ViewOptions options = small();
+        options.samples = samples;
+        DriversView view(parameters.glass, options);
+        view.lookAt(eveningRoad({.width = 160, .height = 90}));
+        view.show(rained(parameters, 60));
+        EXPECT_NE(view.frame(), view.bare());
+        EXPECT_EQ(over(view.layer(), view.bare()), view.frame());
+    }
+}
+
+TEST(View, ManyStepsLeadWhereOneLookDoes)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const Picture road = eveningRoad({.width = 160, .height = 90});
+    DriversView followed(parameters.glass, small());
+    followed.lookAt(road);
+    WindshieldState state = startWindshield(parameters);
+    for (int k = 0; k < 90; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+        followed.show(state);
+    }
+    EXPECT_GT(state.counts.swept, 0U);
+    EXPECT_GT(state.counts.wiped, 0U);
+    DriversView anew(parameters.glass, small());
+    anew.show(state);
+    anew.lookAt(road);
+    EXPECT_EQ(followed.layer(), anew.layer());
+    // Nothing is drawn again where nothing has changed.
+    const std::size_t drawn = followed.cellsDrawn();
+    followed.show(state);
+    EXPECT_EQ(followed.cellsDrawn(), drawn);
+}
+
+TEST(StillMapOf, ManyUpdatesAreWhatTheMapFromScratchIs)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const MapWindow window{{0.05, 0.03}, {0.21, 0.19}, 1.7e-4};
+    StillMap followed(window, 1.7);
+    WindshieldState state = startWindshield(parameters);
+    for (int k = 0; k < 80; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+        if (k % 3 == 0) {
+            followed.follow(state.still);
+        }
+    }
+    followed.follow(state.still);
+    StillMap scratch(window, 1.7);
+    scratch.follow(state.still);
+    EXPECT_EQ(followed.texels(), scratch.texels());
+    EXPECT_TRUE(std::any_of(scratch.texels().begin(), scratch.texels().end(), [](Texel t) { return !t.empty(); }));
+}
+
+TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.1});
+    WindshieldState state = startWindshield(parameters);
+    const auto cell = static_cast<std::size_t>(0.05 / state.still.cell);
+    const std::size_t number = cell * state.still.columns + cell;
+    const double volume = 0.4e-9;
+    state.still.put(number, {{0.0501, 0.0503}, volume});
+    // Midpoints, and a rim in which coverage goes with the distance: first order at least.
+    double coarse_error = 0.0;
+    for (const auto& [texel, angle] : {std::pair(4e-5, 90.0), {2e-5, 90.0}, {2e-5, 140.0}, {2e-5, 60.0}}) {
+        StillMap map({{0.04, 0.04}, {0.06, 0.06}, texel}, angle * kDegree);
+        map.follow(state.still);
+        double sum = 0.0;
+        for (const Texel& one : map.texels()) {
+            sum += one.thickness() * texel * texel * one.cover() / 255.0;
+        }
+        const double error = std::abs(sum / volume - 1.0);
+        EXPECT_LT(error, 0.02);
+        if (angle == 90.0 && coarse_error > 0.0) {
+            EXPECT_LT(error, std::max(0.6 * coarse_error, 1e-3));
+        }
+        coarse_error = error;
+    }
+}
+
+TEST(View, SameBytesAtAnyNumberOfThreads)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const WindshieldState state = rained(parameters, 50);
+    const auto seen = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        DriversView view(parameters.glass, small());
+        view.lookAt(eveningRoad({.width = 160, .height = 90, .travelled = 31.0}));
+        view.show(state);
+        const GlassMaps maps = glassMaps(parameters.glass, state, {.width = 200});
+        return std::tuple(view.frame(), view.layer(), maps.normal, maps.thickness, maps.velocity);
+    };
+    EXPECT_EQ(seen(1), seen(2));
+    EXPECT_EQ(seen(1), seen(4));
+}
+
+TEST(View, LotusTracksAreBare)
+{
+    WindshieldParameters parameters = heavyRain();
+    parameters.wipers.clear();
+    parameters.fluctuation.acceleration = 0.0;
+    WindshieldState state = rained(parameters, 60);
+    state.droplets.clear();
+    const Glass& glass = parameters.glass;
+    DriversView view(glass, small());
+    const auto wet = [&] {
+        view.show(state);
+        const Layer layer = view.layer();
+        std::size_t covered = 0;
+        for (std::size_t i = 3; i < layer.rgba.size(); i += 4) {
+            covered += layer.rgba[i] > 0 ? 1 : 0;
+        }
+        return covered;
+    };
+    const std::size_t before = wet();
+    ASSERT_GT(before, 100U);
+    RunningDroplet large;
+    large.id = state.next_id++;
+    large.position = {0.5 * glass.width(), 0.02};
+    large.volume = 100e-9;
+    state.droplets.push_back(large);
+    parameters.rainfall = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+    }
+    ASSERT_GT(state.counts.swept, 20U) << "it has run up the glass";
+    state.droplets.clear();
+    EXPECT_LT(wet(), before);
+}
+
+TEST(View, RefusesWhatCannotBeSeen)
+{
+    const Glass glass;
+    EXPECT_THROW(DriversView(glass, {.width = 8}), Error);
+    EXPECT_THROW(DriversView(glass, {.field_of_view = 3.2}), Error);
+    EXPECT_THROW(DriversView(glass, {.eye_distance = 0.0}), Error);
+    EXPECT_THROW(DriversView(glass, {.aim = Vec2{9.0, 9.0}}), Error);
+    EXPECT_THROW(DriversView(glass, {.ior = 3.0}), Error);
+    EXPECT_THROW(DriversView(glass, {.samples = 5}), Error);
+    EXPECT_THROW(DriversView(glass, {.glass_colour = {1.1, 1.0, 1.0}}), Error);
+    DriversView view(glass, small());
+    EXPECT_THROW(view.lookAt(filled(90, 160, {0, 0, 0}, {0, 0, 0})), Error);
+}
+
+TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
+{
+    WindshieldParameters parameters = heavyRain();
+    parameters.wipers.clear();
+    const WindshieldState state = rained(parameters, 20);
+    GlassMapOptions options;
+    options.width = 3000;
+    // Whatever the contact angle; but for what overlaps or reaches over the edge, more where droplets lie flat.
+    for (const double angle : {150.0, 120.0, 90.0, 60.0}) {
+        options.shape.contact_angle = angle * kDegree;
+        const GlassMaps held = glassMaps(parameters.glass, state, options);
+        double water = 0.0;
+        for (const std::uint16_t level : held.thickness.levels) {
+            water += level / 65535.0 * options.full_thickness * std::pow(parameters.glass.width() / options.width, 2);
+        }
+        const WaterBalance all = balanceOf(state);
+        EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.001) << angle;
+    }
+    options.shape.contact_angle = 90.0 * kDegree;
+    const GlassMaps maps = glassMaps(parameters.glass, state, options);
+    for (std::size_t i = 0; i < maps.thickness.levels.size(); i += 7) {
+        const auto value = [&](std::size_t c) { return maps.normal.levels[3 * i + c] / 65535.0 * 2.0 - 1.0; };
+        EXPECT_NEAR(value(0) * value(0) + value(1) * value(1) + value(2) * value(2), 1.0, 2e-4);
+        if (maps.thickness.levels[i] == 0 && maps.velocity.levels[3 * i + 2] == 0) {
+            EXPECT_NEAR(value(2), 1.0, 1e-3);
+        }
+    }
+}
+
+TEST(GlassMapsOf, TellWhereADropletIsAndWhereItGoes)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.05});
+    WindshieldState state = startWindshield(parameters);
+    RunningDroplet droplet;
+    droplet.position = {0.02, 0.04};  // left of the middle, above it
+    droplet.velocity = {-0.5, 1.0};
+    droplet.volume = 20e-9;
+    state.droplets.push_back(droplet);
+    const GlassMaps maps = glassMaps(parameters.glass, state, {.width = 200, .full_speed = 2.0});
+    ASSERT_EQ(maps.normal.height, 100);
+    const std::size_t middle = 20 * 200 + 40;
+    const RunningShape shape = runningShape(20e-9, std::hypot(0.5, 1.0), ShapeOptions());
+    EXPECT_NEAR(maps.thickness.levels[middle] / 65535.0 * 5e-3, shape.height(), 0.1e-3);
+    EXPECT_NEAR(maps.velocity.levels[3 * middle], 65535 * 0.5 * (1.0 - 0.25), 1.0);
+    EXPECT_NEAR(maps.velocity.levels[3 * middle + 1], 65535 * 0.5 * (1.0 + 0.5), 1.0);
+    EXPECT_EQ(maps.velocity.levels[3 * middle + 2], 65535);
+    // Its right side looks right, its upper side up.
+    EXPECT_GT(maps.normal.levels[3 * (middle + 2)], 33000);
+    EXPECT_LT(maps.normal.levels[3 * (middle - 3)], 32500);
+    EXPECT_GT(maps.normal.levels[3 * (middle - 2 * 200) + 1], 33000);
+    const std::size_t corner = 199;
+    EXPECT_EQ(maps.thickness.levels[corner], 0);
+    EXPECT_EQ(maps.normal.levels[3 * corner + 2], 65535);
+    EXPECT_THROW(glassMaps(parameters.glass, state, {.width = 1}), Error);
+    EXPECT_THROW(glassMaps(parameters.glass, state, {.full_speed = 0.0}), Error);
+}
+
+TEST(EveningRoad, GoesByAndNothingElse)
+{
+    const Picture here = eveningRoad({.width = 96, .height = 54});
+    EXPECT_EQ(here, eveningRoad({.width = 96, .height = 54}));
+    EXPECT_NE(here, eveningRoad({.width = 96, .height = 54, .travelled = 3.0}));
+    EXPECT_THROW(eveningRoad({.width = 0}), Error);
+    EXPECT_THROW(eveningRoad({.travelled = std::nan("")}), Error);
+    EXPECT_THROW(eveningRoad({.spread = 1.0}), Error);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield/still_droplets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "windshield/windshields.h"
+
+namespace droplet {
+namespace {
+
+using testing::uniform;
+
+constexpr Vec2 kSize{0.103, 0.058};  // no whole number of cells
+
+/// Droplets as rain and tracks leave them: settled, joined, and some taken away again.
+StillDroplets weathered(std::mt19937_64& bits)
+{
+    const StillRules rules{1.2, 1e-10};
+    StillDroplets still = noStillDroplets(kSize);
+    for (int k = 0; k < 1500; ++k) {
+        const Vec2 place{uniform(bits, 0.0, kSize.x), uniform(bits, 0.0, kSize.y)};
+        std::optional<StillDroplet> drop = StillDroplet{place, uniform(bits, 1e-12, 1e-11)};
+        while (drop && drop->volume < rules.greatest) {
+            drop = settle(still, *drop, rules);
+        }
+        if (k % 20 == 0) {
+            Taking taking(still);
+            const std::size_t cell = bits() % still.counts.size();
+            for (std::uint8_t slot = 0; slot < still.counts[cell]; slot += 2) {
+                taking.take({cell, slot});
+            }
+            taking.close();
+        }
+    }
+    return still;
+}
+
+TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
+{
+    std::mt19937_64 bits(7);
+    const StillDroplets still = weathered(bits);
+    ASSERT_GT(still.count(), 200U);
+    const double part = still.cell / kPlaces;
+    for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
+        for (std::size_t k = 0; k < StillDroplets::kMost; ++k) {
+            const std::size_t slot = cell * StillDroplets::kMost + k;
+            const StillDroplet& d = still.slots[slot];
+            if (k >= still.counts[cell]) {
+                EXPECT_EQ(d, StillDroplet{});
+                EXPECT_EQ(still.places[slot], 0);
+                continue;
+            }
+            const Vec2 corner{still.cell * static_cast<double>(cell % still.columns),
+                              still.cell * static_cast<double>(cell / still.columns)};
+            EXPECT_NEAR(d.position.x, corner.x + part * (still.places[slot] % kPlaces + 0.5), 0.5001 * part);
+            EXPECT_NEAR(d.position.y, corner.y + part * (still.places[slot] / kPlaces + 0.5), 0.5001 * part);
+        }
+    }
+}
+
+TEST(StillDroplets, NearAWayAreAllVisitedOnceAndFewOthers)
+{
+    std::mt19937_64 bits(11);
+    const StillDroplets still = weathered(bits);
+    std::size_t visited = 0;
+    std::size_t near = 0;
+    for (int k = 0; k < 400; ++k) {
+        // From and to places off the glass, too; one in four stays where it is.
+        const Vec2 a{uniform(bits, -0.01, kSize.x + 0.01), uniform(bits, -0.01, kSize.y + 0.01)};
+        const Vec2 b =
+            k % 4 == 0 ? a : a + Vec2{uniform(bits, -0.03, 0.03), k % 4 == 1 ? 0.0 : uniform(bits, -0.03, 0.03)};
+        const double radius = uniform(bits, 0.0, 0.006);
+        std::set<std::pair<std::size_t, int>> found;
+        visitNear(still, a, b, radius, [&](StillSlot slot) {
+            EXPECT_TRUE(found.insert({slot.cell, slot.slot}).second);
+            EXPECT_LE(std::sqrt(Way(a, b).squaredDistance(at(still, slot).position)),
+                      radius + 1.5 * still.cell / kPlaces);
+        });
+        visited += found.size();
+        for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
+            for (int slot = 0; slot < still.counts[cell]; ++slot) {
+                const Vec2 p = still.droplets(cell)[static_cast<std::size_t>(slot)].position;
+                if (Way(a, b).squaredDistance(p) <= radius * radius) {
+                    ++near;
+                    EXPECT_TRUE(found.contains({cell, slot}));
+                }
+            }
+        }
+    }
+    EXPECT_GT(near, 2000U);
+    EXPECT_LT(visited, near + near / 20);
+}
+
+}  // namespace
+}  // namespace droplet
