@@ -417,5 +417,32 @@ TEST(Readme, LinksLeadSomewhere)
     }
 }
 
+TEST(Readme, PagesAreShort)
+{
+    EXPECT_LE(sourceFile("README.md").size(), 10'000U);
+    for (const std::string& name : markdownIn("docs")) {
+        EXPECT_LE(sourceFile(name).size(), 25'000U) << name;
+    }
+}
+
+TEST(Readme, PagesAreListedAndLeadBack)
+{
+    const auto destinations = [](const std::string& name) {
+        std::vector<std::string> found;
+        for (const std::string& target : relativeLinksOf(sourceFile(name))) {
+            found.push_back(destinationOf(name, target));
+        }
+        return found;
+    };
+    EXPECT_THAT(destinations("README.md"), Contains("docs/README.md"));
+    for (const std::string& name : markdownIn("docs")) {
+        EXPECT_THAT(sourceFile(name), StartsWith("<!-- SPDX-License-Identifier: GPL-3.0-or-later -->\n# ")) << name;
+        EXPECT_THAT(destinations(name), Contains("README.md")) << name;
+        if (name != "docs/README.md") {
+            EXPECT_THAT(destinations("docs/README.md"), Contains(name)) << name;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace droplet
