@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What README.md says is so: its program is the one package_test builds, its options are the command's, its files
-// exist.
+// What README.md and the pages in docs/ say is so: their program is the one package_test builds, their options are the
+// command's, their links resolve.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -18,11 +21,13 @@
 namespace droplet {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::runDroplet;
+using ::testing::StartsWith;
 
 std::filesystem::path inSource(const std::string& name)
 {
@@ -34,6 +39,28 @@ std::string sourceFile(const std::string& name)
     const std::string content = testing::readFile(inSource(name));
     EXPECT_THAT(content, Not(IsEmpty())) << name;
     return content;
+}
+
+/// The Markdown files in a folder of the source and in those below it, as paths from the root, sorted.
+std::vector<std::string> markdownIn(const std::string& folder)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(inSource(folder))) {
+        if (entry.path().extension() == ".md") {
+            names.push_back(entry.path().lexically_relative(DROPLET_SOURCE_DIR).generic_string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_THAT(names, Not(IsEmpty())) << folder;
+    return names;
+}
+
+/// README.md and the pages in docs/.
+std::vector<std::string> documents()
+{
+    std::vector<std::string> names = markdownIn("docs");
+    names.insert(names.begin(), "README.md");
+    return names;
 }
 
 std::vector<std::string> linesOf(const std::string& text)
@@ -59,6 +86,18 @@ std::vector<std::string> codeBlocks(const std::string& markdown, const std::stri
             inside = false;
         } else if (inside) {
             blocks.back() += line + '\n';
+        }
+    }
+    return blocks;
+}
+
+/// The fenced blocks of that language in all documents.
+std::vector<std::string> codeBlocksInDocuments(const std::string& language)
+{
+    std::vector<std::string> blocks;
+    for (const std::string& name : documents()) {
+        for (std::string& block : codeBlocks(sourceFile(name), language)) {
+            blocks.push_back(std::move(block));
         }
     }
     return blocks;
@@ -138,35 +177,41 @@ std::vector<std::string> cellsOf(const std::string& row)
     return cells;
 }
 
-/// The options in the tables of README, by the command whose section they stand in, "" being the main job.
-std::map<std::string, Options> optionsInReadme()
+/// The options in the tables of the pages in docs/cli, by the command that the page is named after, "" being the main
+/// job. No other document has such a table.
+std::map<std::string, Options> optionsInPages()
 {
-    std::map<std::string, Options> sections;
-    std::string command;
-    static const std::regex kHeading("^##+ (`droplet-shape ([a-z-]+)`)?.*$");
-    for (const std::string& line : linesOf(sourceFile("README.md"))) {
-        std::smatch heading;
-        if (std::regex_match(line, heading, kHeading)) {
-            command = heading.str(2);
-        } else if (line.rfind("| `-", 0) == 0) {
-            const auto cells = cellsOf(line);
-            EXPECT_EQ(cells.size(), 3U) << line;
-            sections[command][longName(cells.at(0))] = {cells.at(0), cells.at(2)};
+    std::map<std::string, Options> pages;
+    for (const std::string& name : documents()) {
+        const std::filesystem::path path(name);
+        const bool of_command = path.parent_path() == "docs/cli";
+        const std::string command = path.stem() == "droplet-shape" ? "" : path.stem().string();
+        if (of_command) {
+            pages.try_emplace(command);
+        }
+        for (const std::string& line : linesOf(sourceFile(name))) {
+            if (line.rfind("| `-", 0) == 0) {
+                EXPECT_TRUE(of_command) << name << ": " << line;
+                const auto cells = cellsOf(line);
+                EXPECT_EQ(cells.size(), 3U) << line;
+                pages[command][longName(cells.at(0))] = {cells.at(0), cells.at(2)};
+            }
         }
     }
-    return sections;
+    return pages;
 }
 
 TEST(Readme, ShowsTheProgramThatIsBuiltOutside)
 {
-    EXPECT_THAT(codeBlocks(sourceFile("README.md"), "cpp"),
-                ElementsAre(withoutLicenceLine(sourceFile("tests/consumer/main.cpp"))));
+    const std::string program = withoutLicenceLine(sourceFile("tests/consumer/main.cpp"));
+    EXPECT_THAT(codeBlocks(sourceFile("README.md"), "cpp"), ElementsAre(program));
+    EXPECT_THAT(codeBlocksInDocuments("cpp"), ElementsAre(program));
 }
 
 TEST(Readme, ShowsHowItIsBuiltOutside)
 {
     const std::string project = sourceFile("tests/consumer/CMakeLists.txt");
-    const auto blocks = codeBlocks(sourceFile("README.md"), "cmake");
+    const auto blocks = codeBlocksInDocuments("cmake");
     EXPECT_THAT(blocks, Not(IsEmpty()));
     for (const std::string& block : blocks) {
         EXPECT_THAT(project, HasSubstr(block));
@@ -177,12 +222,12 @@ TEST(Readme, OptionsAndDefaultsAreTheCommands)
 {
     const Options known = optionsInHelp();
     EXPECT_EQ(known.size(), 48U);
-    for (const auto& [command, options] : optionsInReadme()) {
+    for (const auto& [command, options] : optionsInPages()) {
         if (command.empty()) {
             EXPECT_EQ(options, known);
             continue;
         }
-        // A command's section has what is its own; the rest is as in the first table.
+        // A command's page has what is its own; the rest is as on the main job's.
         Options own = optionsInHelp(command);
         EXPECT_THAT(own, Not(IsEmpty())) << command;
         for (const auto& [name, shown] : known) {
@@ -195,21 +240,25 @@ TEST(Readme, OptionsAndDefaultsAreTheCommands)
     }
 }
 
-TEST(Readme, EveryCommandHasASection)
+TEST(Readme, EveryCommandHasAPage)
 {
+    const auto pages = optionsInPages();
+    EXPECT_EQ(pages.count(""), 1U);
     const std::string help = runDroplet({"--help"}).output;
     static const std::regex kCommand("\n  ([a-z-]+) {2,}[^\n]*");
     const auto begin = help.find("\nCommands:\n");
     const std::string list = begin == std::string::npos ? "" : help.substr(begin, help.find("\n\n", begin) - begin);
     for (std::sregex_iterator entry(list.begin(), list.end(), kCommand), end; entry != end; ++entry) {
-        EXPECT_EQ(optionsInReadme().count(entry->str(1)), 1U) << entry->str(1);
+        const std::string command = entry->str(1);
+        EXPECT_EQ(pages.count(command), 1U) << command;
+        EXPECT_THAT(sourceFile("docs/cli/" + command + ".md"), HasSubstr("\n# `droplet-shape " + command + "`"));
     }
 }
 
 TEST(Readme, ExitCodesAreTheCommands)
 {
     const std::string help = runDroplet({"--help"}).output;
-    const std::string readme = sourceFile("README.md");
+    const std::string page = sourceFile("docs/cli/droplet-shape.md");
     const std::string heading = "Exit codes:";
     ASSERT_THAT(help, HasSubstr(heading));
     const std::string list = help.substr(help.find(heading) + heading.size());
@@ -217,14 +266,14 @@ TEST(Readme, ExitCodesAreTheCommands)
     int count = 0;
     for (std::sregex_iterator entry(list.begin(), list.end(), kEntry), end; entry != end; ++entry, ++count) {
         const std::string row = "\n| " + entry->str(1) + " | " + entry->str(2);
-        EXPECT_NE(readme.find(row), std::string::npos) << row;
+        EXPECT_NE(page.find(row), std::string::npos) << row;
     }
     EXPECT_EQ(count, 7);
 }
 
 TEST(Readme, ReportHasTheKeysShown)
 {
-    const auto blocks = codeBlocks(sourceFile("README.md"), "report");
+    const auto blocks = codeBlocks(sourceFile("docs/reports.md"), "report");
     ASSERT_EQ(blocks.size(), 1U);
     testing::ScratchDirectory scratch;
     const std::string report = (scratch.path() / "report.json").string();
@@ -266,6 +315,8 @@ TEST(Readme, FirstPictureIsWhatTheFirstCommandMakes)
     EXPECT_THAT(scratch.names(), ElementsAre("droplet.glb"));
 }
 
+// ------------------------------------------------------------------------------------------------ pages and links
+
 /// A heading's anchor as Markdown renderers make it: lower case, spaces to dashes, other marks left out.
 std::string anchorOf(const std::string& heading)
 {
@@ -273,7 +324,7 @@ std::string anchorOf(const std::string& heading)
     for (const char c : heading) {
         if (c >= 'A' && c <= 'Z') {
             anchor += static_cast<char>(c - 'A' + 'a');
-        } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-') {
+        } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_') {
             anchor += c;
         } else if (c == ' ') {
             anchor += '-';
@@ -282,24 +333,114 @@ std::string anchorOf(const std::string& heading)
     return anchor;
 }
 
-TEST(Readme, LinksLeadSomewhere)
+/// The lines outside of fenced blocks.
+std::vector<std::string> proseOf(const std::string& markdown)
 {
-    for (const std::string name : {"README.md", "data/README.md", "CHANGELOG.md"}) {
-        const std::string text = sourceFile(name);
-        std::vector<std::string> anchors;
-        for (const std::string& line : linesOf(text)) {
-            if (line.rfind('#', 0) == 0) {
-                anchors.push_back("#" + anchorOf(line.substr(line.find(' ') + 1)));
+    std::vector<std::string> prose;
+    bool fenced = false;
+    for (const std::string& line : linesOf(markdown)) {
+        if (line.rfind("```", 0) == 0) {
+            fenced = !fenced;
+        } else if (!fenced) {
+            prose.push_back(line);
+        }
+    }
+    EXPECT_FALSE(fenced) << "a fence is not closed";
+    return prose;
+}
+
+/// The anchors of all headings; the second of a name ends in -1, and so on.
+std::set<std::string> anchorsOf(const std::string& markdown)
+{
+    std::set<std::string> anchors;
+    std::map<std::string, int> count;
+    static const std::regex kHeading("^#+ +(.*)$");
+    for (const std::string& line : proseOf(markdown)) {
+        std::smatch heading;
+        if (std::regex_match(line, heading, kHeading)) {
+            const std::string anchor = anchorOf(heading.str(1));
+            const int before = count[anchor]++;
+            anchors.insert(before == 0 ? anchor : anchor + "-" + std::to_string(before));
+        }
+    }
+    return anchors;
+}
+
+/// Targets of links and pictures, but for those elsewhere on the web.
+std::vector<std::string> relativeLinksOf(const std::string& markdown)
+{
+    static const std::regex kLink(R"re(\]\(([^)\s]+)[^)]*\)|^\[[^\]]+\]: *(\S+)|(?:href|src)="([^"]+)")re");
+    static const std::regex kElsewhere("^[a-z]+:.*");
+    std::vector<std::string> targets;
+    for (const std::string& line : proseOf(markdown)) {
+        for (std::sregex_iterator link(line.begin(), line.end(), kLink), end; link != end; ++link) {
+            const std::string target = link->str(1) + link->str(2) + link->str(3);
+            if (!std::regex_match(target, kElsewhere)) {
+                targets.push_back(target);
             }
         }
-        static const std::regex kLink(R"(\]\(([^)\s]+)\))");
-        for (std::sregex_iterator link(text.begin(), text.end(), kLink), end; link != end; ++link) {
-            const std::string target = link->str(1);
-            if (target.front() == '#') {
-                EXPECT_THAT(anchors, ::testing::Contains(target)) << name;
-            } else {
-                EXPECT_TRUE(std::filesystem::exists(inSource(name).parent_path() / target)) << name << ": " << target;
+    }
+    return targets;
+}
+
+/// Where a link in that document leads: a path from the root.
+std::string destinationOf(const std::string& document, const std::string& target)
+{
+    const std::string file = target.substr(0, target.find('#'));
+    if (file.empty()) {
+        return document;
+    }
+    return (std::filesystem::path(document).parent_path() / file).lexically_normal().generic_string();
+}
+
+TEST(Readme, LinksLeadSomewhere)
+{
+    std::vector<std::string> names = documents();
+    for (const char* folder : {"bench", "data"}) {
+        const auto more = markdownIn(folder);
+        names.insert(names.end(), more.begin(), more.end());
+    }
+    names.emplace_back("CHANGELOG.md");
+    for (const std::string& name : names) {
+        SCOPED_TRACE(name);
+        for (const std::string& target : relativeLinksOf(sourceFile(name))) {
+            const std::string destination = destinationOf(name, target);
+            EXPECT_THAT(destination, Not(::testing::AnyOf(StartsWith(".."), StartsWith("/")))) << target;
+            if (!std::filesystem::exists(inSource(destination))) {
+                ADD_FAILURE() << target;
+                continue;
             }
+            const auto mark = target.find('#');
+            if (mark != std::string::npos) {
+                EXPECT_THAT(anchorsOf(sourceFile(destination)), Contains(target.substr(mark + 1))) << target;
+            }
+        }
+    }
+}
+
+TEST(Readme, PagesAreShort)
+{
+    EXPECT_LE(sourceFile("README.md").size(), 10'000U);
+    for (const std::string& name : markdownIn("docs")) {
+        EXPECT_LE(sourceFile(name).size(), 25'000U) << name;
+    }
+}
+
+TEST(Readme, PagesAreListedAndLeadBack)
+{
+    const auto destinations = [](const std::string& name) {
+        std::vector<std::string> found;
+        for (const std::string& target : relativeLinksOf(sourceFile(name))) {
+            found.push_back(destinationOf(name, target));
+        }
+        return found;
+    };
+    EXPECT_THAT(destinations("README.md"), Contains("docs/README.md"));
+    for (const std::string& name : markdownIn("docs")) {
+        EXPECT_THAT(sourceFile(name), StartsWith("<!-- SPDX-License-Identifier: GPL-3.0-or-later -->\n# ")) << name;
+        EXPECT_THAT(destinations(name), Contains("README.md")) << name;
+        if (name != "docs/README.md") {
+            EXPECT_THAT(destinations("docs/README.md"), Contains(name)) << name;
         }
     }
 }
