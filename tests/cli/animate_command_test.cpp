@@ -256,12 +256,12 @@ TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
     }
 }
 
-TEST_F(AnimateTest, ReportHasTheKeysOfTheReadme)
+TEST_F(AnimateTest, ReportHasTheKeysOfItsPage)
 {
-    const std::string readme = readFile(testing::inSource("README.md"));
+    const std::string page = readFile(testing::inSource("docs/reports.md"));
     const std::string fence = "```sequence-report\n";
-    const auto begin = readme.find(fence) + fence.size();
-    const std::string block = readme.substr(begin, readme.find("```", begin) - begin);
+    const auto begin = page.find(fence) + fence.size();
+    const std::string block = page.substr(begin, page.find("```", begin) - begin);
     make({"frames", "film.glb", "--json", "report.json"});
     const auto told = nlohmann::ordered_json::parse(bytesOf("report.json"));
     std::string written;

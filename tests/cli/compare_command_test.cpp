@@ -158,11 +158,11 @@ TEST_F(CompareCommand, ReportHasEveryKey)
     EXPECT_EQ(json["same_topology"], true);
     EXPECT_THAT(json["exceeded"], SizeIs(1));
     EXPECT_THAT(json["warnings"], IsEmpty());
-    // README names them all.
-    const std::string readme = testing::readFile(testing::inSource("README.md"));
-    const auto begin = readme.find("```compare-report\n");
+    // docs/reports.md names them all.
+    const std::string page = testing::readFile(testing::inSource("docs/reports.md"));
+    const auto begin = page.find("```compare-report\n");
     ASSERT_NE(begin, std::string::npos);
-    const std::string block = readme.substr(begin + 18, readme.find("\n```", begin) - begin - 18);
+    const std::string block = page.substr(begin + 18, page.find("\n```", begin) - begin - 18);
     std::vector<std::string> documented;
     std::istringstream lines(block);
     for (std::string line; std::getline(lines, line);) {

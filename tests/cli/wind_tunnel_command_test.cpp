@@ -191,13 +191,13 @@ TEST_F(WindTunnelRefusal, OfOutputs)
 
 // ------------------------------------------------------------------------------------------------------ tables
 
-TEST(WindTunnelCommand, ReportHasTheKeysTheReadmeShows)
+TEST(WindTunnelCommand, ReportHasTheKeysThePageShows)
 {
-    const std::string readme = readFile(testing::inSource("README.md"));
+    const std::string page = readFile(testing::inSource("docs/reports.md"));
     const std::string fence = "```wind-tunnel-report\n";
-    ASSERT_THAT(readme, HasSubstr(fence));
-    const auto begin = readme.find(fence) + fence.size();
-    std::istringstream shown(readme.substr(begin, readme.find("```", begin) - begin));
+    ASSERT_THAT(page, HasSubstr(fence));
+    const auto begin = page.find(fence) + fence.size();
+    std::istringstream shown(page.substr(begin, page.find("```", begin) - begin));
     std::vector<std::string> keys;
     for (std::string key; shown >> key;) {
         keys.push_back(key);
@@ -238,15 +238,15 @@ TEST(WindTunnelCommand, ReportSaysWhatTheLibraryFinds)
     EXPECT_NEAR(run.at("cases").at(3).at("threshold_ratio").get<double>(), 1.37, 0.005);
 }
 
-// The README's words on the distance from what was measured are the program's.
-TEST(WindTunnelCommand, DistanceInTheReadmeIsComputed)
+// The page's words on the distance from what was measured are the program's.
+TEST(WindTunnelCommand, DistanceOnThePageIsComputed)
 {
-    const std::string readme = readFile(testing::inSource("README.md"));
+    const std::string page = readFile(testing::inSource("docs/cli/wind-tunnel.md"));
     const CommandResult result = tunnel({"--preset", "thesis,hashimoto"});
     ASSERT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, HasSubstr("30 µL: still from 7.70 to 10.52 m/s, +10.0 % and -4.3 % off"));
     EXPECT_THAT(result.output, HasSubstr("30 µL: still from 7.00 to 11.00 m/s, +0.0 % and +0.0 % off"));
-    EXPECT_THAT(readme, HasSubstr("from 7.70 to 10.52 m/s, +10.0 % and −4.3 % off"));
+    EXPECT_THAT(page, HasSubstr("from 7.70 to 10.52 m/s, +10.0 % and −4.3 % off"));
     const Json report = reportOf({});
     for (const Json& one : report.at("runs").at(0).at("cases")) {
         for (const char* end : {"lower_share", "upper_share"}) {
