@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -24,7 +25,12 @@ std::string oneLine(std::string text)
 
 }  // namespace
 
-Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(std::byte)>& expected)
+std::string shown(const std::filesystem::path& path)
+{
+    return oneLine(path.string());
+}
+
+Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(const Bytes&)>& expected)
 {
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -43,17 +49,26 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::
         if (std::ferror(file.get()) != 0) {
             throw Damage(std::generic_category().message(error));
         }
-        if (count == 0 || !expected(bytes.front())) {
+        if (count == 0 || !expected(bytes)) {
             break;
+        }
+        std::error_code no_size;  // a pipe has none, and needs none
+        if (const auto size = std::filesystem::file_size(path, no_size); !no_size) {
+            bytes.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
         }
     }
     return bytes;
 }
 
+Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(std::byte)>& expected)
+{
+    return readBytes(path, most, [&](const Bytes& begun) { return expected(begun.front()); });
+}
+
 void readFile(const std::filesystem::path& path, const std::function<void()>& read)
 {
     const auto refuse = [&path](const std::string& why) {
-        throw Error(ErrorCode::InvalidInput, "cannot use " + oneLine(path.string()) + ": " + oneLine(why));
+        throw Error(ErrorCode::InvalidInput, "cannot use " + shown(path) + ": " + oneLine(why));
     };
     try {
         read();

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
 #include "droplet/error.h"
 #include "image/image.h"
+#include "image/image_file.h"
 
 namespace droplet {
 
@@ -189,8 +191,8 @@ void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool inve
     }
 }
 
-}  // namespace
-
+/// Decides which levels are liquid, and turns one plane of the image into coverage in place.
+/// @throws Error InvalidInput: no alpha where alpha was asked
 Mask maskFromImage(Image image, const MaskOptions& options)
 {
     Mask mask;
@@ -220,6 +222,27 @@ Mask maskFromImage(Image image, const MaskOptions& options)
     mask.level_dry = static_cast<double>(range.dry) / static_cast<double>(kWhite);
     mask.level_liquid = static_cast<double>(range.liquid) / static_cast<double>(kWhite);
     return mask;
+}
+
+}  // namespace
+
+Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
+{
+    try {
+        return maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
+    } catch (const std::bad_alloc&) {
+        throwOutOfMemory();
+    }
+}
+
+std::vector<std::byte> readImageBytes(const std::filesystem::path& path)
+{
+    return readImageFile(path);
+}
+
+Mask readMask(const std::filesystem::path& path, const MaskOptions& options)
+{
+    return fromImageFile(path, [&](std::span<const std::byte> encoded) { return decodeMask(encoded, options); });
 }
 
 void Mask::validate() const

@@ -3,22 +3,17 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <new>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "droplet/error.h"
+#include "file_bytes.h"
 
 namespace droplet {
 
-/// A path as it can stand in a message of one line.
-std::string shown(const std::filesystem::path& path);
-
 [[noreturn]] void throwOutOfMemory();
 
-/// The whole file, which may be a pipe; of one that does not begin like an image, the beginning, so that an
-/// endless device is not read for ever.
+/// The whole file, which may be a pipe; of one that does not begin like an image, the beginning.
 /// @throws Error InvalidInput
 std::vector<std::byte> readImageFile(const std::filesystem::path& path);
 

@@ -232,13 +232,14 @@ int webpOrientation(std::span<const std::byte> encoded)
     return 1;
 }
 
-std::optional<std::uint64_t> pnmWhite(std::span<const std::byte> encoded)
+std::uint32_t pnmWhite(std::span<const std::byte> encoded)
 {
     const ByteView view(encoded, ImageFormat::Pnm);
-    if (view.u8(1) == '1' || view.u8(1) == '4') {
-        return 255;
+    const std::uint32_t kind = view.u8(1) - '0';
+    if (kind == 1 || kind == 4) {
+        return 0;
     }
-    std::uint64_t value = 0;
+    std::uint32_t value = 0;
     std::size_t at = 2;
     for (int numbers = 0; numbers < 3; ++numbers) {
         bool comment = false;
@@ -250,7 +251,9 @@ std::optional<std::uint64_t> pnmWhite(std::span<const std::byte> encoded)
             value = 10 * value + (view.u8(at) - '0');
         }
     }
-    return value > 0 ? std::optional(value) : std::nullopt;
+    // It stretches plain files of 8 bits itself.
+    const bool plain = kind <= 3;
+    return (plain && value < 256) || value == 255 || value >= 65535 ? 0 : value;
 }
 
 std::optional<std::uint64_t> tiffField(std::span<const std::byte> tiff, std::uint16_t tag)

@@ -40,8 +40,9 @@ void checkSize(ImageFormat format, std::uint64_t width, std::uint64_t height, st
 /// 1 … 8, from the EXIF block of a WebP.
 int webpOrientation(std::span<const std::byte> encoded);
 
-/// Level of white of a PBM (255, as it is decoded), PGM or PPM; none where its header is damaged.
-std::optional<std::uint64_t> pnmWhite(std::span<const std::byte> encoded);
+/// Level of white of the samples that OpenCV 4.6 gives of a PBM, PGM or PPM, where that is not the largest of 8 or 16
+/// bits; 0 where it is.
+std::uint32_t pnmWhite(std::span<const std::byte> encoded);
 
 /// First value of a field in the first directory of a TIFF file (or EXIF block), classic or BigTIFF; none of a field of
 /// other than unsigned integers.

@@ -125,12 +125,16 @@ private:
     DropletRelease* release_ = nullptr;
 };
 
+/// @param white  level of white, if that is not the largest there is
 template <class Stored, class Sample>
-void putRows(const Decoded& decoded, Image& image)
+void putRows(const Decoded& decoded, Image& image, std::uint32_t white = 0)
 {
     std::vector<Sample> row;
     for (std::size_t y = 0; y < decoded.height(); ++y) {
         decoded.copyRow<Stored>(y, row);
+        for (std::size_t i = 0; white > 0 && i < row.size(); ++i) {
+            row[i] = static_cast<Sample>((std::min<std::uint32_t>(row[i], white) * 65535U + white / 2) / white);
+        }
         putPixels(image, {y * decoded.width(), 1, decoded.picture().channels}, std::span<const Sample>(row));
     }
 }
@@ -198,11 +202,6 @@ void refuseMisread(std::span<const std::byte> encoded, ImageFormat format, const
         refuseMisreadTiff(encoded, picture);
     } else if (format == ImageFormat::Bmp) {
         refuseBmpWithAlpha(encoded, picture);
-    } else if (format == ImageFormat::Pnm) {
-        const std::uint64_t white = pnmWhite(encoded).value_or(0);
-        if (white != 255 && white != 65535) {
-            throwUnsupported(format, "its level of white is " + std::to_string(white) + ", must be 255 or 65535");
-        }
     }
 }
 
@@ -235,12 +234,14 @@ Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, c
         throwUnsupported(format, "samples that are not unsigned integers");
     }
     Image image = blankImage({format, picture.width, picture.height, 1, options.keeps_colour}, picture.channels == 4);
+    const std::uint32_t white = format == ImageFormat::Pnm ? pnmWhite(encoded) : 0;
     switch (picture.bits) {
         case 8:
-            putRows<std::uint8_t, std::uint8_t>(decoded, image);
+            white > 0 ? putRows<std::uint8_t, std::uint16_t>(decoded, image, white)
+                      : putRows<std::uint8_t, std::uint8_t>(decoded, image);
             break;
         case 16:
-            putRows<std::uint16_t, std::uint16_t>(decoded, image);
+            putRows<std::uint16_t, std::uint16_t>(decoded, image, white);
             break;
         case 32:
             putRows<float, std::uint16_t>(decoded, image);

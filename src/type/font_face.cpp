@@ -16,17 +16,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <initializer_list>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "droplet/error.h"
-#include "image/image_file.h"
+#include "file_bytes.h"
 
 namespace droplet {
 namespace {
@@ -141,25 +138,15 @@ constexpr std::size_t kLargestFile = std::size_t{1} << 28;
 
 std::vector<std::byte> readFontFile(const std::filesystem::path& path)
 {
-    struct CloseFile {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    errno = 0;
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    std::vector<std::byte> bytes;
-    std::vector<std::byte> chunk(std::size_t{1} << 18);
-    for (std::size_t count = chunk.size(); file && count == chunk.size();) {
-        count = std::fread(chunk.data(), 1, chunk.size(), file.get());
-        bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
+    try {
+        Bytes bytes = readBytes(path, kLargestFile + 1, [](std::byte) { return true; });
         if (bytes.size() > kLargestFile) {
             throw Error(ErrorCode::InvalidInput, shown(path) + ": is larger than 256 MiB, no font is");
         }
+        return bytes;
+    } catch (const Damage& damage) {
+        throw Error(ErrorCode::InvalidInput, "cannot read " + shown(path) + ": " + damage.what());
     }
-    if (!file || std::ferror(file.get()) != 0) {
-        throw Error(ErrorCode::InvalidInput,
-                    "cannot read " + shown(path) + ": " + std::generic_category().message(errno));
-    }
-    return bytes;
 }
 
 }  // namespace

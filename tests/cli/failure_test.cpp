@@ -98,7 +98,7 @@ TEST_F(FailureTest, UnreadablePicture)
 
 TEST_F(FailureTest, BombOfATinyFile)
 {
-    expectBadPicture("P5\n100000 100000\n255\nabc", {"100000"});
+    expectBadPicture("P5\n20000 20000\n255\nabc", {"20000"});
     // A PNG of 100000 × 100000 one-bit pixels with its checksums right and hardly any data.
     constexpr std::array<unsigned char, 45> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,
                                                  'I',  'H', 'D', 'R', 0,    0x01, 0x86, 0xa0, 0,    0x01, 0x86, 0xa0,
