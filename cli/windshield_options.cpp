@@ -10,6 +10,7 @@
 #include "command_line.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "droplet/windshield/presets.h"
 #include "files.h"
 #include "force_options.h"
 #include "option_values.h"
