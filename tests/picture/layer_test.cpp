@@ -120,8 +120,8 @@ TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i + 1)], 255);
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i)], 0);
     }
-    EXPECT_THROW(covering(road, 0, 5), Error);
-    EXPECT_THROW(covering(road, 5, 9000), Error);
+    EXPECT_THROW(covering(uneven, 0, 5), Error);
+    EXPECT_THROW(covering(uneven, 5, 9000), Error);
 }
 
 }  // namespace
