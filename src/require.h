@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sstream>
+#include <string>
 
 #include "droplet/error.h"
 
@@ -24,6 +25,14 @@ void require(bool holds, const char* field, const Value& value, const char* cons
 {
     if (!holds) {
         refuseValue(field, value, constraint);
+    }
+}
+
+/// Refuses a number that is not from `least` to `greatest`.
+inline void requireWithin(const char* field, int value, int least, int greatest)
+{
+    if (value < least || value > greatest) {
+        refuseValue(field, value, "from " + std::to_string(least) + " to " + std::to_string(greatest));
     }
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene to look at through water, so that the windshield has one when nobody brings a picture. Its sizes are a
 // country road's; its colours are chosen by eye.
-#include "view/evening_road.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,8 +9,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "droplet/view/view.h"
 #include "picture/optics.h"
 #include "picture/tone.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -59,9 +59,9 @@ float scattered(std::uint32_t n)
 
 class Road {
 public:
-    explicit Road(const RoadOptions& options)
-        : travelled_(std::fmod(static_cast<float>(std::fmod(options.travelled, 1e5)), 1e5F)),
-          spread_(static_cast<float>(2.0 * kSpread * std::tan(0.5 * options.field_of_view)))
+    Road(double field_of_view, double travelled)
+        : travelled_(std::fmod(static_cast<float>(std::fmod(travelled, 1e5)), 1e5F)),
+          spread_(static_cast<float>(2.0 * kSpread * std::tan(0.5 * field_of_view)))
     {
         light();
     }
@@ -232,9 +232,11 @@ private:
 
 }  // namespace
 
-Picture eveningRoad(const RoadOptions& options)
+Picture defaultBackground(const ViewOptions& options, double travelled)
 {
-    const Road road(options);
+    options.validate();
+    require(std::isfinite(travelled), "travelled", travelled, "finite");
+    const Road road(options.field_of_view, travelled);
     Picture picture{options.width, options.height, {}};
     const auto width = static_cast<std::size_t>(options.width);
     picture.rgb.resize(3 * width * static_cast<std::size_t>(options.height));

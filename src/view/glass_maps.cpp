@@ -36,7 +36,7 @@ std::uint16_t signedLevel(double value)
 
 void GlassMapOptions::validate() const
 {
-    require(width >= 16 && width <= 8192, "width", width, "from 16 to 8192");
+    requireWithin("width", width, 16, 8192);
     shape.validate();
     require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
     require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");

@@ -5,11 +5,18 @@
 #include <cstdint>
 
 #include "droplet/view/view.h"
+#include "picture/tone.h"
 #include "view/backdrop.h"
 #include "view/eye.h"
 #include "view/tiles.h"
 
 namespace droplet {
+
+/// A share in 255ths.
+inline std::uint8_t level8(float share)
+{
+    return static_cast<std::uint8_t>(nearest(255.0F * share, 255));
+}
 
 /// What the eye sees through dry glass, and how it looks.
 struct Sight {

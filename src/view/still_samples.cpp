@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "view/light_levels.h"
 #include "view/water_optics.h"
 
 namespace droplet {

@@ -13,8 +13,6 @@
 
 #include "droplet/error.h"
 #include "require.h"
-#include "view/evening_road.h"
-#include "view/light_levels.h"
 #include "view/running_rays.h"
 #include "view/sight.h"
 #include "view/still_samples.h"
@@ -23,8 +21,8 @@ namespace droplet {
 
 void ViewOptions::validate() const
 {
-    require(width >= 16 && width <= 8192, "width", width, "from 16 to 8192");
-    require(height >= 16 && height <= 8192, "height", height, "from 16 to 8192");
+    requireWithin("width", width, 16, 8192);
+    requireWithin("height", height, 16, 8192);
     require(field_of_view >= kDegree && field_of_view <= 150.0 * kDegree, "field_of_view", field_of_view,
             "from 1 to 150 degrees");
     require(eye_distance >= 0.01 && eye_distance <= 100.0, "eye_distance", eye_distance, "from 0.01 to 100 m");
@@ -34,17 +32,10 @@ void ViewOptions::validate() const
     }
     shape.validate();
     require(ior >= 1.0 && ior <= 2.0, "ior", ior, "from 1 to 2");
-    require(samples >= 1 && samples <= 4, "samples", samples, "from 1 to 4");
+    requireWithin("samples", samples, 1, 4);
     for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
         require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
     }
-}
-
-Picture defaultBackground(const ViewOptions& options, double travelled)
-{
-    options.validate();
-    require(std::isfinite(travelled), "travelled", travelled, "finite");
-    return eveningRoad({options.width, options.height, options.field_of_view, travelled});
 }
 
 struct DriversView::Content {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield/swept.h"
 
-#include "windshield/shares.h"
+#include "blocks.h"
+#include "windshield/tracks.h"
 #include "windshield/way.h"
 
 namespace droplet {
@@ -13,8 +14,7 @@ bool touches(double squared, double reach, double still_volume, const StillRules
     return squared <= touching * touching;
 }
 
-void find(std::span<const SweptPiece> pieces, const StillCells& still, const StillRules& rules,
-          std::vector<SweptDroplet>& found)
+std::vector<SweptDroplet> find(std::span<const SweptPiece> pieces, const StillCells& still, const StillRules& rules)
 {
     struct Candidate {
         const SweptPiece* piece = nullptr;
@@ -31,6 +31,7 @@ void find(std::span<const SweptPiece> pieces, const StillCells& still, const Sti
             candidates.push_back({&piece, slot});
         });
     }
+    std::vector<SweptDroplet> found;
     for (const auto& [piece, slot] : candidates) {
         const StillDroplet& d = at(still, slot);
         const double squared = Way(piece->from, piece->to).squaredDistance(d.position);
@@ -40,19 +41,19 @@ void find(std::span<const SweptPiece> pieces, const StillCells& still, const Sti
             found.push_back({piece->owner, slot});
         }
     }
+    return found;
 }
 
 }  // namespace
 
 std::vector<SweptDroplet> sweptBy(std::span<const SweptPiece> pieces, const StillCells& still, const StillRules& rules)
 {
-    std::vector<std::vector<SweptDroplet>> shares(sharesOf(pieces.size()));
-    forShares(pieces.size(), [&](std::size_t share, std::size_t begin, std::size_t end) {
-        find(pieces.subspan(begin, end - begin), still, rules, shares[share]);
-    });
     std::vector<SweptDroplet> all;
-    for (const std::vector<SweptDroplet>& share : shares) {
-        all.insert(all.end(), share.begin(), share.end());
+    for (const std::vector<SweptDroplet>&found : mapBlocks<std::vector<SweptDroplet>>(
+             pieces.size(),
+             [&](std::size_t begin, std::size_t end) { return find(pieces.subspan(begin, end - begin), still, rules); },
+             kWorthAThread)) {
+        all.insert(all.end(), found.begin(), found.end());
     }
     return all;
 }

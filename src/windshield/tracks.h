@@ -13,6 +13,9 @@
 
 namespace droplet {
 
+/// Droplets, or pieces of their tracks, that a thread takes at a time.
+inline constexpr std::size_t kWorthAThread = 128;
+
 /// The straight ways of running droplets in one step, in the droplets' order.
 struct Tracks {
     std::vector<Vec2> from;     ///< [m]

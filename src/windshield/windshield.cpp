@@ -22,12 +22,12 @@
 #include <utility>
 #include <vector>
 
+#include "blocks.h"
 #include "droplet/error.h"
 #include "require.h"
 #include "windshield/cap_scale.h"
 #include "windshield/motion.h"
 #include "windshield/random.h"
-#include "windshield/shares.h"
 #include "windshield/still_droplets.h"
 #include "windshield/sweep.h"
 #include "windshield/swept.h"
@@ -117,11 +117,14 @@ private:
         grown_.assign(before_rain_, 0);
         grown_.resize(count, 1);  // raindrops may land on still droplets
         const double speed = p_.vehicle.speedAt(s_.time + 0.5 * dt_);
-        forShares(count, [&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                moveOne(i, speed);
-            }
-        });
+        forBlocks(
+            count,
+            [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    moveOne(i, speed);
+                }
+            },
+            kWorthAThread);
     }
 
     void moveOne(std::size_t i, double speed)
