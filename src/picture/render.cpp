@@ -431,11 +431,11 @@ View viewNamed(std::string_view name)
 
 void RenderOptions::validate() const
 {
-    requireWithin("width", width, 1, kMostPixels);
-    requireWithin("height", height, 1, kMostPixels);
-    requireWithin("samples", samples, kLeastSamples, kMostSamples);
-    require(std::isfinite(azimuth), "azimuth", azimuth, "finite");
-    require(look.ior >= 1.0 && look.ior <= 4.0, "look.ior", look.ior, "from 1 to 4");
+    requireWithin("options.width", width, 1, kMostPixels);
+    requireWithin("options.height", height, 1, kMostPixels);
+    requireWithin("options.samples", samples, kLeastSamples, kMostSamples);
+    require(std::isfinite(azimuth), "options.azimuth", azimuth, "finite");
+    require(look.ior >= 1.0 && look.ior <= 4.0, "options.look.ior", look.ior, "from 1 to 4");
     const auto within = [](double a) { return a >= 0.0 && std::isfinite(a); };
     if (!within(extent.x) || !within(extent.y)) {
         refuse("extent must be finite and not negative");

@@ -30,8 +30,8 @@ constexpr std::array kViews = {View::ThreeQuarter, View::Top, View::Side};
 RenderOptions small(View view = View::ThreeQuarter)
 {
     RenderOptions options;
-    options.width = 64;
-    options.height = 48;
+    options.width is 64;
+    options.height is 48;
     options.view = view;
     options.lighting = Lighting::Uniform;
     options.extent = {kExtent, kExtent};
@@ -253,8 +253,8 @@ TEST(Render, WaterShowsHighlightsAndShadows)
 {
     RenderOptions options = small();
     options.lighting = Lighting::Studio;
-    options.width = 160;
-    options.height = 120;
+    options.width is 160;
+    options.height is 120;
     options.extent = {kExtent, kExtent};
     options.ground = Picture{1, 1, {128, 128, 128}};
     const auto extremes = [&](const Surface& surface) {
@@ -282,8 +282,8 @@ TEST(Camera, FramesEverything)
     for (const View view : kViews) {
         for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
             RenderOptions options = small(view);
-            options.width = width;
-            options.height = height;
+            options.width is width;
+            options.height is height;
             const Camera camera(scene.shown(), options, width / 10);
             Vec2 low{1e9, 1e9};
             Vec2 high{-1e9, -1e9};
@@ -360,10 +360,10 @@ TEST(Render, RefusesWhatItCannotDo)
         }
     };
     constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-    refused([](RenderOptions& o) { o.width = 0; }, "options.width = 0");
-    refused([](RenderOptions& o) { o.height = 8193; }, "options.height = 8193");
-    refused([](RenderOptions& o) { o.samples = 3; }, "options.samples = 3");
-    refused([](RenderOptions& o) { o.samples = 257; }, "options.samples = 257");
+    refused([](RenderOptions& o) { o.width = 0; }, "options.width is 0");
+    refused([](RenderOptions& o) { o.height = 8193; }, "options.height is 8193");
+    refused([](RenderOptions& o) { o.samples = 3; }, "options.samples is 3");
+    refused([](RenderOptions& o) { o.samples = 257; }, "options.samples is 257");
     refused([](RenderOptions& o) { o.azimuth = kNoNumber; }, "options.azimuth");
     refused([](RenderOptions& o) { o.look.ior = 0.9; }, "options.look.ior");
     refused([](RenderOptions& o) { o.look.ior = kNoNumber; }, "options.look.ior");
