@@ -30,8 +30,8 @@ constexpr std::array kViews = {View::ThreeQuarter, View::Top, View::Side};
 RenderOptions small(View view = View::ThreeQuarter)
 {
     RenderOptions options;
-    options.width is 64;
-    options.height is 48;
+    options.width = 64;
+    options.height = 48;
     options.view = view;
     options.lighting = Lighting::Uniform;
     options.extent = {kExtent, kExtent};
@@ -253,8 +253,8 @@ TEST(Render, WaterShowsHighlightsAndShadows)
 {
     RenderOptions options = small();
     options.lighting = Lighting::Studio;
-    options.width is 160;
-    options.height is 120;
+    options.width = 160;
+    options.height = 120;
     options.extent = {kExtent, kExtent};
     options.ground = Picture{1, 1, {128, 128, 128}};
     const auto extremes = [&](const Surface& surface) {
@@ -282,8 +282,8 @@ TEST(Camera, FramesEverything)
     for (const View view : kViews) {
         for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
             RenderOptions options = small(view);
-            options.width is width;
-            options.height is height;
+            options.width = width;
+            options.height = height;
             const Camera camera(scene.shown(), options, width / 10);
             Vec2 low{1e9, 1e9};
             Vec2 high{-1e9, -1e9};
