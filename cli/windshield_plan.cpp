@@ -46,7 +46,7 @@ droplet::DriveCycle driveCycleFrom(const std::string& path, bool whole)
 droplet::Glass glassFrom(const std::string& surface, std::vector<std::string>& warnings)
 {
     const droplet::TexturedMesh object = droplet::readObject(surface);
-    const droplet::Glass glass = forOption(surface, [&] { return droplet::Glass(object, {}); });
+    droplet::Glass glass = forOption(surface, [&] { return droplet::Glass(object, {}); });
     constexpr double kBent = 0.02;
     if (glass.mostStretch() > 1.0 + kBent || glass.leastStretch() < 1.0 - kBent) {
         std::ostringstream words;
