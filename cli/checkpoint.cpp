@@ -11,6 +11,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
+#include "droplet/windshield/state_bytes.h"
 
 namespace cli {
 namespace {
