@@ -64,7 +64,7 @@ public:
             if (solution.converged) {
                 return solution;
             }
-            direct_ = directSolver(*mesh_, Solver::Cholmod);
+            direct_ = directSolver(*mesh_);
             direct_->prepare(*op_);
         }
         return direct_->solve(problem);
@@ -83,7 +83,7 @@ std::unique_ptr<ConstrainedSolver> solverFor(const PlanarMesh& mesh, Solver want
 {
     const Solver solver = wanted == Solver::Auto ? chooseSolver(mesh) : wanted;
     if (solver != Solver::Multigrid) {
-        return directSolver(mesh, solver);
+        return directSolver(mesh);
     }
     return wanted == Solver::Auto ? std::make_unique<SafeMultigrid>(mesh) : multigridSolver(mesh);
 }

@@ -198,7 +198,8 @@ TEST_F(UsageTest, AnglesOfARimThatMovesBelongTogether)
 TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
 {
     expectRefused({"--model", "quadratic"}, {"--model", "'quadratic'", "linear, exact"});
-    expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, cholmod, multigrid"});
+    expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, multigrid"});
+    expectRefused({"--solver", "cholmod"}, {"--solver", "'cholmod' is no longer built in", "llt"});
     expectRefused({"--channel", "red"}, {"--channel", "'red'", "auto, alpha, luma"});
     expectRefused({"--fill", "some"}, {"--fill", "'some'", "each, total"});
     expectRefused({"--liquid", "milk"}, {"--liquid", "'milk'", "water", "mercury"});
@@ -289,6 +290,7 @@ TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
     expectConfigRefused("open = \"yes\"\n", {"--open (settings.toml:1)", "true or false"});
     expectConfigRefused("open = 1\n", {"--open (settings.toml:1)", "true or false"});
     expectConfigRefused("\nvolume = \"30\"\n", {"--volume (settings.toml:2)", "no unit"});
+    expectConfigRefused("solver = \"cholmod\"\n", {"--solver (settings.toml:1)", "no longer built in"});
     expectConfigRefused("width = \"8cm\"\npixel-size = \"1um\"\n", {"--width and --pixel-size exclude each other"});
     expectRefused({"--config", "missing.toml"}, {"--config", "missing.toml", "No such file"});
     expectRefused({"--config", "."}, {"--config", "Is a directory"});
