@@ -281,7 +281,7 @@ TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
     expectConfigRefused("open\n", {"settings.toml:1", "'open' is not TOML", "expected '='", "'key = value'"});
     expectConfigRefused("width = 8cm\n", {"'width = 8cm'", "quotes", "width = \"8cm\""});
     expectConfigRefused("width =\n", {"settings.toml:1", "'width ='", "expected value"});
-    expectConfigRefused("width = \"8cm\n", {"settings.toml:1", "'width = \"8cm'", "string"});
+    expectConfigRefused("width = \"8cm\n", {"settings.toml:1", "'width = \"8cm' is not TOML"});
     expectConfigRefused("width = \"8cm\" 3\n", {"saw '3'"});
     expectConfigRefused("width = \"\\q\"\n", {"escape"});
     expectConfigRefused("[size]\nwidth = \"8cm\"\n", {"settings.toml:1", "tables"});
