@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compare_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
@@ -129,22 +128,16 @@ Options readOptions(const CommandLine& line)
 
 // -------------------------------------------------------------------------------------------------- the table
 
-std::string text(const char* format, double value)
-{
-    std::array<char, 350> room{};
-    std::snprintf(room.data(), room.size(), format, value);
-    return room.data();
-}
-
 std::string millimetres(double metres)
 {
-    return text("%.4g", metres / droplet::kMillimetre) + " mm";
+    return fmt::format("{:.4g}", metres / droplet::kMillimetre) + " mm";
 }
 
 std::string place(droplet::Vec3 p)
 {
-    return "(" + text("%.4g", p.x / droplet::kMillimetre) + ", " + text("%.4g", p.y / droplet::kMillimetre) + ", " +
-           text("%.4g", p.z / droplet::kMillimetre) + ") mm";
+    return "(" + fmt::format("{:.4g}", p.x / droplet::kMillimetre) + ", " +
+           fmt::format("{:.4g}", p.y / droplet::kMillimetre) + ", " +
+           fmt::format("{:.4g}", p.z / droplet::kMillimetre) + ") mm";
 }
 
 /// A row of the table: columns of one width, by characters, not bytes.
@@ -162,7 +155,7 @@ std::string row(const std::vector<std::string>& cells)
 
 std::string shareOf(double a, double b)
 {
-    return a != 0.0 ? text("%+.3g", 100.0 * (b - a) / std::abs(a)) + " %" : "";
+    return a != 0.0 ? fmt::format("{:+.3g}", 100.0 * (b - a) / std::abs(a)) + " %" : "";
 }
 
 std::string topologyOf(const droplet::Topology& topology)
@@ -180,14 +173,15 @@ std::string table(const droplet::Comparison& found)
     const double square = droplet::kMillimetre * droplet::kMillimetre;
     std::string lines = row({"", "A", "B", "B − A"});
     lines += row({"triangles", std::to_string(a.triangles), std::to_string(b.triangles)});
-    lines += row({"area", text("%.5g", a.area / square) + " mm²", text("%.5g", b.area / square) + " mm²",
-                  shareOf(a.area, b.area)});
-    lines += row({"volume", text("%.5g", a.volume / droplet::kMicrolitre) + " µL",
-                  text("%.5g", b.volume / droplet::kMicrolitre) + " µL", shareOf(a.volume, b.volume)});
+    lines += row({"area", fmt::format("{:.5g}", a.area / square) + " mm²",
+                  fmt::format("{:.5g}", b.area / square) + " mm²", shareOf(a.area, b.area)});
+    lines += row({"volume", fmt::format("{:.5g}", a.volume / droplet::kMicrolitre) + " µL",
+                  fmt::format("{:.5g}", b.volume / droplet::kMicrolitre) + " µL", shareOf(a.volume, b.volume)});
     if (a.contact_angle && b.contact_angle) {
-        lines += row({"contact angle", text("%.2f", a.contact_angle->mean / droplet::kDegree) + "°",
-                      text("%.2f", b.contact_angle->mean / droplet::kDegree) + "°",
-                      text("%+.2g", (b.contact_angle->mean - a.contact_angle->mean) / droplet::kDegree) + "°"});
+        lines +=
+            row({"contact angle", fmt::format("{:.2f}", a.contact_angle->mean / droplet::kDegree) + "°",
+                 fmt::format("{:.2f}", b.contact_angle->mean / droplet::kDegree) + "°",
+                 fmt::format("{:+.2g}", (b.contact_angle->mean - a.contact_angle->mean) / droplet::kDegree) + "°"});
     }
     lines +=
         row({"topology", topologyOf(a.topology), topologyOf(b.topology), found.same_topology ? "same" : "differs"});
@@ -200,7 +194,7 @@ std::string table(const droplet::Comparison& found)
     over("  to", [](const droplet::SurfaceDistance& d) { return millimetres(d.upper); });
     over("  rms", [](const droplet::SurfaceDistance& d) { return millimetres(d.rms); });
     over("  mean", [](const droplet::SurfaceDistance& d) { return millimetres(d.mean); });
-    const auto angle = [](double radians) { return text("%.3g", radians / droplet::kDegree) + "°"; };
+    const auto angle = [](double radians) { return fmt::format("{:.3g}", radians / droplet::kDegree) + "°"; };
     lines +=
         row({"normals, rms", angle(found.normals_of_a.rms), angle(found.normals_of_b.rms), angle(found.normals.rms)});
     lines += row({"  largest", angle(found.normals_of_a.largest), angle(found.normals_of_b.largest),

@@ -11,6 +11,7 @@
 #include "droplet/error.h"
 #include "mesh/lattice_core.h"
 #include "mesh/regular_runs.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -25,7 +26,7 @@ void validateRuns(const PlanarMesh& mesh)
 {
     const Lattice& lattice = mesh.lattice;
     if (!(lattice.edge > 0.0 && std::isfinite(lattice.edge))) {
-        fail("lattice.edge " + std::to_string(lattice.edge) + " m of the mesh must be positive");
+        fail("lattice.edge " + numberText(lattice.edge) + " m of the mesh must be positive");
     }
     std::uint32_t next = lattice.runs.front().vertex;
     for (std::size_t k = 0; k < lattice.runs.size(); ++k) {
@@ -119,8 +120,8 @@ void PlanarMesh::validate() const
             const std::uint32_t v = t[k];
             const std::uint32_t w = t[(k + 1) % 3];
             if (onRim(v) && onRim(w) && next[v] != w) {
-                fail("vertices " + std::to_string(v) + " and " + std::to_string(w) +
-                     " of the mesh are joined by an inner edge though both are on the rim");
+                fail(fmt::format(
+                    "vertices {} and {} of the mesh are joined by an inner edge though both are on the rim", v, w));
             }
         }
     }
