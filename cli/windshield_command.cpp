@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -18,6 +17,7 @@
 
 #include "background.h"
 #include "checkpoint.h"
+#include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/io/object.h"
 #include "droplet/units.h"
@@ -94,27 +94,6 @@ void check(const WindshieldOptions& options)
     output("--model", options.model);
     output("--json", options.json);
     checkFiles(inputs, outputs, options.output_options);
-}
-
-/// A number for what is in a file: Fowler, Noll and Vo's hash of 64 bits (RFC 9923), eight bytes at a time.
-std::string hashOf(const std::optional<std::string>& path)
-{
-    if (!path) {
-        return "\n-";
-    }
-    std::ifstream file(*path, std::ios::binary);
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    std::vector<std::uint64_t> part(std::size_t{1} << 16);
-    do {
-        std::fill(part.begin(), part.end(), 0);
-        file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(8 * part.size()));
-        const auto bytes = static_cast<std::size_t>(file.gcount());
-        for (std::size_t i = 0; 8 * i < bytes; ++i) {
-            hash = (hash ^ part[i]) * 0x100000001b3U;
-        }
-        hash = (hash ^ bytes) * 0x100000001b3U;
-    } while (file);
-    return "\n" + std::to_string(hash);
 }
 
 /// A drive cycle that begins at 0, held to what the options are held to.
@@ -200,9 +179,9 @@ public:
         steps_ = static_cast<std::size_t>(std::ceil(1.0 / (kLongest * options_.frames_per_second) - 1e-9));
         step_ = 1.0 / (options_.frames_per_second * static_cast<double>(steps_));
         checkFrames();
-        fingerprint_ = options_.fingerprint;
         if (options_.files) {
-            fingerprint_ += hashOf(options_.background) + hashOf(options_.drive_cycle) + hashOf(options_.surface);
+            fingerprint_ = fingerprintOf({options_.fingerprint, hashOfFile(options_.background),
+                                          hashOfFile(options_.drive_cycle), hashOfFile(options_.surface)});
         }
         report_.preset = options_.preset;
         report_.drive_cycle = options_.drive_cycle;
