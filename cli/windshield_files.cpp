@@ -2,14 +2,12 @@
 #include "windshield_files.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <ios>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "content_hash.h"
 #include "files.h"
 #include "option_values.h"
 
@@ -25,27 +23,6 @@ std::string beforeExtension(std::string path, const char* map)
 std::string mapPattern(const NumberedPath& maps, const char* map)
 {
     return beforeExtension(maps.text(), map);
-}
-
-/// A number for what is in a file: Fowler, Noll and Vo's hash of 64 bits (RFC 9923), eight bytes at a time.
-std::string hashOf(const std::optional<std::string>& path)
-{
-    if (!path) {
-        return "\n-";
-    }
-    std::ifstream file(*path, std::ios::binary);
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    std::vector<std::uint64_t> part(std::size_t{1} << 16);
-    do {
-        std::fill(part.begin(), part.end(), 0);
-        file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(8 * part.size()));
-        const auto bytes = static_cast<std::size_t>(file.gcount());
-        for (std::size_t i = 0; 8 * i < bytes; ++i) {
-            hash = (hash ^ part[i]) * 0x100000001b3U;
-        }
-        hash = (hash ^ bytes) * 0x100000001b3U;
-    } while (file);
-    return "\n" + std::to_string(hash);
 }
 
 }  // namespace
@@ -137,7 +114,8 @@ bool hasFrame(const WindshieldOptions& options, std::size_t number)
 
 std::string fingerprintOf(const WindshieldOptions& options)
 {
-    return options.fingerprint + hashOf(options.background) + hashOf(options.drive_cycle) + hashOf(options.surface);
+    return fingerprintOf({options.fingerprint, hashOfFile(options.background), hashOfFile(options.drive_cycle),
+                          hashOfFile(options.surface)});
 }
 
 }  // namespace cli
