@@ -18,6 +18,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -32,30 +33,6 @@ Vec3 unitOr(Vec3 a, Vec3 otherwise)
     const double size = length(a);
     return size > 0.0 && std::isfinite(size) ? (1.0 / size) * a : otherwise;
 }
-
-// R. E. Tarjan, J. van Leeuwen, "Worst-case analysis of set union algorithms" (1984): path halving; a set's name is its
-// smallest member.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::uint32_t nameOf(std::uint32_t a)
-    {
-        while (parent_[a] != a) {
-            a = parent_[a] = parent_[parent_[a]];
-        }
-        return a;
-    }
-    void join(std::uint32_t a, std::uint32_t b)
-    {
-        a = nameOf(a);
-        b = nameOf(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Numbers equal keys alike, in ascending order; returns how many there are.
 template <class Key>
@@ -287,7 +264,7 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
     const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.mirrored); };
     std::sort(edges.begin(), edges.end(),
               [&](const Edge& a, const Edge& b) { return std::pair(key(a), a.facet) < std::pair(key(b), b.facet); });
-    Sets sets(facets.size());
+    UnionFind sets(facets.size());
     for (std::size_t i = 1; i < edges.size(); ++i) {
         if (key(edges[i]) == key(edges[i - 1])) {
             sets.join(edges[i].facet, edges[i - 1].facet);
@@ -296,7 +273,7 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
     std::vector<std::uint32_t> number(facets.size(), kNone);
     std::vector<double> chart_facing;
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
-        const std::uint32_t name = sets.nameOf(f);
+        const std::uint32_t name = sets.find(f);
         if (name == f) {
             number[f] = static_cast<std::uint32_t>(chart_facing.size());
             chart_facing.push_back(facing[f]);
@@ -463,7 +440,7 @@ struct Placing {
 /// The droplets of a surface: for every vertex the number of its own, kNone for vertices of no triangle.
 std::uint32_t numberDroplets(const Surface& surface, std::vector<std::uint32_t>& droplet)
 {
-    Sets sets(surface.positions.size());
+    UnionFind sets(surface.positions.size());
     for (std::uint32_t v = 0; v < surface.weld.size(); ++v) {
         sets.join(v, surface.weld[v]);
     }
@@ -474,12 +451,12 @@ std::uint32_t numberDroplets(const Surface& surface, std::vector<std::uint32_t>&
     std::vector<std::uint32_t> number(surface.positions.size(), kNone);
     std::uint32_t count = 0;
     for (const Triangle& t : surface.triangles) {
-        std::uint32_t& own = number[sets.nameOf(t[0])];
+        std::uint32_t& own = number[sets.find(t[0])];
         own = own == kNone ? count++ : own;
     }
     droplet.resize(surface.positions.size());
     for (std::uint32_t v = 0; v < droplet.size(); ++v) {
-        droplet[v] = number[sets.nameOf(v)];
+        droplet[v] = number[sets.find(v)];
     }
     return count;
 }

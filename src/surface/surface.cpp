@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -240,29 +241,14 @@ std::size_t countLoops(std::vector<std::uint32_t> next)
     return count;
 }
 
-// Sets of vertices that triangles join, each named by its smallest member, with path halving: R. E. Tarjan, J. van
-// Leeuwen, "Worst-case analysis of set union algorithms" (1984).
+// How often a triangle joins two sets of vertices that were apart.
 std::size_t countJoins(const Surface& surface)
 {
-    std::vector<std::uint32_t> parent = surface.weld;
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            v = parent[v] = parent[parent[v]];
-        }
-        return v;
-    };
+    UnionFind sets(surface.weld);
     std::size_t joins = 0;
-    const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        if (a != b) {
-            parent[std::max(a, b)] = std::min(a, b);
-            ++joins;
-        }
-    };
     for (const auto& [a, b, c] : surface.triangles) {
-        join(a, b);
-        join(b, c);
+        joins += sets.join(a, b) ? 1 : 0;
+        joins += sets.join(b, c) ? 1 : 0;
     }
     return joins;
 }
