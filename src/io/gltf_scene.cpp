@@ -257,7 +257,8 @@ public:
         if (mesh_.triangles.empty()) {
             throw Damage("its scene has no triangles");
         }
-        fillNormals(mesh_.positions, mesh_.triangles, mesh_.normals);
+        mesh_.weld = firstAtPlace(mesh_.positions);
+        fillNormals(mesh_.positions, mesh_.triangles, mesh_.weld, mesh_.normals);
         for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
             mesh_.positions[v] = zUp(mesh_.positions[v]);
             mesh_.normals[v] = zUp(mesh_.normals[v]);
