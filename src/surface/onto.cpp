@@ -13,11 +13,11 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "surface/half_edges.h"
 #include "union_find.h"
 
 namespace droplet {
@@ -243,37 +243,29 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
         keys.push_back({p.x, p.y, p.z, object.uvs[v].x, object.uvs[v].y});
     }
     std::vector<std::uint32_t> welded;
-    numberEqual(keys, welded);
+    const std::uint32_t welded_count = numberEqual(keys, welded);
 
-    struct Edge {
-        std::uint32_t low;
-        std::uint32_t high;
-        bool mirrored;
-        std::uint32_t facet;
-    };
-    std::vector<Edge> edges;
-    std::vector<double> facing(facets.size());
-    for (std::uint32_t f = 0; f < facets.size(); ++f) {
-        facing[f] = facingOf(object, facets[f]);
+    // Triangles that face the same way have places of their own, and wind outward.
+    std::vector<Vec3> places(2 * std::size_t{welded_count});
+    std::vector<Triangle> outward;
+    std::vector<double> facing;
+    for (const Facet& facet : facets) {
+        facing.push_back(facingOf(object, facet));
+        Triangle t{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = welded[facets[f].corners[k]];
-            const std::uint32_t b = welded[facets[f].corners[(k + 1) % 3]];
-            edges.push_back({std::min(a, b), std::max(a, b), facing[f] < 0.0, f});
+            t[k] = 2 * welded[facet.corners[k]] + (facing.back() < 0.0 ? 1U : 0U);
+            places[t[k]] = object.positions[facet.corners[k]];
         }
-    }
-    const auto key = [](const Edge& e) { return std::tuple(e.low, e.high, e.mirrored); };
-    std::sort(edges.begin(), edges.end(),
-              [&](const Edge& a, const Edge& b) { return std::pair(key(a), a.facet) < std::pair(key(b), b.facet); });
-    UnionFind sets(facets.size());
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        if (key(edges[i]) == key(edges[i - 1])) {
-            sets.join(edges[i].facet, edges[i - 1].facet);
+        if (facing.back() * facet.twice_flat < 0.0) {
+            std::swap(t[1], t[2]);
         }
+        outward.push_back(t);
     }
+    UnionFind charts = joinedAcrossEdges(halfEdges(places, outward), outward);
     std::vector<std::uint32_t> number(facets.size(), kNone);
     std::vector<double> chart_facing;
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
-        const std::uint32_t name = sets.find(f);
+        const std::uint32_t name = charts.find(f);
         if (name == f) {
             number[f] = static_cast<std::uint32_t>(chart_facing.size());
             chart_facing.push_back(facing[f]);
