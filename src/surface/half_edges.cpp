@@ -3,6 +3,7 @@
 // (2002).
 #include "surface/half_edges.h"
 
+#include <algorithm>
 #include <mutex>
 #include <string>
 #include <unordered_map>
@@ -66,40 +67,16 @@ HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>
         if (face.is_valid()) {
             result.triangles.push_back(t);
         }
-        return face;
+        return face.is_valid();
     };
-    std::vector<std::uint32_t> refused;
-    std::vector<std::uint32_t> alone;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        if (namesPlaceTwice(triangles[t])) {
-            alone.push_back(t);
-        } else if (!add_face(t, [](std::uint32_t v) {
-                        return OpenMesh::VertexHandle(static_cast<int>(v));
-                    }).is_valid()) {
-            refused.push_back(t);
+        if (namesPlaceTwice(triangles[t]) ||
+            !add_face(t, [](std::uint32_t v) { return OpenMesh::VertexHandle(static_cast<int>(v)); })) {
+            result.apart.push_back(t);
         }
     }
-    // What is refused again and again would take time by its square.
-    constexpr int kRounds = 8;
-    for (int round = 0; round < kRounds && !refused.empty(); ++round) {
-        std::unordered_map<std::uint32_t, OpenMesh::VertexHandle> copies;
-        std::vector<std::uint32_t> still;
-        for (const std::uint32_t t : refused) {
-            const OpenMesh::FaceHandle face = add_face(t, [&](std::uint32_t v) {
-                OpenMesh::VertexHandle& copy = copies[v];
-                return copy = copy.is_valid() ? copy : add_vertex(places[v]);
-            });
-            if (face.is_valid()) {
-                result.apart.push_back(face);
-            } else {
-                still.push_back(t);
-            }
-        }
-        refused = std::move(still);
-    }
-    alone.insert(alone.end(), refused.begin(), refused.end());
-    for (const std::uint32_t t : alone) {
-        result.apart.push_back(add_face(t, [&](std::uint32_t v) { return add_vertex(places[v]); }));
+    for (const std::uint32_t t : result.apart) {
+        add_face(t, [&](std::uint32_t v) { return add_vertex(places[v]); });
     }
     return result;
 }
@@ -108,23 +85,26 @@ UnionFind joinedAcrossEdges(const HalfEdges& half_edges, const std::vector<Trian
 {
     const auto& mesh = half_edges.mesh;
     UnionFind joined(triangles.size());
-    const auto join = [&](OpenMesh::FaceHandle a, OpenMesh::FaceHandle b) {
-        if (a.is_valid() && b.is_valid()) {
-            joined.join(half_edges.triangles[static_cast<std::size_t>(a.idx())],
-                        half_edges.triangles[static_cast<std::size_t>(b.idx())]);
+    const auto join = [&](std::uint32_t t, OpenMesh::FaceHandle face) {
+        if (face.is_valid()) {
+            joined.join(t, half_edges.triangles[static_cast<std::size_t>(face.idx())]);
         }
     };
-    for (const auto edge : mesh.edges()) {
-        join(mesh.face_handle(mesh.halfedge_handle(edge, 0)), mesh.face_handle(mesh.halfedge_handle(edge, 1)));
+    for (const auto h : mesh.halfedges()) {
+        if (const OpenMesh::FaceHandle face = mesh.face_handle(h); face.is_valid()) {
+            join(half_edges.triangles[static_cast<std::size_t>(face.idx())], mesh.opposite_face_handle(h));
+        }
     }
-    for (const OpenMesh::FaceHandle face : half_edges.apart) {
-        const Triangle& t = triangles[half_edges.triangles[static_cast<std::size_t>(face.idx())]];
+    std::unordered_map<std::uint64_t, std::uint32_t> first;  // of those apart, at every edge
+    for (const std::uint32_t t : half_edges.apart) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const OpenMesh::VertexHandle from(static_cast<int>(t[k]));
-            const OpenMesh::VertexHandle to(static_cast<int>(t[(k + 1) % 3]));
-            if (const OpenMesh::HalfedgeHandle beside = mesh.find_halfedge(from, to); beside.is_valid()) {
-                join(face, mesh.face_handle(beside));
-                join(face, mesh.opposite_face_handle(beside));
+            const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+            joined.join(t, first.try_emplace(std::uint64_t{low} << 32 | high, t).first->second);
+            const OpenMesh::HalfedgeHandle beside = mesh.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(low)),
+                                                                       OpenMesh::VertexHandle(static_cast<int>(high)));
+            if (beside.is_valid()) {
+                join(t, mesh.face_handle(beside));
+                join(t, mesh.opposite_face_handle(beside));
             }
         }
     }

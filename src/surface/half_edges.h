@@ -19,12 +19,11 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
 };
 
 /// Triangles of any kind, from outside, as half-edges. Half-edges hold manifolds alone: a triangle whose edge is taken,
-/// that closes around a vertex already closed, or names a place twice, stands apart, with copies of its vertices, which
-/// it may share with other triangles apart.
+/// that touches a vertex already closed, or names a place twice, stands apart, with copies of its vertices.
 struct HalfEdges {
     OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the places
     std::vector<std::uint32_t> triangles;                 ///< of every face
-    std::vector<OpenMesh::FaceHandle> apart;
+    std::vector<std::uint32_t> apart;                     ///< triangles that stand apart
 };
 
 /// @param places     [m]
@@ -32,7 +31,7 @@ struct HalfEdges {
 /// @throws Error     InvalidArgument for more than 2²⁸ triangles
 HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles);
 
-/// Triangles joined across edges, those apart with the others at their places, too.
+/// Triangles joined with all others that share an edge, those apart, too.
 /// @param triangles  as handed to halfEdges
 UnionFind joinedAcrossEdges(const HalfEdges& half_edges, const std::vector<Triangle>& triangles);
 
