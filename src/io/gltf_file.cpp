@@ -80,7 +80,7 @@ Container containerOf(std::span<const std::byte> bytes)
 /// Without extras and extensions.
 Json parsed(std::string_view text)
 {
-    constexpr int kDeepest = 16;  // without extras and extensions glTF needs 7
+    constexpr int kDeepest = 64;  // glTF needs 7, its extras are free
     const auto keep = [](int depth, Json::parse_event_t event, const Json& value) {
         if (depth > kDeepest) {
             throw Damage("its JSON is nested more than " + std::to_string(kDeepest) + " deep");

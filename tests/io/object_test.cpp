@@ -450,7 +450,7 @@ TEST_F(Object, HandsOverNothingThatIsNotChecked)
     expectRefused(changed("\"buffers\":[{\"byteLength\":", "\"buffers\":[{\"byteLength\":0,\"was\":"), "bytes of 0");
     expectRefused(changed("\"buffers\"", "\"buffer\""), "buffers[0] does not exist");
     const std::string nested = std::string(100000, '[') + std::string(100000, ']');
-    expectRefused(changed("\"asset\"", "\"extras\":" + nested + ",\"asset\""), "nested more than 16 deep");
+    expectRefused(changed("\"asset\"", "\"extras\":" + nested + ",\"asset\""), "nested more than 64 deep");
     EXPECT_EQ(read(changed("\"asset\"", R"("extras":{"a":[{}]},"images":[{"uri":"nowhere.png"},5],"asset")")).triangles,
               kTwo);
 }

@@ -37,7 +37,7 @@ enum class WindAlongGlass {
 /// plane. The drag's size is that of its speed. By default this is the whole speed (Turned): a windshield turns the
 /// flow, which slows down at its foot and is faster than the vehicle at its upper edge, and the thesis's V is the
 /// wind's velocity "out of the boundary layer (relative to the solid plane)", eq. (3.4). With δ/C_D as measured
-/// (WIND.md's 6.8 mm) only so do figures 3.10 to 3.12 come out as the thesis tells them. Projected is what is left of
+/// (6.8 mm) only so do figures 3.10 to 3.12 come out as the thesis tells them. Projected is what is left of
 /// the wind that has no obstacle but the plane itself: none on a glass across it.
 class Glass {
 public:
