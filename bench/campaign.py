@@ -60,6 +60,11 @@ def machine(build):
             "commit": output_of("git", "-C", str(build), "describe", "--always", "--dirty")}
 
 
+def tables(*command):
+    """The tables that a program prints, ready for RESULTS.md."""
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+
 # ------------------------------------------------------------------------------- stages and peers: Google Benchmark
 
 def stages(build, masks, quick):
@@ -238,8 +243,9 @@ def run(root, build, native, quick):
     results["stages"] = stages(build, masks, quick)
 
     tell("the wind tunnel")
-    results["tunnel"] = output_of(build / "bench" / "bench_tunnel")
+    results["tunnel"] = tables(build / "bench" / "bench_tunnel")
     tell("the windshield")
-    results["windshield"] = output_of(build / "bench" / "bench_windshield", f"--hour={60 if quick else 600}")
-    results["view"] = output_of(build / "bench" / "bench_view")
+    results["windshield"] = tables(build / "bench" / "bench_windshield", f"--hour={60 if quick else 600}")
+    tell("the driver's view")
+    results["view"] = tables(build / "bench" / "bench_view")
     return results

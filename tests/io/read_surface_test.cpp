@@ -133,7 +133,7 @@ TEST_F(ReadSurfaceTest, ObjInEveryNotation)
     EXPECT_LE(compare(plain, read("other.obj", other)).symmetric.upper, 1e-17);
     const Surface with = read("other.obj", other);
     EXPECT_TRUE(topology(with).closed);
-    EXPECT_EQ(std::count(with.normals.begin(), with.normals.end(), Vec3(0.0, -1.0, 0.0)), 4) << "z of y up is −y";
+    EXPECT_EQ((std::count(with.normals.begin(), with.normals.end(), Vec3{0.0, -1.0, 0.0})), 4) << "z of y up is −y";
 }
 
 TEST_F(ReadSurfaceTest, PlyAndStlAsText)

@@ -72,7 +72,7 @@ public:
         const std::string type = one.at("type");
         const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4;
         const std::size_t offset =
-            json_.at("bufferViews").at(one.at("bufferView").get<std::size_t>()).value("byteOffset", 0);
+            json_.at("bufferViews").at(one.at("bufferView").get<std::size_t>()).value("byteOffset", std::size_t{0});
         std::vector<std::vector<float>> rows(one.at("count").get<std::size_t>(), std::vector<float>(width));
         for (std::size_t i = 0; i < rows.size(); ++i) {
             std::memcpy(rows[i].data(), buffer_.data() + offset + 4 * width * i, 4 * width);

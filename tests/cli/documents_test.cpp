@@ -47,7 +47,7 @@ std::vector<std::string> markdownIn(const std::string& folder)
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(inSource(folder))) {
         if (entry.path().extension() == ".md") {
-            names.push_back(entry.path().lexically_relative(DROPLET_SOURCE_DIR).generic_string());
+            names.push_back(entry.path().lexically_relative(testing::kSourceDir).generic_string());
         }
     }
     std::sort(names.begin(), names.end());

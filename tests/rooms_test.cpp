@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rooms of the house include one another as the table in docs/architecture.md says, and in no other way.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using testing::inSource;
+using ::testing::IsEmpty;
+using ::testing::Key;
+using ::testing::Not;
+
+struct Room {
+    std::string name;
+    std::string includes;  ///< its table cell
+};
+
+/// The table's rows, the ground first.
+std::vector<Room> roomsOfTable()
+{
+    const std::string page = testing::readFile(inSource("docs/architecture.md"));
+    const auto begin = page.find("<!-- rooms: begin -->");
+    const auto end = page.find("<!-- rooms: end -->");
+    std::vector<Room> rooms;
+    std::istringstream lines(page.substr(begin, end - begin));
+    const std::regex row(R"(\| (\w+) \|.*\|.*\| ?([^|]*?) ?\|)");
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch cells;
+        if (std::regex_match(line, cells, row) && cells[1] != "room") {
+            rooms.push_back({cells[1], cells[2]});
+        }
+    }
+    return rooms;
+}
+
+/// What each room may include. "all but X" means every room above it but X.
+std::map<std::string, std::set<std::string>> allowed()
+{
+    std::map<std::string, std::set<std::string>> arrows;
+    std::set<std::string> above;
+    for (const Room& room : roomsOfTable()) {
+        std::set<std::string> named;
+        std::istringstream words(std::regex_replace(room.includes, std::regex(","), " "));
+        const bool all_but = room.includes.starts_with("all but ");
+        for (std::string word; words >> word;) {
+            if (word != "all" && word != "but") {
+                EXPECT_THAT(above, Contains(word)) << room.name << " stands below what it may include";
+                named.insert(word);
+            }
+        }
+        if (all_but) {
+            std::set<std::string> rest;
+            std::set_difference(above.begin(), above.end(), named.begin(), named.end(),
+                                std::inserter(rest, rest.end()));
+            named = rest;
+        }
+        arrows[room.name] = named;
+        above.insert(room.name);
+    }
+    return arrows;
+}
+
+/// The room of a header or source, by its path below src/ or include/droplet/.
+std::string roomOf(const fs::path& file)
+{
+    if (file.has_parent_path()) {
+        return file.begin()->string();
+    }
+    const std::string stem = file.stem().string();
+    return stem == "droplet" || stem == "pipeline" ? "droplet" : "ground";
+}
+
+struct Arrow {
+    std::string from;
+    std::string to;
+    std::string where;  ///< file and header
+    bool is_public = false;
+};
+
+/// Every include from one room into another.
+std::vector<Arrow> arrowsOfSources()
+{
+    std::vector<Arrow> arrows;
+    const std::regex include("#include [<\"]([^>\"]+)[>\"]");
+    for (const std::string top : {"include/droplet", "src", "cli"}) {
+        const fs::path root = inSource(top);
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+            const fs::path below = fs::relative(entry.path(), root);
+            if (below.extension() != ".h" && below.extension() != ".cpp") {
+                continue;
+            }
+            const std::string from = top == "cli" ? "cli" : roomOf(below);
+            std::istringstream lines(testing::readFile(entry.path()));
+            for (std::string line; std::getline(lines, line);) {
+                std::smatch found;
+                if (!std::regex_search(line, found, include)) {
+                    continue;
+                }
+                const std::string header = found[1];
+                const bool is_public = header.starts_with("droplet/");
+                const bool is_private = !is_public && !fs::exists(entry.path().parent_path() / header) &&
+                                        fs::exists(fs::path(inSource("src")) / header);
+                if (is_public || is_private) {
+                    const std::string to = roomOf(is_public ? header.substr(8) : header);
+                    if (to != from) {
+                        arrows.push_back({from, to, (top / below).string() + " includes " + header, is_public});
+                    }
+                }
+            }
+        }
+    }
+    return arrows;
+}
+
+TEST(Rooms, IncludeWhatTheTableAllowsAndNothingElse)
+{
+    const auto table = allowed();
+    ASSERT_GT(table.size(), 15U);
+    for (const Arrow& arrow : arrowsOfSources()) {
+        ASSERT_THAT(table, Contains(Key(arrow.from))) << arrow.where;
+        EXPECT_THAT(table.at(arrow.from), Contains(arrow.to)) << arrow.where;
+        EXPECT_TRUE(arrow.from != "cli" || arrow.is_public)
+            << arrow.where << ": the command needs public headers alone";
+    }
+}
+
+TEST(Rooms, NeedAllThatTheTableAllows)
+{
+    std::map<std::string, std::set<std::string>> used;
+    for (const Arrow& arrow : arrowsOfSources()) {
+        used[arrow.from].insert(arrow.to);
+    }
+    for (const auto& [room, may] : allowed()) {
+        if (room == "cli") {
+            continue;
+        }
+        for (const std::string& other : may) {
+            EXPECT_THAT(used[room], Contains(other)) << room << " does not include what its row names";
+        }
+    }
+}
+
+TEST(Rooms, EveryFolderIsInTheTable)
+{
+    const auto table = allowed();
+    for (const std::string top : {"include/droplet", "src"}) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(inSource(top))) {
+            const std::string name = entry.path().filename().string();
+            if (entry.is_directory() && name != "cmake") {
+                EXPECT_THAT(table, Contains(Key(name)));
+            }
+        }
+    }
+    EXPECT_THAT(table, Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace droplet
