@@ -151,12 +151,29 @@ void forObjects(Json& parent, const char* list, const Check& check)
 /// Types and ranges of all that is read, where tinygltf would overlook a wrong one.
 void checkValues(Json& root)
 {
+    struct Rule {
+        const char* list;
+        const char* key;
+        Number kind;
+    };
+    constexpr std::array<Rule, 13> kRules = {{{"scenes", "nodes", Number::Indices},
+                                              {"nodes", "mesh", Number::Index},
+                                              {"nodes", "skin", Number::Index},
+                                              {"nodes", "children", Number::Indices},
+                                              {"accessors", "bufferView", Number::Index},
+                                              {"accessors", "componentType", Number::Index},
+                                              {"accessors", "byteOffset", Number::Size},
+                                              {"accessors", "count", Number::Size},
+                                              {"bufferViews", "buffer", Number::Index},
+                                              {"bufferViews", "byteOffset", Number::Size},
+                                              {"bufferViews", "byteLength", Number::Size},
+                                              {"bufferViews", "byteStride", Number::Size},
+                                              {"buffers", "byteLength", Number::Size}}};
+    for (const Rule& rule : kRules) {
+        forObjects(root, rule.list, [&](Json& object) { checkWhole(object, rule.key, rule.kind); });
+    }
     checkWhole(root, "scene", Number::Index);
-    forObjects(root, "scenes", [](Json& scene) { checkWhole(scene, "nodes", Number::Indices); });
     forObjects(root, "nodes", [](Json& node) {
-        checkWhole(node, "mesh", Number::Index);
-        checkWhole(node, "skin", Number::Index);
-        checkWhole(node, "children", Number::Indices);
         checkNumbers(node, "matrix", 16);
         checkNumbers(node, "translation", 3);
         checkNumbers(node, "rotation", 4);
@@ -174,32 +191,19 @@ void checkValues(Json& root)
             }
         });
     });
-    forObjects(root, "accessors", [](Json& accessor) {
-        checkWhole(accessor, "bufferView", Number::Index);
-        checkWhole(accessor, "componentType", Number::Index);
-        checkWhole(accessor, "byteOffset", Number::Size);
-        checkWhole(accessor, "count", Number::Size);
-    });
-    forObjects(root, "bufferViews", [](Json& view) {
-        checkWhole(view, "buffer", Number::Index);
-        checkWhole(view, "byteOffset", Number::Size);
-        checkWhole(view, "byteLength", Number::Size);
-        checkWhole(view, "byteStride", Number::Size);
-    });
-    forObjects(root, "buffers", [](Json& buffer) { checkWhole(buffer, "byteLength", Number::Size); });
 }
 
 // ----------------------------------------------------------------------------------------------- the buffers
 
-/// Buffers that are not embedded, in the order in which tinygltf asks for them.
-struct Sources {
-    struct Source {
-        std::string name;
-        std::size_t length = 0;
-        std::span<const std::byte> chunk;  ///< empty for a file
-    };
-    std::deque<Source> next;
+/// A buffer that is not embedded.
+struct Source {
+    std::string name;
+    std::size_t length = 0;
+    std::span<const std::byte> chunk;  ///< empty for a file
 };
+
+/// In the order in which tinygltf asks for them.
+using Sources = std::deque<Source>;
 
 /// Brings buffers to what tinygltf takes: base64 of its media type and of exactly the length asked for.
 Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
@@ -224,11 +228,11 @@ Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
                              std::to_string(length));
             }
             buffer["uri"] = "chunk";
-            sources.next.push_back({name, length, chunk.first(length)});
+            sources.push_back({name, length, chunk.first(length)});
         } else if (uri.starts_with('/') || uri.find("://") != std::string::npos) {
             throw Damage(name + " is not beside the file: " + uri);
         } else {
-            sources.next.push_back({name + ", " + uri, length, {}});
+            sources.push_back({name + ", " + uri, length, {}});
         }
         ++index;
     });
@@ -238,8 +242,8 @@ Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
 bool readSource(std::vector<unsigned char>* to, std::string* /*error*/, const std::string& path, void* user)
 {
     auto& sources = *static_cast<Sources*>(user);
-    const Sources::Source source = std::move(sources.next.front());
-    sources.next.pop_front();
+    const Source source = std::move(sources.front());
+    sources.pop_front();
     Bytes bytes;
     std::span<const std::byte> content = source.chunk;
     if (content.empty()) {

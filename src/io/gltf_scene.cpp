@@ -63,9 +63,11 @@ public:
         if (kind_ == TINYGLTF_COMPONENT_TYPE_INT || kind_ == TINYGLTF_COMPONENT_TYPE_DOUBLE) {
             throw Damage(name + " has components of no known type");
         }
-        component_bytes_ = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(accessor.componentType));
+        component_bytes_ =
+            static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(kind_)));
         const std::size_t element =
-            component_bytes_ * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(accessor.type));
+            component_bytes_ *
+            static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
 
         const tinygltf::BufferView& view = entry(model.bufferViews, accessor.bufferView, "bufferViews");
         const std::span<const unsigned char> buffer = entry(model.buffers, view.buffer, "buffers").data;
@@ -161,8 +163,8 @@ Placement placementOf(const tinygltf::Node& node)
         const auto column = [&m](std::size_t k) { return Vec3{m[4 * k], m[4 * k + 1], m[4 * k + 2]}; };
         return {column(0), column(1), column(2), column(3)};
     }
-    const auto or_else = [](const std::vector<double>& given, std::vector<double> otherwise) {
-        return given.empty() ? std::move(otherwise) : given;
+    const auto or_else = [](const std::vector<double>& given, const std::vector<double>& otherwise) {
+        return given.empty() ? otherwise : given;
     };
     const std::vector<double> t = or_else(node.translation, {0.0, 0.0, 0.0});
     const std::vector<double> s = or_else(node.scale, {1.0, 1.0, 1.0});

@@ -11,6 +11,9 @@
 
 #include "droplet/error.h"
 
+// OpenMesh hands out handles that know their mesh, and takes those that do not.
+// NOLINTBEGIN(cppcoreguidelines-slicing)
+
 namespace droplet {
 namespace {
 
@@ -159,3 +162,5 @@ HalfEdges halfEdges(const Surface& surface)
 }
 
 }  // namespace droplet
+
+// NOLINTEND(cppcoreguidelines-slicing)

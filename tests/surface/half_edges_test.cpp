@@ -45,7 +45,7 @@ TEST(HalfEdges, HoldEveryTriangleOfAnySoup)
             const Triangle& triangle = triangles[found.triangles[static_cast<std::size_t>(face.idx())]];
             std::vector<double> corners;
             for (const auto vertex : face.vertices()) {
-                corners.push_back(found.mesh.point(vertex)[0]);
+                corners.push_back(found.mesh.point(vertex)[0]);  // NOLINT(cppcoreguidelines-slicing)
             }
             std::rotate(corners.begin(), std::find(corners.begin(), corners.end(), triangle[0]), corners.end());
             EXPECT_THAT(corners, ::testing::Contains(triangle[2]));
