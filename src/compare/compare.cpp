@@ -20,7 +20,9 @@
 
 #include "compare/hausdorff.h"
 #include "droplet/error.h"
+#include "number_text.h"
 #include "rays/nearest.h"
+#include "surface/half_edges.h"
 
 namespace droplet {
 namespace {
@@ -343,7 +345,7 @@ SurfaceMeasures measured(const Surface& surface, const Box& box)
         result.area += 0.5 * length(cross(surface.positions[b] - origin, surface.positions[c] - origin));
     }
     result.volume = enclosedVolume(surface);
-    result.topology = topology(surface);
+    result.topology = topology(halfEdges(surface));
     result.contact_angle = contactAngles(surface);
     return result;
 }
@@ -360,10 +362,10 @@ void check(const CompareOptions& options)
         throw Error(ErrorCode::InvalidArgument, "compare options: " + what);
     };
     if (!(options.share > 0.0 && options.share < 1.0)) {
-        refuse("share = " + std::to_string(options.share) + " must be over 0 and under 1");
+        refuse("share = " + numberText(options.share) + " must be over 0 and under 1");
     }
     if (options.tolerance && !(*options.tolerance >= 0.0 && std::isfinite(*options.tolerance))) {
-        refuse("tolerance = " + std::to_string(*options.tolerance) + " must be finite and not negative");
+        refuse("tolerance = " + numberText(*options.tolerance) + " must be finite and not negative");
     }
 }
 

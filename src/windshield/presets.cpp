@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The thesis, figures 3.10 to 3.12 and section 3.2.3. It tells wind, hysteresis and glass; it does not tell δ and C_D,
+// nor the rain. δ/C_D is the one that the measured still band of figure 3.3 asks for (wind/forces.h), with C_D = 1: a
+// layer thicker than any droplet is high, "thick" as figure 3.12 has it. Then a wind of 10.2 m/s neither lets droplets
+// down a slope of 45° nor drives them up, and
+//
+//     11.3 m/s   gravity is overcome by g sin 45° · 0.23: hysteresis 0.5 holds all below 8 mm across, 0.05 those
+//                below 3 mm
+//     15 m/s     by g sin 45° · 1.2: hysteresis 0.5 holds those below 4 mm
+#include "droplet/windshield/presets.h"
+
+#include "droplet/error.h"
+
+namespace droplet {
+namespace {
+
+WindshieldPreset figure(const char* name, const char* description, double wind, double hysteresis)
+{
+    WindshieldPreset preset;
+    preset.name = name;
+    preset.description = description;
+    WindshieldParameters& p = preset.parameters;
+    p.forces = forcePresetNamed("thesis").model;
+    p.forces.wetting.contact_angle = 90.0 * kDegree;  // hemispheres (3.1)
+    p.forces.wetting.hysteresis = hysteresis;
+    p.vehicle = constantSpeed(wind);
+    return preset;
+}
+
+}  // namespace
+
+const std::vector<WindshieldPreset>& windshieldPresets()
+{
+    static const std::vector<WindshieldPreset> presets{
+        figure("figure-3.10", "11.3 m/s, hysteresis 0.5: the droplets do not move at all", 11.3, 0.5),
+        figure("figure-3.11", "11.3 m/s, hysteresis 0.05: they move along the windshield's curve", 11.3, 0.05),
+        figure("figure-3.12", "15 m/s, hysteresis 0.5: the large ones climb straight up, the small ones stay", 15.0,
+               0.5)};
+    return presets;
+}
+
+const WindshieldPreset& windshieldPresetNamed(std::string_view name)
+{
+    std::string known;
+    for (const WindshieldPreset& preset : windshieldPresets()) {
+        if (preset.name == name) {
+            return preset;
+        }
+        known += (known.empty() ? "" : ", ") + preset.name;
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                "preset is '" + std::string(name.substr(0, 40)) + "', must be one of " + known);
+}
+
+}  // namespace droplet
