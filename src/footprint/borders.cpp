@@ -41,8 +41,9 @@ cv::Mat thresholded(const Mask& mask, std::uint16_t level)
 /// The direction of a step to one of eight neighbours in eighths of a turn, counterclockwise from east as one sees it.
 int eighths(const cv::Point& from, const cv::Point& to)
 {
-    constexpr std::array<std::array<int, 3>, 3> kEighths{{{3, 2, 1}, {4, 0, 0}, {5, 6, 7}}};
-    return kEighths[static_cast<std::size_t>(to.y - from.y + 1)][static_cast<std::size_t>(to.x - from.x + 1)];
+    constexpr std::array<int, 9> kEighths{3, 2, 1, 4, 0, 0, 5, 6, 7};
+    const int place = 3 * (to.y - from.y + 1) + (to.x - from.x + 1);
+    return kEighths[static_cast<std::size_t>(place)];
 }
 
 /// The dry neighbours that a chain passes: at each pixel those on the way round, counterclockwise, from where the chain

@@ -8,7 +8,7 @@
 
 extern "C" {
 
-enum DropletOutcome { kDropletDecoded, kDropletTooLarge, kDropletDamaged, kDropletOutOfMemory };
+enum class DropletOutcome { Decoded, TooLarge, Damaged, OutOfMemory };
 
 struct DropletPicture {
     int width;

@@ -76,15 +76,15 @@ public:
         }
         release_ = codecs.release;
         switch (codecs.decode(encoded.data(), encoded.size(), max_pixels, &picture_)) {
-            case kDropletDecoded:
+            case DropletOutcome::Decoded:
                 return;
-            case kDropletTooLarge:
+            case DropletOutcome::TooLarge:
                 checkSize(format, static_cast<std::uint64_t>(picture_.width),
                           static_cast<std::uint64_t>(picture_.height), max_pixels);
                 break;
-            case kDropletDamaged:
+            case DropletOutcome::Damaged:
                 break;
-            case kDropletOutOfMemory:
+            case DropletOutcome::OutOfMemory:
                 throw std::bad_alloc();
         }
         const std::string problem = picture_.problem;

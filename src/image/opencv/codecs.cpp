@@ -115,7 +115,7 @@ std::string reasonIn(const std::string& words)
 DropletOutcome damaged(DropletPicture& picture, const std::string& reason)
 {
     picture.problem[reason.copy(picture.problem, sizeof picture.problem - 1)] = '\0';
-    return kDropletDamaged;
+    return DropletOutcome::Damaged;
 }
 
 int bitsOf(const cv::Mat& image)
@@ -143,15 +143,16 @@ DropletOutcome decode(const cv::Mat& encoded, Decoding& here, DropletPicture& pi
         }
         picture = {image->cols, image->rows, image->channels(), bitsOf(*image), image->data, nullptr, ""};
         picture.owner = image.release();
-        return kDropletDecoded;
+        return DropletOutcome::Decoded;
     } catch (const TooLarge& size) {
         picture.width = size.width;
         picture.height = size.height;
-        return kDropletTooLarge;
+        return DropletOutcome::TooLarge;
     } catch (const cv::Exception& error) {
-        return error.code == cv::Error::StsNoMem ? kDropletOutOfMemory : damaged(picture, reasonIn(error.what()));
+        return error.code == cv::Error::StsNoMem ? DropletOutcome::OutOfMemory
+                                                 : damaged(picture, reasonIn(error.what()));
     } catch (const std::bad_alloc&) {
-        return kDropletOutOfMemory;
+        return DropletOutcome::OutOfMemory;
     } catch (const std::exception&) {
         return damaged(picture, reasonIn(here.words));
     }
