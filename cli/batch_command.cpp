@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "batch.h"
+#include "batch_runner.h"
+#include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/version.h"
 #include "files.h"
@@ -145,7 +146,7 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
         parts.push_back(value);
     }
     for (const auto& path : {options.settings.ground.path, options.settings.onto}) {
-        parts.push_back(path ? sha256OfFile(*path) : "");
+        parts.push_back(hashOfFile(path));
     }
     return fingerprintOf(parts);
 }
@@ -202,7 +203,7 @@ int runBatch(int argc, const char* const* argv)
         item.open = [job, &around, &settings] {
             auto picture = readPicture(job);
             BatchWork work;
-            work.fingerprint = fingerprintOf({settings, sha256(picture)});
+            work.fingerprint = fingerprintOf({settings, hashOf(picture)});
             // Taken by what is made, and gone as soon as that no longer needs it.
             work.make = [&job, &around, picture = std::move(picture)]() mutable {
                 return figuresOf(makeShape(job, around, std::move(picture)));

@@ -4,13 +4,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <ostream>
 #include <string_view>
 #include <type_traits>
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
+#include "droplet/windshield/state_bytes.h"
+#include "files.h"
 
 namespace cli {
 namespace {
@@ -99,8 +100,7 @@ std::optional<Checkpoint> readCheckpoint(const std::string& path)
     if (!std::filesystem::exists(path, ignored)) {
         return std::nullopt;
     }
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string bytes = textOf(path);
     Reader reader(bytes, path);
     if (reader.take(std::min(bytes.size(), kBeginning.size())) != kBeginning) {
         throw droplet::Error(droplet::ErrorCode::InvalidInput, path + ": is no checkpoint of this program's");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "droplet/compare/compare.h"
 #include "droplet/compare/comparison_report.h"
 #include "droplet/error.h"
@@ -23,7 +24,6 @@
 #include "droplet/picture/picture.h"
 #include "droplet/picture/render.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
 #include "files.h"
 #include "option_values.h"
 #include "terminal.h"
@@ -76,13 +76,7 @@ void declare(CommandLine& line)
              "draw A with how far it lies outside B, or inside,\n"
              "in colours: .png; - is standard output");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
-    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
-    line.add(kRun, "--config", "FILE",
-             "take options from lines such as tolerance = \"0.01mm\";\n"
-             "the command line goes before them");
-    line.addFlag(kRun, "-h,--help", "print this help");
-    line.addFlag(kRun, "--version", "print the version");
+    declareCommon(line, kRun, "tolerance = \"0.01mm\"");
 }
 
 /// A share in per cent: of a bare number it is a guess whether it is one.
@@ -126,10 +120,7 @@ Options readOptions(const CommandLine& line)
         }
         options.picture = picture->text;
     }
-    constexpr std::size_t kMostThreads = 1024;  // as of all commands
-    if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMostThreads, "1024");
-    }
+    options.threads = readThreads(line);
     options.files.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     return options;
@@ -232,12 +223,8 @@ int runCompare(int argc, const char* const* argv)
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        print(line.help());
-        return 0;
-    }
-    if (line.flag("--version")) {
-        print("droplet-shape " + std::string(droplet::kVersion) + "\n");
+    if (const auto text = textAskedFor(line)) {
+        print(*text);
         return 0;
     }
     const Options options = readOptions(line);

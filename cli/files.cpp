@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,9 +8,11 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -20,6 +21,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "file_places.h"
 
 namespace cli {
 namespace {
@@ -40,44 +42,34 @@ public:
 
     void add(const NamedFile& file)
     {
-        places_.try_emplace(placeOf(file), &file);
+        by_place_.try_emplace(placeOf(file), &file);
         if (const auto node = nodeOf(file)) {
-            nodes_.try_emplace(*node, &file);
+            by_node_.try_emplace(*node, &file);
         }
     }
 
     /// The file that this one is; none if it is new.
-    [[nodiscard]] const NamedFile* find(const NamedFile& file) const
+    const NamedFile* find(const NamedFile& file)
     {
-        if (const auto place = places_.find(placeOf(file)); place != places_.end()) {
-            return place->second;
+        if (const auto known = by_place_.find(placeOf(file)); known != by_place_.end()) {
+            return known->second;
         }
         const auto node = nodeOf(file);
-        const auto known = node ? nodes_.find(*node) : nodes_.end();
-        return known == nodes_.end() ? nullptr : known->second;
+        const auto known = node ? by_node_.find(*node) : by_node_.end();
+        return known == by_node_.end() ? nullptr : known->second;
     }
 
 private:
-    using Node = std::pair<dev_t, ino_t>;
+    std::string placeOf(const NamedFile& file) { return isStream(file.path) ? file.path : places_.of(file.path); }
 
-    static fs::path placeOf(const NamedFile& file)
+    static std::optional<FileNode> nodeOf(const NamedFile& file)
     {
-        std::error_code ignored;
-        return isStream(file.path) ? fs::path(file.path)
-                                   : fs::weakly_canonical(fs::absolute(file.path, ignored), ignored);
+        return isStream(file.path) ? std::nullopt : cli::nodeOf(file.path);
     }
 
-    static std::optional<Node> nodeOf(const NamedFile& file)
-    {
-        struct stat status = {};
-        if (isStream(file.path) || stat(file.path.c_str(), &status) != 0) {
-            return std::nullopt;
-        }
-        return Node(status.st_dev, status.st_ino);
-    }
-
-    std::map<fs::path, const NamedFile*> places_;
-    std::map<Node, const NamedFile*> nodes_;
+    Places places_;
+    std::map<std::string, const NamedFile*> by_place_;
+    std::map<FileNode, const NamedFile*> by_node_;
 };
 
 /// `program - out < out` would read what it is about to replace.
@@ -93,6 +85,29 @@ bool isStandardInput(const std::string& path)
 {
     throw Error(ErrorCode::InvalidArgument,
                 written + " and " + other + " are the same, '" + path + "'; they must be different files");
+}
+
+[[noreturn]] void refuseUnreadable(const std::string& name)
+{
+    throw Error(ErrorCode::InvalidInput, name + " cannot be read: " + std::strerror(errno));
+}
+
+void readAll(int file, const std::string& name, const std::function<void(std::span<const std::byte>)>& take)
+{
+    std::vector<std::byte> part(std::size_t{1} << 18);
+    for (;;) {
+        const ssize_t got = read(file, part.data(), part.size());
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            refuseUnreadable(name);
+        }
+        if (got == 0) {
+            return;
+        }
+        take(std::span(part).first(static_cast<std::size_t>(got)));
+    }
 }
 
 /// Writes the first file, and within that the others.
@@ -123,7 +138,7 @@ bool isStream(const std::string& path)
 void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                 const droplet::OutputOptions& options)
 {
-    const KnownFiles read(inputs);
+    KnownFiles read(inputs);
     const auto stream = std::find_if(inputs.begin(), inputs.end(), [](const NamedFile& f) { return isStream(f.path); });
     KnownFiles written;
     for (const NamedFile& output : outputs) {
@@ -154,29 +169,40 @@ bool isPicture(const std::string& path)
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
+void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take)
+{
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    if (!file) {
+        refuseUnreadable(path);
+    }
+    readAll(fileno(file.get()), path, take);
+}
+
+std::string textOf(const std::string& path)
+{
+    std::string text;
+    readFile(path, [&](std::span<const std::byte> part) {
+        text.append(reinterpret_cast<const char*>(part.data()), part.size());
+    });
+    return text;
+}
+
 std::vector<std::byte> readStandardInput(std::size_t max_pixels)
 {
     // 16 bits of red, green, blue and alpha for every pixel, and room for headers: no picture we read takes more.
     const std::size_t longest = max_pixels * 8 + (std::size_t{1} << 20);
     std::vector<std::byte> bytes;
-    std::vector<std::byte> chunk(std::size_t{1} << 16);
-    for (;;) {
-        const ssize_t got = read(STDIN_FILENO, chunk.data(), chunk.size());
-        if (got < 0 && errno == EINTR) {
-            continue;
-        }
-        if (got < 0) {
-            throw Error(ErrorCode::InvalidInput, std::string("standard input cannot be read: ") + std::strerror(errno));
-        }
-        if (got == 0) {
-            return bytes;
-        }
-        bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + got);
+    readAll(STDIN_FILENO, "standard input", [&](std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
         if (bytes.size() > longest) {
             throw Error(ErrorCode::InvalidInput,
                         "standard input is longer than any picture of " + std::to_string(max_pixels) + " pixels");
         }
-    }
+    });
+    return bytes;
 }
 
 void writeTogether(const std::vector<OutputFile>& files, const droplet::OutputOptions& options)

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ struct NamedFile {
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                 const droplet::OutputOptions& options);
+
+/// Hands over what is in a file, part by part.
+/// @throws droplet::Error InvalidInput: it cannot be read
+void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take);
+
+/// All that is in a file.
+/// @throws droplet::Error InvalidInput: it cannot be read
+std::string textOf(const std::string& path);
 
 /// All of standard input.
 /// @param max_pixels       of the largest picture it may be

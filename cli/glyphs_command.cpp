@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "batch.h"
+#include "batch_runner.h"
+#include "content_hash.h"
 #include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/surface/onto.h"
@@ -189,7 +190,7 @@ PatternValues valuesOf(const Wanted& wanted, const std::vector<std::string>& nam
 /// A hash of everything that decides the bytes of all outputs but which glyph each is.
 std::string settingsFingerprint(const GlyphsOptions& options)
 {
-    std::vector<std::string> parts{sha256OfFile(options.font), droplet::name(options.shape.format)};
+    std::vector<std::string> parts{hashOfFile(options.font), droplet::name(options.shape.format)};
     for (const auto& [name, value] : options.set->batch.told) {
         // These choose glyphs, and do not change them.
         if (name != "all" && name != "charset" && name != "font") {
@@ -204,7 +205,7 @@ std::string settingsFingerprint(const GlyphsOptions& options)
         parts.push_back(height.str());
     }
     const auto& ground = options.shape.settings.ground.path;
-    parts.push_back(ground ? sha256OfFile(*ground) : "");
+    parts.push_back(hashOfFile(ground));
     return fingerprintOf(parts);
 }
 

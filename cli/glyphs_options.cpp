@@ -2,8 +2,6 @@
 #include "glyphs_options.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "droplet/error.h"
@@ -147,11 +145,7 @@ std::vector<char32_t> readCharset(const Given& given)
         return forOption(given.subject, [&] { return droplet::parseCharset(given.text); });
     }
     const std::string path = given.text.substr(1);
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad()) {
-        throw droplet::Error(droplet::ErrorCode::InvalidInput, given.subject + ": " + path + " cannot be read");
-    }
+    const std::string text = forOption(given.subject, [&] { return textOf(path); });
     std::vector<char32_t> characters = forOption(given.subject, [&] { return droplet::charactersOf(text); });
     if (characters.empty()) {
         throw droplet::Error(droplet::ErrorCode::InvalidInput, given.subject + ": " + path + " holds no characters");

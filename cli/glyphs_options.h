@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "batch.h"
+#include "batch_options.h"
 #include "droplet/type/font.h"
 #include "droplet/type/glyph.h"
 #include "option_values.h"

@@ -15,9 +15,8 @@ constexpr std::chrono::seconds kPatience{1};        // a run shorter than this n
 constexpr std::chrono::milliseconds kRefresh{100};  // as fast as a tenth of a second can be read
 constexpr std::size_t kStages = static_cast<std::size_t>(droplet::Stage::Write) + 1;
 constexpr std::size_t kCellsPerStage = 4;
-constexpr const char* kEraseLine = "\r\033[K";
 
-std::string seconds(double value, int decimals)
+std::string rounded(double value, int decimals)
 {
     char text[32];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
@@ -29,7 +28,7 @@ std::string bar(droplet::Stage stage, double elapsed)
     const std::size_t full = kCellsPerStage * static_cast<std::size_t>(stage);
     const std::size_t cells = kCellsPerStage * kStages;
     return "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " + name(stage) + " " +
-           seconds(elapsed, 1) + " s";
+           rounded(elapsed, 1) + " s";
 }
 
 }  // namespace
@@ -77,15 +76,10 @@ void ProgressDisplay::finish()
     }
 }
 
-double ProgressDisplay::elapsed() const
-{
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-}
-
 void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
 {
     std::cerr << R"({"stage":")" << name(stage) << R"(","done":)" << (done ? "true" : "false") << R"(,"elapsed_s":)"
-              << seconds(elapsed(), 3) << "}" << std::endl;
+              << rounded(elapsed(), 3) << "}" << std::endl;
 }
 
 void ProgressDisplay::drawUntilStopped()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "droplet/progress.h"
 #include "droplet_options.h"
+#include "seconds.h"
 
 namespace cli {
 
@@ -31,9 +31,7 @@ public:
     void finish();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
-    [[nodiscard]] double elapsed() const;
+    [[nodiscard]] double elapsed() const { return secondsSince(start_); }
     void writeLine(droplet::Stage stage, bool done) const;
     void drawUntilStopped();
     void stop();

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 
 #include "droplet/io/report.h"
 #include "droplet/progress.h"
+#include "seconds.h"
 
 namespace cli {
 
@@ -27,16 +27,9 @@ public:
         return times_;
     }
 
-    [[nodiscard]] double total() const { return seconds(start_, Clock::now()); }
+    [[nodiscard]] double total() const { return secondsSince(start_); }
 
 private:
-    using Clock = std::chrono::steady_clock;
-
-    static double seconds(Clock::time_point from, Clock::time_point to)
-    {
-        return std::chrono::duration<double>(to - from).count();
-    }
-
     void close()
     {
         const auto now = Clock::now();

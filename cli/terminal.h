@@ -6,6 +6,9 @@
 
 namespace cli {
 
+/// Erases the line that the cursor is in.
+inline constexpr const char* kEraseLine = "\r\033[K";
+
 enum class Colour { Red, Yellow, Bold };
 
 /// Whether standard error goes to a terminal that can move its cursor.

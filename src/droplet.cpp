@@ -129,7 +129,7 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
 
 }  // namespace
 
-void checkRiver(const DropletOptions& options)
+void validateStages(const DropletOptions& options)
 {
     options.mesh.validate();
     options.solve.validate();
@@ -142,7 +142,7 @@ void checkRiver(const DropletOptions& options)
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progress& progress)
 {
     options.trace.validate();
-    checkRiver(options);
+    validateStages(options);
     if (progress) {
         progress(Stage::Trace);
     }
@@ -180,7 +180,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
 
 Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
 {
-    checkRiver(options);
+    validateStages(options);
     Droplet droplet;
     droplet.outline = std::move(outline);
     droplet.domain = split(droplet.outline);

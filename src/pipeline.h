@@ -10,7 +10,7 @@ namespace droplet {
 /// The meshes of a droplet's domain, as its model wants them.
 std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options);
 
-/// The river from meshes on: solve, measure, loft.
+/// The stages from meshes on: solve, measure, loft.
 /// @param droplet  with outline, domain and meshes
 /// @param bases    cover() of every mesh, where known; else empty
 /// @throws Error   NoSuchDroplet if the solver failed
@@ -19,6 +19,6 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
 
 /// Guarantees: returns only when the options of every stage but trace are valid.
 /// @throws Error InvalidArgument
-void checkRiver(const DropletOptions& options);
+void validateStages(const DropletOptions& options);
 
 }  // namespace droplet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The river as a whole: exact shapes, balances, relations between runs.
+// All stages together: exact shapes, balances, relations between runs.
 #include "droplet/droplet.h"
 
 #include <gmock/gmock.h>

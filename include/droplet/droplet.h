@@ -29,7 +29,7 @@ struct DropletOptions {
                                                ///< alone, without no_penetration
 };
 
-/// Everything the river carried, stage by stage.
+/// What every stage made.
 struct Droplet {
     Outline outline;
     Domain domain;
@@ -41,14 +41,14 @@ struct Droplet {
     std::vector<std::string> warnings;  ///< one line each; empty when all is well
 };
 
-/// The river in one call: trace, split, triangulate, solve, measure, loft.
+/// All stages in one call: trace, split, triangulate, solve, measure, loft.
 /// @param mask      valid
 /// @param options   of every stage
 /// @param progress  told of every stage; may be empty
 /// @throws Error    InvalidInput: no liquid; InvalidArgument: options; NoSuchDroplet: the solver failed
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options = {}, const Progress& progress = {});
 
-/// The river from an outline on, wherever that comes from: split, triangulate, solve, measure, loft.
+/// The stages from an outline on, wherever that comes from: split, triangulate, solve, measure, loft.
 /// @param outline   loops that do not cross, and an extent
 /// @param options   of every stage but trace
 /// @param progress  told of every stage but Trace; may be empty

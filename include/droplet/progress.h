@@ -5,7 +5,7 @@
 
 namespace droplet {
 
-/// The stages of the river, in order.
+/// The stages from a picture to a file, in order.
 enum class Stage { Read, Trace, Triangulate, Assemble, Solve, Loft, Write };
 
 /// The name a stage has in reports.

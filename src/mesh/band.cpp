@@ -476,9 +476,8 @@ PlanarMesh triangulateBand(const Polygons& polygons, const LatticeCore& core, do
 {
     std::vector<Vec2> points = core.loosePoints();
     const std::size_t loose = points.size();
-    for (const Site& site : core.seam()) {
-        points.push_back(latticePoint(core.edge(), site.row, site.column));
-    }
+    const std::vector<Vec2> seam = core.seamPoints();
+    points.insert(points.end(), seam.begin(), seam.end());
     Band band(polygons, points, finest);
     band.leaveOut(loose, core.boundary());
     band.refine();

@@ -9,7 +9,6 @@
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
 #include "mesh/lattice_grid.h"
-#include "mesh/lattice_region.h"
 
 namespace droplet {
 
@@ -24,17 +23,15 @@ public:
     /// @param polygons  outer counter-clockwise, holes clockwise, not crossing
     LatticeCore(const std::vector<std::vector<Vec2>>& polygons, double edge);
 
-    [[nodiscard]] double edge() const { return edge_; }
-
     /// Points clear of the rim that are not fixed.
     [[nodiscard]] std::vector<Vec2> loosePoints() const;
 
-    /// Fixed points with triangles outside the core, by their numbers among the fixed ones.
+    /// Fixed points with triangles outside the core.
+    [[nodiscard]] std::vector<Vec2> seamPoints() const;
+    /// The same by their numbers among the fixed ones, in the same order.
     [[nodiscard]] std::vector<std::uint32_t> seamNumbers() const;
-    /// The same by row and column, in the same order.
-    [[nodiscard]] const std::vector<Site>& seam() const { return seam_; }
 
-    /// Edges between a triangle of the core and none, as indices into seam().
+    /// Edges between a triangle of the core and none, as indices into seamPoints().
     [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> boundary() const;
 
     /// Appends the fixed points as vertices and the core's triangles, and describes them in `mesh.lattice`.
@@ -47,12 +44,8 @@ private:
     LatticeRegion clear_;
     LatticeGrid fixed_;
     LatticeRegion regular_;
-    LatticeGrid seam_grid_;
-    std::vector<Site> seam_;
+    LatticeGrid seam_;
 };
-
-/// How many triangles of neighbouring points a region has.
-std::size_t countTriangles(const LatticeRegion& region);
 
 /// How many lattice points a footprint holds clear of its rim.
 std::size_t countClearPoints(const std::vector<std::vector<Vec2>>& polygons, double edge);

@@ -2,40 +2,39 @@
 #include "mesh/lattice_grid.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cstddef>
 #include <utility>
 
 namespace droplet {
 
 LatticeGrid::LatticeGrid(LatticeRegion region, std::uint32_t first) : region_(std::move(region)), end_(first)
 {
-    for (std::int32_t r = region_.firstRow(); r < region_.endRow(); ++r) {
-        row_starts_.push_back(static_cast<std::uint32_t>(starts_.size()));
-        for (const ColumnInterval& i : region_.row(r)) {
-            starts_.push_back({{r, i.begin}, end_});
-            end_ += static_cast<std::uint32_t>(i.end - i.begin);
-        }
+    starts_.reserve(region_.intervals().size());
+    for (const RowInterval& i : region_.intervals()) {
+        starts_.push_back(end_);
+        end_ += i.size();
     }
-    row_starts_.push_back(static_cast<std::uint32_t>(starts_.size()));
 }
 
 std::uint32_t LatticeGrid::at(Site site) const
 {
-    const auto row = static_cast<std::size_t>(site.row - region_.firstRow());
-    const auto begin = starts_.begin() + row_starts_[row];
-    const auto end = starts_.begin() + row_starts_[row + 1];
-    const auto after = std::upper_bound(begin, end, site.column,
-                                        [](std::int32_t column, const Start& s) { return column < s.site.column; });
-    const Start& start = *std::prev(after);
-    return start.index + static_cast<std::uint32_t>(site.column - start.site.column);
+    const std::size_t k = region_.intervalOf(site);
+    return starts_[k] + static_cast<std::uint32_t>(site.column - region_.intervals()[k].begin);
 }
 
 Site LatticeGrid::siteOf(std::uint32_t index) const
 {
-    const auto after = std::upper_bound(starts_.begin(), starts_.end(), index,
-                                        [](std::uint32_t i, const Start& s) { return i < s.index; });
-    const Start& start = *std::prev(after);
-    return {start.site.row, start.site.column + static_cast<std::int32_t>(index - start.index)};
+    const auto after = std::upper_bound(starts_.begin(), starts_.end(), index);
+    const auto k = static_cast<std::size_t>(after - starts_.begin()) - 1;
+    const RowInterval& i = region_.intervals()[k];
+    return {i.row, i.begin + static_cast<std::int32_t>(index - starts_[k])};
+}
+
+GridRun LatticeGrid::run(const RowInterval& points) const
+{
+    const Site first = points.first();
+    return {at(first), points.size(), at(neighbour(first, LatticeStep::BelowLeft)),
+            at(neighbour(first, LatticeStep::AboveLeft))};
 }
 
 }  // namespace droplet

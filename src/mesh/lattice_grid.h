@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,43 +8,13 @@
 
 namespace droplet {
 
-/// A lattice point by row and column.
-struct Site {
-    std::int32_t row = 0;
-    std::int32_t column = 0;
+/// Points along a row of a grid, by their indices, which follow one another, and those of their neighbours.
+struct GridRun {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+    std::uint32_t below = 0;  ///< left of the two neighbours of the first in the row below
+    std::uint32_t above = 0;
 };
-
-/// The six neighbours of a lattice point.
-constexpr std::array<Site, 6> neighboursOf(Site s)
-{
-    const std::int32_t left = s.column + leftOf(s.row);
-    return {{{s.row, s.column - 1},
-             {s.row, s.column + 1},
-             {s.row - 1, left},
-             {s.row - 1, left + 1},
-             {s.row + 1, left},
-             {s.row + 1, left + 1}}};
-}
-
-/// A point of the lattice with twice the edge, as a point of this one. Its six neighbours here are half-way to its
-/// neighbours there.
-constexpr Site onFiner(Site coarse)
-{
-    return {2 * coarse.row, 2 * coarse.column + (coarse.row & 1)};
-}
-
-/// The two points of the lattice with twice the edge half-way between which a point lies; twice the same if it is one.
-constexpr std::array<Site, 2> onCoarser(Site fine)
-{
-    const std::int32_t low = fine.row >> 1;
-    const std::int32_t odd = low & 1;
-    const std::int32_t column = fine.column - odd;
-    if ((fine.row & 1) == 0) {
-        return {{{low, column >> 1}, {low, (column + 1) >> 1}}};
-    }
-    // Row low + 1 begins half an edge further left or right, so the halves round the other way there.
-    return {{{low, (column + 1) >> 1}, {low + 1, (fine.column + odd) >> 1}}};
-}
 
 /// Storage for values at lattice points: the points of a region have consecutive indices, row by row.
 class LatticeGrid {
@@ -59,18 +27,18 @@ public:
     [[nodiscard]] std::uint32_t at(Site site) const;
     /// The point of an index.
     [[nodiscard]] Site siteOf(std::uint32_t index) const;
+    /// Points of the region that has all their neighbours, too.
+    [[nodiscard]] GridRun run(const RowInterval& points) const;
+
+    /// The first index.
+    [[nodiscard]] std::uint32_t begin() const { return starts_.empty() ? end_ : starts_.front(); }
     /// One more than the last index.
     [[nodiscard]] std::uint32_t end() const { return end_; }
     [[nodiscard]] const LatticeRegion& region() const { return region_; }
 
 private:
-    struct Start {
-        Site site;
-        std::uint32_t index = 0;
-    };
     LatticeRegion region_;
-    std::vector<Start> starts_;              ///< of every interval, ascending
-    std::vector<std::uint32_t> row_starts_;  ///< into starts_
+    std::vector<std::uint32_t> starts_;  ///< the first index of every interval
     std::uint32_t end_ = 0;
 };
 

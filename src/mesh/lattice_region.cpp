@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
-#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace droplet {
@@ -52,36 +53,157 @@ Span nearPiece(Vec2 a, Vec2 b, double reach, double y)
     return span;
 }
 
-std::int32_t column(double x)
+std::int32_t whole(double x)
 {
     return static_cast<std::int32_t>(x);
 }
 
-}  // namespace
-
-const LatticeRegion::Row& LatticeRegion::row(std::int32_t row) const
+bool beginsAfter(std::int32_t column, const RowInterval& interval)
 {
-    static const Row empty;
-    return row < first_row_ || row >= endRow() ? empty : rows_[static_cast<std::size_t>(row - first_row_)];
+    return column < interval.begin;
 }
 
-bool LatticeRegion::contains(std::int32_t row, std::int32_t column) const
+constexpr std::int32_t ceilHalf(std::int32_t n)
 {
-    const Row& intervals = this->row(row);
-    const auto after = std::upper_bound(intervals.begin(), intervals.end(), column,
-                                        [](std::int32_t c, const ColumnInterval& i) { return c < i.begin; });
-    return after != intervals.begin() && column < std::prev(after)->end;
+    return n >= 0 ? (n + 1) / 2 : -(-n / 2);
+}
+
+}  // namespace
+
+LatticeRegion::LatticeRegion(std::vector<RowInterval> intervals) : intervals_(std::move(intervals))
+{
+    std::erase_if(intervals_, [](const RowInterval& i) { return i.begin >= i.end; });
+    if (intervals_.empty()) {
+        return;
+    }
+    if (!std::is_sorted(intervals_.begin(), intervals_.end())) {
+        std::sort(intervals_.begin(), intervals_.end());
+    }
+    auto last = intervals_.begin();
+    for (auto i = last + 1; i != intervals_.end(); ++i) {
+        if (i->row == last->row && i->begin <= last->end) {
+            last->end = std::max(last->end, i->end);
+        } else {
+            *++last = *i;
+        }
+    }
+    intervals_.erase(last + 1, intervals_.end());
+    row_starts_.reserve(static_cast<std::size_t>(endRow() - firstRow()) + 1);
+    for (std::uint32_t k = 0; k < intervals_.size(); ++k) {
+        row_starts_.resize(static_cast<std::size_t>(intervals_[k].row - firstRow()) + 1, k);
+    }
+    row_starts_.push_back(static_cast<std::uint32_t>(intervals_.size()));
+}
+
+std::span<const RowInterval> LatticeRegion::row(std::int32_t row) const
+{
+    if (empty() || row < firstRow() || row >= endRow()) {
+        return {};
+    }
+    const auto k = static_cast<std::size_t>(row - firstRow());
+    return std::span(intervals_).subspan(row_starts_[k], row_starts_[k + 1] - row_starts_[k]);
+}
+
+bool LatticeRegion::contains(Site site) const
+{
+    const std::span<const RowInterval> row = this->row(site.row);
+    const auto after = std::upper_bound(row.begin(), row.end(), site.column, beginsAfter);
+    return after != row.begin() && site.column < std::prev(after)->end;
+}
+
+std::size_t LatticeRegion::intervalOf(Site site) const
+{
+    const auto k = static_cast<std::size_t>(site.row - firstRow());
+    const auto after = std::upper_bound(intervals_.begin() + row_starts_[k], intervals_.begin() + row_starts_[k + 1],
+                                        site.column, beginsAfter);
+    return static_cast<std::size_t>(after - intervals_.begin()) - 1;
 }
 
 std::size_t LatticeRegion::size() const
 {
     std::size_t count = 0;
-    for (const Row& row : rows_) {
-        for (const ColumnInterval& i : row) {
-            count += static_cast<std::size_t>(i.end - i.begin);
-        }
+    for (const RowInterval& i : intervals_) {
+        count += i.size();
     }
     return count;
+}
+
+std::vector<Site> LatticeRegion::sites() const
+{
+    std::vector<Site> sites;
+    sites.reserve(size());
+    for (const RowInterval& i : intervals_) {
+        for (std::int32_t column = i.begin; column < i.end; ++column) {
+            sites.push_back({i.row, column});
+        }
+    }
+    return sites;
+}
+
+LatticeRegion common(const LatticeRegion& a, const LatticeRegion& b)
+{
+    std::vector<RowInterval> result;
+    auto i = a.intervals().begin();
+    auto j = b.intervals().begin();
+    while (i != a.intervals().end() && j != b.intervals().end()) {
+        if (i->row == j->row && std::max(i->begin, j->begin) < std::min(i->end, j->end)) {
+            result.push_back({i->row, std::max(i->begin, j->begin), std::min(i->end, j->end)});
+        }
+        (std::tie(i->row, i->end) < std::tie(j->row, j->end) ? i : j)++;
+    }
+    return LatticeRegion(std::move(result));
+}
+
+LatticeRegion without(const LatticeRegion& region, const LatticeRegion& removed)
+{
+    std::vector<RowInterval> result;
+    auto cut = removed.intervals().begin();
+    const auto end = removed.intervals().end();
+    for (RowInterval i : region.intervals()) {
+        while (cut != end && std::tie(cut->row, cut->end) <= std::tie(i.row, i.begin)) {
+            ++cut;
+        }
+        // The last cut may reach into the next interval, so it is only looked at.
+        for (auto c = cut; c != end && std::tie(c->row, c->begin) < std::tie(i.row, i.end); ++c) {
+            result.push_back({i.row, i.begin, c->begin});
+            i.begin = std::max(i.begin, c->end);
+        }
+        result.push_back(i);
+    }
+    return LatticeRegion(std::move(result));
+}
+
+LatticeRegion moved(const LatticeRegion& region, LatticeStep step)
+{
+    std::vector<RowInterval> result;
+    result.reserve(region.intervals().size());
+    for (const RowInterval& i : region.intervals()) {
+        const Site first = neighbour(i.first(), step);
+        result.push_back({first.row, first.column, first.column + (i.end - i.begin)});
+    }
+    return LatticeRegion(std::move(result));
+}
+
+LatticeRegion eroded(const LatticeRegion& region)
+{
+    LatticeRegion result = region;
+    for (const LatticeStep step : kLatticeSteps) {
+        result = common(result, moved(region, step));
+    }
+    return result;
+}
+
+LatticeRegion everySecond(const LatticeRegion& region)
+{
+    std::vector<RowInterval> result;
+    for (const RowInterval& i : region.intervals()) {
+        if (i.row % 2 == 0) {
+            const std::int32_t row = i.row / 2;
+            const std::int32_t origin = onFiner({row, 0}).column;
+            result.push_back({row, ceilHalf(i.begin - origin), ceilHalf(i.end - origin)});
+        }
+    }
+    return LatticeRegion(std::move(result));
 }
 
 LatticeRegion pointsInside(const std::vector<std::vector<Vec2>>& polygons, double edge, double clearance)
@@ -91,130 +213,46 @@ LatticeRegion pointsInside(const std::vector<std::vector<Vec2>>& polygons, doubl
     for (const Vec2 p : polygons.front()) {
         tall.add(p.y);
     }
-    const std::int32_t first = column(std::ceil(tall.low / height));
-    const std::int32_t end = column(std::floor(tall.high / height)) + 1;
+    const std::int32_t first = whole(std::ceil(tall.low / height));
+    const std::int32_t end = whole(std::floor(tall.high / height)) + 1;
     if (end <= first) {
         return {};
     }
-    const auto count = static_cast<std::size_t>(end - first);
-    std::vector<std::vector<double>> crossings(count);
-    std::vector<LatticeRegion::Row> near(count);
+    const auto shift = [](std::int32_t row) { return row % 2 == 0 ? 0.0 : 0.5; };
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(end - first));
+    std::vector<RowInterval> near;
     for (const std::vector<Vec2>& polygon : polygons) {
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Vec2 a = polygon[i];
             const Vec2 b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
             const auto [low, high] = std::minmax(a.y, b.y);
-            const std::int32_t from = std::max(first, column(std::ceil((low - clearance) / height)));
-            const std::int32_t to = std::min(end, column(std::floor((high + clearance) / height)) + 1);
+            const std::int32_t from = std::max(first, whole(std::ceil((low - clearance) / height)));
+            const std::int32_t to = std::min(end, whole(std::floor((high + clearance) / height)) + 1);
             for (std::int32_t row = from; row < to; ++row) {
-                const auto k = static_cast<std::size_t>(row - first);
                 const double y = static_cast<double>(row) * height;
                 // Half-open, so that a vertex on a row counts once.
                 if (low <= y && y < high) {
-                    crossings[k].push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+                    crossings[static_cast<std::size_t>(row - first)].push_back(a.x +
+                                                                               (y - a.y) / (b.y - a.y) * (b.x - a.x));
                 }
                 const Span span = nearPiece(a, b, clearance, y);
-                const double shift = row % 2 == 0 ? 0.0 : 0.5;
-                const ColumnInterval interval{column(std::floor(span.low / edge - shift)) + 1,
-                                              column(std::ceil(span.high / edge - shift))};
-                if (span.low < span.high && interval.begin < interval.end) {
-                    near[k].push_back(interval);
+                if (span.low < span.high) {
+                    near.push_back({row, whole(std::floor(span.low / edge - shift(row))) + 1,
+                                    whole(std::ceil(span.high / edge - shift(row)))});
                 }
             }
         }
     }
-    std::vector<LatticeRegion::Row> rows(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        std::sort(crossings[k].begin(), crossings[k].end());
-        const double shift = (first + static_cast<std::int32_t>(k)) % 2 == 0 ? 0.0 : 0.5;
-        LatticeRegion::Row inside;
-        for (std::size_t i = 0; i + 1 < crossings[k].size(); i += 2) {
-            const ColumnInterval interval{column(std::ceil(crossings[k][i] / edge - shift)),
-                                          column(std::floor(crossings[k][i + 1] / edge - shift)) + 1};
-            if (interval.begin < interval.end) {
-                inside.push_back(interval);
-            }
-        }
-        rows[k] = minus(united(std::move(inside)), united(std::move(near[k])));
-    }
-    return {first, std::move(rows)};
-}
-
-LatticeRegion eroded(const LatticeRegion& region)
-{
-    std::vector<LatticeRegion::Row> rows;
-    for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
-        // The point at c has its neighbours at c + left and c + left + 1 in the rows above and below.
-        const LatticeRegion::Row own = shifted(region.row(r), 1, 2);
-        const LatticeRegion::Row below = shifted(region.row(r - 1), -leftOf(r), 1);
-        const LatticeRegion::Row above = shifted(region.row(r + 1), -leftOf(r), 1);
-        rows.push_back(common(own, common(below, above)));
-    }
-    return {region.firstRow(), std::move(rows)};
-}
-
-LatticeRegion::Row minus(const LatticeRegion::Row& row, const LatticeRegion::Row& removed)
-{
-    LatticeRegion::Row result;
-    auto cut = removed.begin();
-    for (ColumnInterval i : row) {
-        while (cut != removed.end() && cut->end <= i.begin) {
-            ++cut;
-        }
-        // The last cut may reach into the next interval, so it is only looked at.
-        for (auto c = cut; c != removed.end() && c->begin < i.end; ++c) {
-            if (i.begin < c->begin) {
-                result.push_back({i.begin, c->begin});
-            }
-            i.begin = std::max(i.begin, c->end);
-        }
-        if (i.begin < i.end) {
-            result.push_back(i);
+    std::vector<RowInterval> inside;
+    for (std::int32_t row = first; row < end; ++row) {
+        std::vector<double>& xs = crossings[static_cast<std::size_t>(row - first)];
+        std::sort(xs.begin(), xs.end());
+        for (std::size_t i = 0; i + 1 < xs.size(); i += 2) {
+            inside.push_back({row, whole(std::ceil(xs[i] / edge - shift(row))),
+                              whole(std::floor(xs[i + 1] / edge - shift(row))) + 1});
         }
     }
-    return result;
-}
-
-LatticeRegion::Row common(const LatticeRegion::Row& a, const LatticeRegion::Row& b)
-{
-    LatticeRegion::Row result;
-    auto i = a.begin();
-    auto j = b.begin();
-    while (i != a.end() && j != b.end()) {
-        const ColumnInterval both{std::max(i->begin, j->begin), std::min(i->end, j->end)};
-        if (both.begin < both.end) {
-            result.push_back(both);
-        }
-        (i->end < j->end ? i : j)++;
-    }
-    return result;
-}
-
-LatticeRegion::Row united(LatticeRegion::Row row)
-{
-    std::sort(row.begin(), row.end(),
-              [](const ColumnInterval& a, const ColumnInterval& b) { return a.begin < b.begin; });
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < row.size(); ++i) {
-        if (row[i].begin <= row[last].end) {
-            row[last].end = std::max(row[last].end, row[i].end);
-        } else {
-            row[++last] = row[i];
-        }
-    }
-    row.resize(std::min(row.size(), last + 1));
-    return row;
-}
-
-LatticeRegion::Row shifted(const LatticeRegion::Row& row, std::int32_t by, std::int32_t shorter)
-{
-    LatticeRegion::Row result;
-    for (const ColumnInterval& i : row) {
-        if (i.end - i.begin > shorter) {
-            result.push_back({i.begin + by, i.end + by - shorter});
-        }
-    }
-    return result;
+    return without(LatticeRegion(std::move(inside)), LatticeRegion(std::move(near)));
 }
 
 }  // namespace droplet

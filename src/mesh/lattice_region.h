@@ -1,64 +1,79 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "droplet/vector.h"
+#include "mesh/lattice_site.h"
 
 namespace droplet {
 
-/// Columns begin … end − 1 of a lattice row.
-struct ColumnInterval {
+/// Neighbouring points of one lattice row: columns begin … end − 1.
+struct RowInterval {
+    std::int32_t row = 0;
     std::int32_t begin = 0;
     std::int32_t end = 0;
+
+    [[nodiscard]] constexpr std::uint32_t size() const { return static_cast<std::uint32_t>(end - begin); }
+    [[nodiscard]] constexpr Site first() const { return {row, begin}; }
+    [[nodiscard]] constexpr Site last() const { return {row, end - 1}; }
+
+    friend auto operator<=>(const RowInterval&, const RowInterval&) = default;
 };
 
-/// A set of lattice points (see latticePoint), as intervals of columns: all work on it is in proportion to its outline,
-/// not to its area.
+/// A set of lattice points, as intervals of rows: all work on it is in proportion to its outline, not to its area.
 class LatticeRegion {
 public:
-    using Row = std::vector<ColumnInterval>;  ///< ascending, with gaps between
-
     LatticeRegion() = default;
-    LatticeRegion(std::int32_t first_row, std::vector<Row> rows) : first_row_(first_row), rows_(std::move(rows)) {}
+    /// The points of any of several intervals, which may be empty, overlap, and come in any order.
+    explicit LatticeRegion(std::vector<RowInterval> intervals);
 
-    [[nodiscard]] std::int32_t firstRow() const { return first_row_; }
-    [[nodiscard]] std::int32_t endRow() const { return first_row_ + static_cast<std::int32_t>(rows_.size()); }
-    /// Empty outside [firstRow(), endRow()).
-    [[nodiscard]] const Row& row(std::int32_t row) const;
-    [[nodiscard]] bool contains(std::int32_t row, std::int32_t column) const;
+    /// Row after row, from left to right, none empty, with gaps between.
+    [[nodiscard]] const std::vector<RowInterval>& intervals() const& { return intervals_; }
+    [[nodiscard]] std::vector<RowInterval> intervals() && { return std::move(intervals_); }
+    [[nodiscard]] bool empty() const { return intervals_.empty(); }
+
+    /// Of a region that is not empty.
+    [[nodiscard]] std::int32_t firstRow() const { return intervals_.front().row; }
+    /// One more than the last row, of a region that is not empty.
+    [[nodiscard]] std::int32_t endRow() const { return intervals_.back().row + 1; }
+    [[nodiscard]] std::span<const RowInterval> row(std::int32_t row) const;
+
+    [[nodiscard]] bool contains(Site site) const;
+    /// Which interval holds a point of the region.
+    [[nodiscard]] std::size_t intervalOf(Site site) const;
+
+    /// How many points it has.
     [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] std::vector<Site> sites() const;
 
 private:
-    std::int32_t first_row_ = 0;
-    std::vector<Row> rows_;
+    std::vector<RowInterval> intervals_;
+    std::vector<std::uint32_t> row_starts_;  ///< into intervals_, from firstRow() on, and their end
 };
+
+/// The points of both.
+LatticeRegion common(const LatticeRegion& a, const LatticeRegion& b);
+
+/// The points of the one that are not in the other.
+LatticeRegion without(const LatticeRegion& region, const LatticeRegion& removed);
+
+/// All points a step further.
+LatticeRegion moved(const LatticeRegion& region, LatticeStep step);
+
+/// The points all six neighbours of which belong to the region, too.
+LatticeRegion eroded(const LatticeRegion& region);
+
+/// The points that belong to the lattice of twice the edge, as points of that.
+LatticeRegion everySecond(const LatticeRegion& region);
 
 /// The points inside polygons (outer counter-clockwise, holes clockwise, not crossing) that are at least `clearance`
 /// away from them.
 LatticeRegion pointsInside(const std::vector<std::vector<Vec2>>& polygons, double edge, double clearance);
-
-/// The points all six neighbours of which belong to the region.
-LatticeRegion eroded(const LatticeRegion& region);
-
-/// The points of one row set that are not in the other.
-LatticeRegion::Row minus(const LatticeRegion::Row& row, const LatticeRegion::Row& removed);
-
-/// The points of both.
-LatticeRegion::Row common(const LatticeRegion::Row& a, const LatticeRegion::Row& b);
-
-/// Moved to the right, and shortened at the end; what becomes empty is gone.
-LatticeRegion::Row shifted(const LatticeRegion::Row& row, std::int32_t by, std::int32_t shorter = 0);
-
-/// The points of any of several rows, in whatever order their intervals come.
-LatticeRegion::Row united(LatticeRegion::Row intervals);
-
-/// Neighbours of a point in the rows above and below: column + leftOf(row) and the next.
-constexpr std::int32_t leftOf(std::int32_t row)
-{
-    return row % 2 == 0 ? -1 : 0;
-}
 
 }  // namespace droplet

@@ -9,8 +9,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
-#include "mesh/lattice_core.h"
-#include "mesh/regular_runs.h"
+#include "mesh/lattice.h"
 #include "number_text.h"
 
 namespace droplet {
@@ -19,68 +18,6 @@ namespace {
 [[noreturn]] void fail(const std::string& message)
 {
     throw Error(ErrorCode::InvalidArgument, message);
-}
-
-/// Whether runs are in order, at their places, and hold the last vertices.
-void validateRuns(const PlanarMesh& mesh)
-{
-    const Lattice& lattice = mesh.lattice;
-    if (!(lattice.edge > 0.0 && std::isfinite(lattice.edge))) {
-        fail("lattice.edge " + numberText(lattice.edge) + " m of the mesh must be positive");
-    }
-    std::uint32_t next = lattice.runs.front().vertex;
-    for (std::size_t k = 0; k < lattice.runs.size(); ++k) {
-        const LatticeRun& run = lattice.runs[k];
-        const LatticeRun& last = lattice.runs[k == 0 ? 0 : k - 1];
-        const std::int64_t last_end = std::int64_t{last.column} + last.count;
-        const bool ascends = k == 0 || run.row > last.row || (run.row == last.row && run.column > last_end);
-        if (!ascends || run.count == 0 || run.vertex != next || run.vertex < mesh.rimVertexCount() ||
-            run.count > mesh.vertices.size() - run.vertex) {
-            fail("lattice.runs[" + std::to_string(k) + "] of the mesh must follow the one before, with a gap");
-        }
-        next += run.count;
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            if (!(mesh.vertices[run.vertex + i] ==
-                  latticePoint(lattice.edge, run.row, run.column + static_cast<std::int32_t>(i)))) {
-                fail("vertex " + std::to_string(run.vertex + i) + " of the mesh must be at its lattice point");
-            }
-        }
-    }
-    if (next != mesh.vertices.size()) {
-        fail("lattice.runs of the mesh must hold its last vertices");
-    }
-}
-
-/// Whether every triangle of three neighbouring lattice points is there, the regular ones last.
-void validateLattice(const PlanarMesh& mesh)
-{
-    validateRuns(mesh);
-    const LatticeRegion region = regionOf(mesh.lattice);
-    const std::uint32_t first_vertex = mesh.lattice.runs.front().vertex;
-    const double just_longer = 1.01 * mesh.lattice.edge;  // the next distance on the lattice is √3 edges
-    std::vector<std::uint8_t> regular(mesh.vertices.size(), 0);
-    for (const RegularRun& run : regularRuns(mesh.lattice)) {
-        std::fill_n(regular.begin() + run.first, run.count, std::uint8_t{1});
-    }
-    std::size_t in_lattice = 0;
-    std::size_t all_regular = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle& t = mesh.triangles[i];
-        bool neighbours = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec2 side = mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]];
-            neighbours = neighbours && t[k] >= first_vertex && length(side) < just_longer;
-        }
-        const bool is_regular = regular[t[0]] + regular[t[1]] + regular[t[2]] == 3;
-        in_lattice += neighbours ? 1 : 0;
-        all_regular += is_regular ? 1 : 0;
-        if (is_regular != (i >= mesh.lattice.first_regular_triangle)) {
-            fail("lattice.first_regular_triangle of the mesh must part regular triangles from others");
-        }
-    }
-    if (in_lattice != countTriangles(region) || all_regular != countTriangles(eroded(region))) {
-        fail("neighbouring points of the mesh's lattice must form triangles");
-    }
 }
 
 }  // namespace
@@ -125,9 +62,7 @@ void PlanarMesh::validate() const
             }
         }
     }
-    if (!lattice.runs.empty()) {
-        validateLattice(*this);
-    }
+    validateLattice(*this);
 }
 
 std::uint32_t nextOnRim(const PlanarMesh& mesh, std::size_t loop, std::uint32_t vertex)

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -19,6 +21,19 @@
 #include "pipeline.h"
 
 namespace droplet {
+
+/// The meshes of a frame that were triangulated, not moved, and of closed surfaces on flat ground their bases.
+struct TriangulatedMeshes {
+    std::vector<PlanarMesh> meshes;
+    std::vector<PlanarMesh> bases;
+};
+
+struct FrameLineage {
+    std::shared_ptr<const TriangulatedMeshes> first;  ///< where the frame's connections began
+    std::vector<PlanarMesh> bases;                    ///< of closed surfaces on flat ground
+    std::size_t next_id = 0;                          ///< not given to any droplet yet
+};
+
 namespace {
 
 /// Share of the smaller footprint from which an overlap joins two droplets. A droplet that moves on by half its width
@@ -153,9 +168,11 @@ std::vector<Value> chosen(const std::vector<Value>& all, const std::vector<std::
 }
 
 /// Gives every droplet its id and where it comes from.
-void nameDroplets(const Frame& before, const std::vector<Group>& groups, const std::vector<Link>& links, Frame& frame)
+/// @return the next id
+std::size_t nameDroplets(const Frame& before, const std::vector<Group>& groups, const std::vector<Link>& links,
+                         Frame& frame)
 {
-    frame.next_id = before.next_id;
+    std::size_t next_id = before.lineage->next_id;
     for (const Group& group : groups) {
         std::vector<std::size_t> ids;
         std::size_t heir = 0;
@@ -178,9 +195,10 @@ void nameDroplets(const Frame& before, const std::vector<Group>& groups, const s
         }
         for (const std::size_t k : group.after) {
             frame.droplets[k].from = ids;
-            frame.droplets[k].id = !group.before.empty() && k == keeper ? before.droplets[heir].id : frame.next_id++;
+            frame.droplets[k].id = !group.before.empty() && k == keeper ? before.droplets[heir].id : next_id++;
         }
     }
+    return next_id;
 }
 
 /// Hands the volumes of the frame before on.
@@ -238,55 +256,58 @@ bool anyDry(const Droplet& droplet)
                        [](const HeightField& field) { return !field.dry.empty(); });
 }
 
-/// Moves meshes and bases along with their footprints, if all of them can.
-bool followAll(const Frame& before, Frame& frame)
+/// Moves meshes and bases along with their footprints.
+/// @param domain  where they go
+/// @param meshes  where they are then
+/// @return        nothing unless all of them can
+std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, std::vector<PlanarMesh>& meshes)
 {
-    const std::size_t count = before.first_meshes.size();
-    std::vector<std::optional<PlanarMesh>> meshes(count);
-    std::vector<PlanarMesh> bases(before.bases.size());
+    const TriangulatedMeshes& first = *before.lineage->first;
+    const std::size_t count = first.meshes.size();
+    std::vector<std::optional<PlanarMesh>> moved(count);
+    FrameLineage lineage{before.lineage->first, std::vector<PlanarMesh>(first.bases.size()), 0};
     std::vector<std::uint8_t> whole(count, 0);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        meshes[k] = follow(before.first_meshes[k], before.droplet.meshes[k], frame.droplet.domain.droplets[k]);
-        whole[k] = meshes[k] ? 1 : 0;
-        if (meshes[k] && !bases.empty()) {
-            const auto rim = meshes[k]->vertices.begin();
-            bases[k] = withRim(before.first_bases[k], {rim, rim + meshes[k]->rimVertexCount()});
-            whole[k] = std::all_of(bases[k].triangles.begin(), bases[k].triangles.end(),
-                                   [&](const Triangle& t) { return doubleArea(bases[k], t) > 0.0; })
+        moved[k] = follow(first.meshes[k], before.droplet.meshes[k], domain.droplets[k]);
+        whole[k] = moved[k] ? 1 : 0;
+        if (moved[k] && !first.bases.empty()) {
+            const auto rim = moved[k]->vertices.begin();
+            PlanarMesh& base = lineage.bases[k];
+            base = withRim(first.bases[k], {rim, rim + moved[k]->rimVertexCount()});
+            whole[k] = std::all_of(base.triangles.begin(), base.triangles.end(),
+                                   [&](const Triangle& t) { return doubleArea(base, t) > 0.0; })
                            ? 1
                            : 0;
         }
     });
     if (std::find(whole.begin(), whole.end(), std::uint8_t{0}) != whole.end()) {
-        return false;
+        return std::nullopt;
     }
-    for (std::optional<PlanarMesh>& mesh : meshes) {
-        frame.droplet.meshes.push_back(std::move(*mesh));
+    for (std::optional<PlanarMesh>& mesh : moved) {
+        meshes.push_back(std::move(*mesh));
     }
-    frame.bases = std::move(bases);
-    frame.first_meshes = before.first_meshes;
-    frame.first_bases = before.first_bases;
-    return true;
+    return lineage;
 }
 
-void meshAnew(const DropletOptions& options, Frame& frame)
+/// Triangulates footprints, and where bases are needed, those.
+/// @param meshes  of the footprints
+FrameLineage meshAnew(const Domain& domain, const DropletOptions& options, std::vector<PlanarMesh>& meshes)
 {
-    frame.droplet.meshes = meshesOf(frame.droplet.domain, options);
-    frame.bases.clear();
+    meshes = meshesOf(domain, options);
+    FrameLineage lineage;
     if (!options.open && options.solve.ground.flat()) {
-        frame.bases.resize(frame.droplet.meshes.size());
-        tbb::parallel_for(std::size_t{0}, frame.bases.size(),
-                          [&](std::size_t k) { frame.bases[k] = cover(frame.droplet.meshes[k]); });
+        lineage.bases.resize(meshes.size());
+        tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) { lineage.bases[k] = cover(meshes[k]); });
     }
-    frame.first_meshes = frame.droplet.meshes;
-    frame.first_bases = frame.bases;
+    lineage.first = std::make_shared<const TriangulatedMeshes>(TriangulatedMeshes{meshes, lineage.bases});
+    return lineage;
 }
 
 }  // namespace
 
 void SequenceOptions::validate() const
 {
-    checkRiver(droplet);
+    validateStages(droplet);
     if (droplet.fill_range) {
         throw Error(ErrorCode::InvalidArgument, "fill_range has no place in a sequence");
     }
@@ -309,17 +330,21 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
     if (progress) {
         progress(Stage::Triangulate);
     }
-    meshAnew(options.droplet, frame);
-    finish(frame.droplet, options.droplet, frame.bases, progress);
+    FrameLineage lineage = meshAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
+    finish(frame.droplet, options.droplet, lineage.bases, progress);
     for (const ShapeFigures& figures : frame.droplet.figures) {
-        frame.droplets.push_back({frame.next_id++, {}, figures.volume});
+        frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
     }
+    frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
     return frame;
 }
 
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress)
 {
     options.validate();
+    if (!before.lineage) {
+        throw Error(ErrorCode::InvalidArgument, "the frame before must come of firstFrame or nextFrame");
+    }
     if (outline.extent != before.droplet.outline.extent) {
         throw Error(ErrorCode::InvalidInput, "frames of a sequence must have one extent");
     }
@@ -346,12 +371,16 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     if (options.volume_mode == VolumeMode::Total) {
         now.solve.fill = {FillBy::Volume, volumeOf(before.droplets), FillSharing::Total};
     }
-    const bool followed = options.keep_vertices && one_to_one && !anyDry(before.droplet) && followAll(before, frame);
+    std::optional<FrameLineage> lineage;
+    if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
+        lineage = followAll(before, domain, frame.droplet.meshes);
+    }
+    const bool followed = lineage.has_value();
     if (!followed) {
-        meshAnew(now, frame);
+        lineage = meshAnew(domain, now, frame.droplet.meshes);
     }
     frame.droplets.resize(domain.droplets.size());
-    nameDroplets(before, groups, links, frame);
+    lineage->next_id = nameDroplets(before, groups, links, frame);
     if (options.volume_mode == VolumeMode::Track) {
         passVolumes(before, groups, options.droplet.solve, frame);
         now.solve.fill.by = FillBy::Volume;
@@ -360,7 +389,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
             now.solve.volumes.push_back(droplet.volume);
         }
     }
-    finish(frame.droplet, now, frame.bases, progress);
+    finish(frame.droplet, now, lineage->bases, progress);
     if (options.volume_mode == VolumeMode::Total) {
         const double scale = now.solve.fill.amount / frame.droplet.total.volume;  // so that nothing drifts
         for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
@@ -368,6 +397,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         }
     }
     frame.continues = followed && !anyDry(frame.droplet);
+    frame.lineage = std::make_shared<const FrameLineage>(*std::move(lineage));
     return frame;
 }
 

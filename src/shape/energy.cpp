@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "blocks.h"
-#include "mesh/regular_runs.h"
+#include "mesh/lattice.h"
 #include "shape/gradient.h"
 
 namespace droplet {
@@ -73,9 +73,9 @@ std::vector<double> loadOf(const PlanarMesh& mesh)
             load[v] += third;
         }
     }
-    // A third of each of six equilateral triangles.
-    const double regular = 0.5 * std::numbers::sqrt3 * mesh.lattice.edge * mesh.lattice.edge;
-    for (const RegularRun& run : regularRuns(mesh.lattice)) {
+    for (const GridRun& run : regularRuns(mesh)) {
+        // A third of each of six equilateral triangles.
+        const double regular = 0.5 * std::numbers::sqrt3 * mesh.lattice->edge * mesh.lattice->edge;
         std::fill_n(load.begin() + run.first, run.count, regular);
     }
     return load;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "blocks.h"
+#include "mesh/lattice.h"
 
 namespace droplet {
 namespace {
@@ -45,87 +46,51 @@ struct Plan {
     [[nodiscard]] bool isUnknown(Index i) const { return row[i] != kNone; }
 };
 
-/// Unites intervals that come in any order to a region.
-class RegionBuilder {
-public:
-    void add(std::int32_t row, ColumnInterval interval) { parts_.push_back({row, interval}); }
-
-    [[nodiscard]] LatticeRegion build() const
-    {
-        if (parts_.empty()) {
-            return {};
-        }
-        const auto [low, high] = std::minmax_element(parts_.begin(), parts_.end(),
-                                                     [](const Part& a, const Part& b) { return a.row < b.row; });
-        std::vector<LatticeRegion::Row> rows(static_cast<std::size_t>(high->row - low->row + 1));
-        for (const Part& part : parts_) {
-            rows[static_cast<std::size_t>(part.row - low->row)].push_back(part.interval);
-        }
-        for (LatticeRegion::Row& row : rows) {
-            row = united(std::move(row));
-        }
-        return {low->row, std::move(rows)};
-    }
-
-private:
-    struct Part {
-        std::int32_t row = 0;
-        ColumnInterval interval;
-    };
-    std::vector<Part> parts_;
-};
-
-template <typename Visit>
-void forEachInterval(const LatticeRegion& region, const Visit& visit)
+/// The coarse points that unknowns of a region lie on or between, and others.
+LatticeRegion parentsOf(const LatticeRegion& region, std::vector<RowInterval> others = {})
 {
-    for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
-        for (const ColumnInterval& i : region.row(r)) {
-            visit(r, i);
-        }
-    }
-}
-
-/// Adds the coarse points that unknowns of a region lie on or between.
-void addParents(RegionBuilder& parents, const LatticeRegion& region)
-{
-    forEachInterval(region, [&](std::int32_t r, ColumnInterval i) {
-        const std::array<Site, 2> first = onCoarser({r, i.begin});
-        const std::array<Site, 2> last = onCoarser({r, i.end - 1});
+    std::vector<RowInterval> parents = std::move(others);
+    for (const RowInterval& i : region.intervals()) {
+        const std::array<Site, 2> first = onCoarser(i.first());
+        const std::array<Site, 2> last = onCoarser(i.last());
         for (std::size_t k = 0; k < 2; ++k) {
-            parents.add(first[k].row, {first[k].column, last[k].column + 1});
+            parents.push_back({first[k].row, first[k].column, last[k].column + 1});
         }
-    });
+    }
+    return LatticeRegion(std::move(parents));
 }
 
 /// Storage for a level: its own points, and those that the coarser level's functions and all stencils look at.
 LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Index first)
 {
-    RegionBuilder storage;
+    std::vector<RowInterval> storage;
     const auto add_with_neighbours = [&](Site begin, Site last) {
         for (std::int32_t dr = -1; dr <= 1; ++dr) {
-            storage.add(begin.row + dr, {begin.column - 1, last.column + 2});
+            storage.push_back({begin.row + dr, begin.column - 1, last.column + 2});
         }
     };
-    forEachInterval(own, [&](std::int32_t r, ColumnInterval i) { add_with_neighbours({r, i.begin}, {r, i.end - 1}); });
-    forEachInterval(parents, [&](std::int32_t r, ColumnInterval i) {
-        add_with_neighbours(onFiner({r, i.begin}), onFiner({r, i.end - 1}));
-    });
-    return {storage.build(), first};
+    for (const RowInterval& i : own.intervals()) {
+        add_with_neighbours(i.first(), i.last());
+    }
+    for (const RowInterval& i : parents.intervals()) {
+        add_with_neighbours(onFiner(i.first()), onFiner(i.last()));
+    }
+    return {LatticeRegion(std::move(storage)), first};
 }
 
 /// Calls with pieces of a row short enough to be shared out among threads.
 template <typename Visit>
-void forEachPiece(ColumnInterval i, const Visit& visit)
+void forEachPiece(const RowInterval& i, const Visit& visit)
 {
     constexpr std::int32_t kPiece = 4096;
     for (std::int32_t c = i.begin; c < i.end; c += kPiece) {
-        visit(ColumnInterval{c, std::min(c + kPiece, i.end)});
+        visit(RowInterval{i.row, c, std::min(c + kPiece, i.end)});
     }
 }
 
-void addRegularRuns(Level& level, const Plan& plan, std::int32_t row, ColumnInterval i)
+void addRegularRuns(Level& level, const Plan& plan, const RowInterval& i)
 {
-    forEachPiece(i, [&](ColumnInterval piece) { level.regular.push_back(regularRun(plan.grid, row, piece)); });
+    forEachPiece(i, [&](const RowInterval& piece) { level.regular.push_back(plan.grid.run(piece)); });
 }
 
 /// Merges the entries of one row that share a column.
@@ -206,50 +171,52 @@ LatticeTriangle triangleAround(Vec2 p, double edge)
     const double along = p.x / edge - (row % 2 == 0 ? 0.0 : 0.5) - 0.5 * up;
     const auto column = static_cast<std::int32_t>(std::floor(along));
     const double right = along - static_cast<double>(column);
-    const std::int32_t above = column + leftOf(row) + 1;
+    const Site left{row, column};
+    const Site next = neighbour(left, LatticeStep::Right);
+    const Site above = neighbour(left, LatticeStep::AboveRight);
     if (right + up <= 1.0) {
-        return {{{{row, column}, {row, column + 1}, {row + 1, above}}}, {1.0 - right - up, right, up}};
+        return {{left, next, above}, {1.0 - right - up, right, up}};
     }
-    return {{{{row + 1, above + 1}, {row + 1, above}, {row, column + 1}}}, {right + up - 1.0, 1.0 - right, 1.0 - up}};
+    return {{neighbour(above, LatticeStep::Right), above, next}, {right + up - 1.0, 1.0 - right, 1.0 - up}};
 }
 
-/// The lattice's runs between held vertices.
-Lattice withoutHeld(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
+/// The points of a mesh's lattice that are not held.
+LatticeRegion freePoints(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
 {
-    if (held.empty()) {
-        return mesh.lattice;
+    if (!mesh.lattice) {
+        return {};
     }
-    const std::uint32_t rim = mesh.rimVertexCount();
-    Lattice lattice{mesh.lattice.edge, {}, mesh.lattice.first_regular_triangle};
-    for (const LatticeRun& run : mesh.lattice.runs) {
-        Index begin = 0;
-        for (Index i = 0; i <= run.count; ++i) {
-            if (i == run.count || held[run.vertex - rim + i] != 0) {
-                if (begin < i) {
-                    lattice.runs.push_back(
-                        {run.row, run.column + static_cast<std::int32_t>(begin), run.vertex + begin, i - begin});
-                }
-                begin = i + 1;
+    const LatticeGrid& grid = mesh.lattice->grid;
+    if (held.empty()) {
+        return grid.region();
+    }
+    std::vector<RowInterval> free;
+    for (const RowInterval& i : grid.region().intervals()) {
+        const Index first = grid.at(i.first()) - mesh.rimVertexCount();
+        std::int32_t begin = i.begin;
+        for (std::int32_t c = i.begin; c <= i.end; ++c) {
+            if (c == i.end || held[first + static_cast<Index>(c - i.begin)] != 0) {
+                free.push_back({i.row, begin, c});
+                begin = c + 1;
             }
         }
     }
-    return lattice;
+    return LatticeRegion(std::move(free));
 }
 
 /// One more than the last vertex off the lattice.
 std::uint32_t endOffLattice(const PlanarMesh& mesh)
 {
-    return mesh.lattice.runs.empty() ? static_cast<std::uint32_t>(mesh.vertices.size())
-                                     : mesh.lattice.runs.front().vertex;
+    return mesh.lattice ? mesh.lattice->grid.begin() : static_cast<std::uint32_t>(mesh.vertices.size());
 }
 
 /// Numbers and rows of the finest level.
-void planFinest(const PlanarMesh& mesh, const Lattice& lattice, const std::vector<std::uint8_t>& held,
+void planFinest(const PlanarMesh& mesh, const LatticeRegion& free, const std::vector<std::uint8_t>& held,
                 const LatticeRegion& parents, Hierarchy& hierarchy, Level& level, Plan& plan)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
     const auto inner = static_cast<Index>(mesh.vertices.size()) - rim;
-    plan.region = regionOf(lattice);
+    plan.region = free;
     plan.off_lattice = endOffLattice(mesh) - rim;
     plan.grid = gridFor(plan.region, parents, plan.off_lattice);
     plan.row.assign(plan.grid.end(), kNone);
@@ -265,16 +232,16 @@ void planFinest(const PlanarMesh& mesh, const Lattice& lattice, const std::vecto
         plan.row[i] = static_cast<Index>(level.irregular.unknowns.size());
         level.irregular.unknowns.push_back(i);
     }
-    forEachInterval(eroded(plan.region), [&](std::int32_t r, ColumnInterval i) {
-        const Index first = plan.grid.at({r, i.begin});
-        std::fill_n(plan.row.begin() + first, i.end - i.begin, kRegular);
-        addRegularRuns(level, plan, r, i);
-    });
-    for (const LatticeRun& run : lattice.runs) {
-        level.unknowns += run.count;
-        const Index first = plan.grid.at({run.row, run.column});
-        for (Index i = 0; i < run.count; ++i) {
-            hierarchy.index_of_vertex[run.vertex - rim + i] = first + i;
+    for (const RowInterval& i : eroded(plan.region).intervals()) {
+        std::fill_n(plan.row.begin() + plan.grid.at(i.first()), i.size(), kRegular);
+        addRegularRuns(level, plan, i);
+    }
+    for (const RowInterval& points : plan.region.intervals()) {
+        level.unknowns += points.size();
+        const Index vertex = mesh.lattice->grid.at(points.first()) - rim;
+        const Index first = plan.grid.at(points.first());
+        for (Index i = 0; i < points.size(); ++i) {
+            hierarchy.index_of_vertex[vertex + i] = first + i;
             if (plan.row[first + i] != kRegular) {
                 plan.row[first + i] = static_cast<Index>(level.irregular.unknowns.size());
                 level.irregular.unknowns.push_back(first + i);
@@ -299,35 +266,36 @@ EdgeStiffness edgeStiffness(const SymmetricTensor& g)
     return {half * (0.5 * g.yy - 1.5 * g.xx), half_shear - half * g.yy, -half_shear - half * g.yy};
 }
 
-/// Triangles of the lattice: upward with the point of an index at its lower left, downward with it as the lower corner.
-struct LatticeTriangles {
+/// That of all lattice triangles: upward with the point of an index at its lower left, downward with it as the lower
+/// corner.
+struct LatticeStiffness {
     std::vector<EdgeStiffness> upward;
     std::vector<EdgeStiffness> downward;
 
-    explicit LatticeTriangles(std::size_t size = 0) : upward(size), downward(size) {}
+    explicit LatticeStiffness(std::size_t size = 0) : upward(size), downward(size) {}
 };
 
 /// The unknowns on a level's lattice with their neighbours.
-std::vector<RegularRun> latticeRuns(const Plan& plan)
+std::vector<GridRun> latticeRuns(const Plan& plan)
 {
-    std::vector<RegularRun> runs;
-    forEachInterval(plan.region, [&](std::int32_t r, ColumnInterval i) {
-        forEachPiece(i, [&](ColumnInterval piece) { runs.push_back(regularRun(plan.grid, r, piece)); });
-    });
+    std::vector<GridRun> runs;
+    for (const RowInterval& i : plan.region.intervals()) {
+        forEachPiece(i, [&](const RowInterval& piece) { runs.push_back(plan.grid.run(piece)); });
+    }
     return runs;
 }
 
 /// Stiffness on those triangles of a mesh that are its lattice's.
-LatticeTriangles finestTriangles(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy,
+LatticeStiffness finestTriangles(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy,
                                  const Plan& plan)
 {
     std::vector<Index> above(plan.grid.end(), kNone);
-    for (const RegularRun& run : latticeRuns(plan)) {
+    for (const GridRun& run : latticeRuns(plan)) {
         for (Index k = 0; k < run.count; ++k) {
             above[run.first + k] = run.above + k;
         }
     }
-    LatticeTriangles triangles(plan.grid.end());
+    LatticeStiffness triangles(plan.grid.end());
     const std::uint32_t rim = mesh.rimVertexCount();
     forBlocks(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -352,7 +320,7 @@ LatticeTriangles finestTriangles(const PlanarMesh& mesh, const Operator& op, con
 
 /// Galerkin's product on the triangles of the coarser lattice: gradients there are constant, so that tensors, and what
 /// is linear in them, become the mean over the four parts.
-LatticeTriangles coarserTriangles(const LatticeTriangles& fine, const std::vector<RestrictionRun>& runs,
+LatticeStiffness coarserTriangles(const LatticeStiffness& fine, const std::vector<RestrictionRun>& runs,
                                   std::size_t size)
 {
     const auto mean = [](const EdgeStiffness& a, const EdgeStiffness& b, const EdgeStiffness& c,
@@ -361,7 +329,7 @@ LatticeTriangles coarserTriangles(const LatticeTriangles& fine, const std::vecto
                 0.25 * ((a.above_left + b.above_left) + (c.above_left + d.above_left)),
                 0.25 * ((a.above_right + b.above_right) + (c.above_right + d.above_right))};
     };
-    LatticeTriangles coarse(size);
+    LatticeStiffness coarse(size);
     tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
         const RestrictionRun& run = runs[i];
         for (Index k = 0; k < run.count; ++k) {
@@ -377,16 +345,16 @@ LatticeTriangles coarserTriangles(const LatticeTriangles& fine, const std::vecto
 }
 
 /// Rows from the triangles of the lattice.
-LatticeRows rowsOf(const LatticeTriangles& triangles, const Plan& plan, const Operator& op, double edge)
+LatticeRows rowsOf(const LatticeStiffness& triangles, const Plan& plan, const Operator& op, double edge)
 {
     const double mass = op.mass_weight * 0.25 * std::numbers::sqrt3 * edge * edge;
     const double shared = mass / 6.0;
     const std::size_t size = plan.grid.end();
     LatticeRows rows{std::vector<double>(size, 0.0), std::vector<double>(size, 0.0), std::vector<double>(size, 0.0),
                      std::vector<double>(size, 0.0)};
-    const std::vector<RegularRun> runs = latticeRuns(plan);
+    const std::vector<GridRun> runs = latticeRuns(plan);
     tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
-        const RegularRun& run = runs[r];
+        const GridRun& run = runs[r];
         for (Index k = 0; k < run.count; ++k) {
             const Index i = run.first + k;
             const EdgeStiffness& up = triangles.upward[i];
@@ -460,18 +428,17 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
         hierarchy.load[level.irregular.unknowns[k]] = load * scale;
     });
     const double area = 0.25 * std::numbers::sqrt3;  // of a triangle, by edge²
-    for (const RegularRun& run : level.regular) {
+    for (const GridRun& run : level.regular) {
         std::fill_n(hierarchy.load.begin() + run.first, run.count, 2.0 * area);
     }
 }
 
 /// Unknowns along a row of the coarser lattice as points of the finer one.
-RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine, std::int32_t row, ColumnInterval i)
+RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine, const RowInterval& i)
 {
-    const Site first = onFiner({row, i.begin});
-    const std::int32_t left = first.column + leftOf(first.row);
-    return {coarse.at({row, i.begin}), static_cast<Index>(i.end - i.begin), fine.at(first),
-            fine.at({first.row - 1, left}), fine.at({first.row + 1, left})};
+    const Site first = onFiner(i.first());
+    return {coarse.at(i.first()), i.size(), fine.at(first), fine.at(neighbour(first, LatticeStep::BelowLeft)),
+            fine.at(neighbour(first, LatticeStep::AboveLeft))};
 }
 
 /// Where the coarser level's function at a run's point touches the finer lattice: its centre, and half-way around.
@@ -491,25 +458,23 @@ constexpr double weightOfChild(std::size_t child)
 /// The finest level's unknowns off the lattice, by the coarser lattice's triangles around them.
 struct OffLattice {
     std::vector<LatticeTriangle> triangles;
-    LatticeRegion corners;
+    std::vector<RowInterval> corners;
 };
 
 OffLattice findOffLattice(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held, double coarse_edge)
 {
     OffLattice off;
     const std::uint32_t rim = mesh.rimVertexCount();
-    RegionBuilder corners;
     for (std::uint32_t v = rim; v < endOffLattice(mesh); ++v) {
         LatticeTriangle triangle = triangleAround(mesh.vertices[v], coarse_edge);
         for (const Site& s : triangle.corners) {
-            corners.add(s.row, {s.column, s.column + 1});
+            off.corners.push_back({s.row, s.column, s.column + 1});
         }
         if (!held.empty() && held[v - rim] != 0) {
             triangle.weights = {};
         }
         off.triangles.push_back(triangle);
     }
-    off.corners = corners.build();
     return off;
 }
 
@@ -556,15 +521,10 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
         }
     }
     plan.row.assign(plan.grid.end(), kNone);
-    RegionBuilder chosen;
-    forEachInterval(candidates, [&](std::int32_t r, ColumnInterval i) {
-        const RestrictionRun run = restrictionOf(plan.grid, fine.grid, r, i);
-        ColumnInterval kept{i.begin, i.begin};
-        const auto close = [&] {
-            if (kept.begin < kept.end) {
-                chosen.add(r, kept);
-            }
-        };
+    std::vector<RowInterval> chosen;
+    for (const RowInterval& i : candidates.intervals()) {
+        const RestrictionRun run = restrictionOf(plan.grid, fine.grid, i);
+        RowInterval kept{i.row, i.begin, i.begin};
         for (Index k = 0; k < run.count; ++k) {
             double sum = sums[run.first + k];
             bool regular = true;
@@ -576,60 +536,55 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
             }
             const std::int32_t column = i.begin + static_cast<std::int32_t>(k);
             if (sum < kEnoughInside) {
-                close();
-                kept = {column + 1, column + 1};
+                chosen.push_back(kept);
+                kept = {i.row, column + 1, column + 1};
                 continue;
             }
             kept.end = column + 1;
             plan.row[run.first + k] = regular ? kRegular : 0;
         }
-        close();
-    });
-    plan.region = chosen.build();
+        chosen.push_back(kept);
+    }
+    plan.region = LatticeRegion(std::move(chosen));
 
     // Around a regular point all neighbours have been kept: at least 1 + 3/2 of each is inside.
-    forEachInterval(plan.region, [&](std::int32_t r, ColumnInterval i) {
-        const Index first = plan.grid.at({r, i.begin});
-        level.unknowns += static_cast<Index>(i.end - i.begin);
-        ColumnInterval regular{i.begin, i.begin};
-        const auto close = [&] {
-            if (regular.begin < regular.end) {
-                addRegularRuns(level, plan, r, regular);
-            }
-        };
+    for (const RowInterval& i : plan.region.intervals()) {
+        const Index first = plan.grid.at(i.first());
+        level.unknowns += i.size();
+        RowInterval regular{i.row, i.begin, i.begin};
         for (std::int32_t c = i.begin; c < i.end; ++c) {
             Index& row = plan.row[first + static_cast<Index>(c - i.begin)];
             if (row == kRegular) {
                 regular.end = c + 1;
                 continue;
             }
-            close();
-            regular = {c + 1, c + 1};
+            addRegularRuns(level, plan, regular);
+            regular = {i.row, c + 1, c + 1};
             row = static_cast<Index>(level.irregular.unknowns.size());
             level.irregular.unknowns.push_back(first + static_cast<Index>(c - i.begin));
         }
-        close();
-    });
+        addRegularRuns(level, plan, regular);
+    }
     level.size = plan.grid.end();
 }
 
 /// The way between two levels' unknowns on the lattice.
 void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
 {
-    forEachInterval(coarse.region, [&](std::int32_t r, ColumnInterval i) {
-        forEachPiece(i, [&](ColumnInterval piece) {
-            level.restriction.push_back(restrictionOf(coarse.grid, fine.grid, r, piece));
+    for (const RowInterval& i : coarse.region.intervals()) {
+        forEachPiece(i, [&](const RowInterval& piece) {
+            level.restriction.push_back(restrictionOf(coarse.grid, fine.grid, piece));
         });
-    });
-    forEachInterval(fine.region, [&](std::int32_t r, ColumnInterval i) {
-        forEachPiece(i, [&](ColumnInterval piece) {
-            const std::array<Site, 2> parents = onCoarser({r, piece.begin});
-            const std::array<Site, 2> next = onCoarser({r, piece.begin + 1});
+    }
+    for (const RowInterval& i : fine.region.intervals()) {
+        forEachPiece(i, [&](const RowInterval& piece) {
+            const std::array<Site, 2> parents = onCoarser(piece.first());
+            const std::array<Site, 2> next = onCoarser(neighbour(piece.first(), LatticeStep::Right));
             const std::size_t early = next[0].column != parents[0].column ? 0 : 1;
-            level.prolongation.push_back({fine.grid.at({r, piece.begin}), static_cast<Index>(piece.end - piece.begin),
-                                          coarse.grid.at(parents[early]), coarse.grid.at(parents[1 - early])});
+            level.prolongation.push_back({fine.grid.at(piece.first()), piece.size(), coarse.grid.at(parents[early]),
+                                          coarse.grid.at(parents[1 - early])});
         });
-    });
+    }
 }
 
 /// The irregular rows of PᵀAP.
@@ -715,22 +670,16 @@ Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& whole)
     Operator op = whole;
     op.mass_weight = std::max(op.mass_weight, 0.0);
     Hierarchy hierarchy;
-    hierarchy.edge = mesh.lattice.runs.empty() ? meanEdge(mesh) : mesh.lattice.edge;
+    hierarchy.edge = mesh.lattice ? mesh.lattice->edge : meanEdge(mesh);
     double edge = hierarchy.edge;
-    const Lattice lattice = withoutHeld(mesh, op.held);
+    const LatticeRegion free = freePoints(mesh, op.held);
     const OffLattice off = findOffLattice(mesh, op.held, 2.0 * edge);
-    LatticeRegion candidates;
-    {
-        RegionBuilder parents;
-        addParents(parents, regionOf(lattice));
-        forEachInterval(off.corners, [&](std::int32_t r, ColumnInterval i) { parents.add(r, i); });
-        candidates = parents.build();
-    }
+    LatticeRegion candidates = parentsOf(free, off.corners);
     Plan plan;
     Level level;
     level.stencil = regularStencil(edge, op);
-    planFinest(mesh, lattice, op.held, candidates, hierarchy, level, plan);
-    LatticeTriangles triangles;
+    planFinest(mesh, free, op.held, candidates, hierarchy, level, plan);
+    LatticeStiffness triangles;
     if (!op.tensors.empty()) {
         triangles = finestTriangles(mesh, op, hierarchy, plan);
         level.varying = rowsOf(triangles, plan, op, edge);
@@ -746,9 +695,7 @@ Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& whole)
     assembleFinest(mesh, op, hierarchy, level, plan);
     while (level.unknowns > kCoarsest) {
         edge *= 2.0;
-        RegionBuilder parents;
-        addParents(parents, candidates);
-        LatticeRegion next_candidates = parents.build();
+        LatticeRegion next_candidates = parentsOf(candidates);
         Plan coarse_plan;
         coarse_plan.grid = gridFor(candidates, next_candidates, 0);
         if (hierarchy.levels.empty()) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
-#include "mesh/regular_runs.h"
+#include "mesh/lattice_grid.h"
 #include "shape/operator.h"
 
 namespace droplet {
@@ -63,7 +63,7 @@ struct Level {
     std::uint32_t size = 0;
     std::uint32_t unknowns = 0;
     Stencil stencil;
-    std::vector<RegularRun> regular;  ///< unknowns whose rows are the stencil, or those of `varying`
+    std::vector<GridRun> regular;  ///< unknowns whose rows are the stencil, or those of `varying`
     LatticeRows varying;              ///< empty: the stencil
     SparseRows irregular;
     // To the coarser level, if there is one.

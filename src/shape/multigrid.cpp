@@ -92,7 +92,7 @@ void forPieces(const std::vector<std::size_t>& ends, const Work& work)
 
 /// What a row of the matrix is applied for: called with the row's unknown and the product.
 template <typename Real, typename Use>
-void applyRegular(const RegularRun& run, const Stencil& stencil, const Real* x, const Use& use)
+void applyRegular(const GridRun& run, const Stencil& stencil, const Real* x, const Use& use)
 {
     const auto diagonal = static_cast<Real>(stencil.diagonal);
     const auto neighbour = static_cast<Real>(stencil.neighbour);
@@ -108,7 +108,7 @@ void applyRegular(const RegularRun& run, const Stencil& stencil, const Real* x, 
 
 /// The same where rows differ. `rows` has LatticeRows' members, as pointers.
 template <typename Real, typename Rows, typename Use>
-void applyVarying(const RegularRun& run, const Rows& rows, const Real* x, const Use& use)
+void applyVarying(const GridRun& run, const Rows& rows, const Real* x, const Use& use)
 {
     const Real* diagonal = rows.diagonal + run.first;
     const Real* next = rows.next + run.first;
@@ -170,7 +170,7 @@ public:
             above_right_.assign(varying.above_right.begin(), varying.above_right.end());
             varying_scale_.assign(level.size, 0.0F);
             forPieces(regular_pieces_, [&](std::size_t i) {
-                const RegularRun& run = level.regular[i];
+                const GridRun& run = level.regular[i];
                 for (Index k = 0; k < run.count; ++k) {
                     const RegularRow row = regularRow(level, run.first + k, run.below + k);
                     double sum = row.diagonal;
@@ -227,7 +227,7 @@ public:
     void forEachScale(const Use& use) const
     {
         forPieces(regular_pieces_, [&](std::size_t i) {
-            const RegularRun& run = level_->regular[i];
+            const GridRun& run = level_->regular[i];
             for (Index k = 0; k < run.count; ++k) {
                 use(run.first + k, varying_scale_.empty() ? regular_scale_ : varying_scale_[run.first + k]);
             }
@@ -264,7 +264,7 @@ class CoarsestSolver {
 public:
     explicit CoarsestSolver(const Level& level) : position_(level.size, 0)
     {
-        for (const RegularRun& run : level.regular) {
+        for (const GridRun& run : level.regular) {
             for (Index k = 0; k < run.count; ++k) {
                 unknowns_.push_back(run.first + k);
             }
@@ -280,7 +280,7 @@ public:
                 entries.emplace_back(position_[row], position_[column], value);
             }
         };
-        for (const RegularRun& run : level.regular) {
+        for (const GridRun& run : level.regular) {
             for (Index k = 0; k < run.count; ++k) {
                 const Index at = run.first + k;
                 const RegularRow row = regularRow(level, at, run.below + k);

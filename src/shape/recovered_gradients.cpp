@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "mesh/regular_runs.h"
+#include "mesh/lattice.h"
 #include "shape/gradient.h"
 
 namespace droplet {
@@ -35,11 +35,11 @@ std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const std::vector<d
             gradients[v] = (1.0 / weights[v]) * gradients[v];
         }
     }
-    // Around six equilateral triangles the mean is Σ u·(direction to the neighbour) / (3·edge).
-    const double along = 1.0 / (3.0 * mesh.lattice.edge);
-    const std::vector<RegularRun> runs = regularRuns(mesh.lattice);
+    const std::vector<GridRun> runs = regularRuns(mesh);
     tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
-        const RegularRun& run = runs[k];
+        // Around six equilateral triangles the mean is Σ u·(direction to the neighbour) / (3·edge).
+        const double along = 1.0 / (3.0 * mesh.lattice->edge);
+        const GridRun& run = runs[k];
         const double* centre = values.data() + run.first;
         const double* below = values.data() + run.below;
         const double* above = values.data() + run.above;

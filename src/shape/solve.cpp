@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "mesh/regular_runs.h"
+#include "mesh/lattice.h"
 #include "number_text.h"
 #include "shape/constrained.h"
 #include "shape/energy.h"

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -19,7 +20,8 @@
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
-#include "mesh/regular_runs.h"
+#include "mesh/lattice.h"
+#include "mesh/lattice_triangles.h"
 #include "mesh/rim_sampling.h"
 #include "support/domains.h"
 #include "support/zoo.h"
@@ -102,11 +104,11 @@ TEST(LatticeCore, ItsTrianglesAreDelaunayInTheWholeMesh)
     for (const auto& [name, domain] : testing::zoo()) {
         SCOPED_TRACE(name);
         for (const PlanarMesh& mesh : triangulate(domain, {.triangles = 2500, .edge = {}})) {
-            if (mesh.lattice.runs.empty()) {
+            if (!mesh.lattice) {
                 continue;
             }
-            const std::uint32_t first = mesh.lattice.runs.front().vertex;
-            const double radius = mesh.lattice.edge / std::numbers::sqrt3;
+            const std::uint32_t first = mesh.lattice->grid.begin();
+            const double radius = mesh.lattice->edge / std::numbers::sqrt3;
             std::size_t in_core = 0;
             for (const Triangle& t : mesh.triangles) {
                 const Vec2 centre = (1.0 / 3.0) * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
@@ -126,7 +128,7 @@ TEST(LatticeCore, ItsTrianglesAreDelaunayInTheWholeMesh)
                     }
                 }
             }
-            EXPECT_EQ(in_core, countTriangles(regionOf(mesh.lattice)));
+            EXPECT_EQ(in_core, trianglesOf(mesh.lattice->grid.region()).size());
         }
     }
 }
@@ -137,7 +139,7 @@ TEST(LatticeCore, HoldsMostOfAFineMesh)
     for (const std::size_t triangles : {2000U, 8000U, 32000U}) {
         const PlanarMesh mesh = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = triangles, .edge = {}})[0];
         const auto all = static_cast<double>(mesh.triangles.size());
-        const double outside = mesh.lattice.first_regular_triangle / all;
+        const double outside = mesh.lattice->first_regular_triangle / all;
         // What is not regular is along the rim: its share falls like the edge.
         if (last > 0.0) {
             EXPECT_NEAR(outside / last, 0.5, 0.05) << triangles;
@@ -173,15 +175,16 @@ TEST(LatticeCore, LayersAndSeamAreWhatTheyAreCalled)
             }
             EXPECT_EQ(found, wanted);
 
-            ASSERT_EQ(core.seam().size(), seam.size());
-            const LatticeRegion fixed = regionOf(mesh.lattice);
+            const std::vector<Vec2> points = core.seamPoints();
+            ASSERT_EQ(points.size(), seam.size());
+            ASSERT_EQ(mesh.lattice != nullptr, core.fixedCount() > 0);
+            const LatticeRegion fixed = mesh.lattice ? mesh.lattice->grid.region() : LatticeRegion();
             std::set<std::uint32_t> on_seam(seam.begin(), seam.end());
             for (std::size_t k = 0; k < seam.size(); ++k) {
-                const auto [row, column] = core.seam()[k];
-                EXPECT_EQ(mesh.vertices[seam[k]], latticePoint(edge, row, column));
+                EXPECT_EQ(mesh.vertices[seam[k]], points[k]);
             }
             EXPECT_EQ(on_seam.size(), core.fixedCount() - eroded(fixed).size());
-            for (const RegularRun& run : regularRuns(mesh.lattice)) {
+            for (const GridRun& run : regularRuns(mesh)) {
                 for (std::uint32_t k = 0; k < run.count; ++k) {
                     EXPECT_FALSE(on_seam.contains(run.first + k));
                     // The neighbours are where the run says they are.
@@ -232,92 +235,98 @@ PlanarMesh wholeMesh()
 
 struct Defect {
     const char* name;
-    std::function<void(PlanarMesh&)> make;
+    std::function<void(PlanarMesh&, Lattice&)> make;
     const char* complaint;
 };
+
+/// Another region for the lattice's grid.
+void change(Lattice& lattice, const std::function<void(std::vector<RowInterval>&)>& edit)
+{
+    std::vector<RowInterval> intervals = lattice.grid.region().intervals();
+    edit(intervals);
+    lattice.grid = LatticeGrid(LatticeRegion(std::move(intervals)), lattice.grid.begin());
+}
 
 TEST(PlanarMesh, ValidateRefusesABrokenLattice)
 {
     const PlanarMesh whole = wholeMesh();
     ASSERT_NO_THROW(whole.validate());
-    const Lattice& lattice = whole.lattice;
-    ASSERT_GT(lattice.runs.size(), 10U);
-    // Where one row has two runs.
-    const auto second = std::adjacent_find(lattice.runs.begin(), lattice.runs.end(),
-                                           [](const LatticeRun& a, const LatticeRun& b) { return a.row == b.row; });
-    ASSERT_NE(second, lattice.runs.end());
-    const auto parted = static_cast<std::size_t>(second - lattice.runs.begin());
-    const std::uint32_t first_regular = lattice.first_regular_triangle;
-    constexpr const char* kRuns = "must follow the one before";
+    ASSERT_TRUE(whole.lattice);
+    ASSERT_GT(whole.lattice->grid.region().intervals().size(), 10U);
+    const std::uint32_t first_regular = whole.lattice->first_regular_triangle;
     constexpr const char* kPlace = "must be at its lattice point";
     constexpr const char* kLast = "must hold its last vertices";
     constexpr const char* kRegular = "first_regular_triangle";
     constexpr const char* kTriangles = "must form triangles";
     constexpr const char* kEdge = "lattice.edge";
     const std::vector<Defect> defects{
-        {"edge not a number", [](PlanarMesh& m) { m.lattice.edge = std::nan(""); }, kEdge},
-        {"edge 0", [](PlanarMesh& m) { m.lattice.edge = 0.0; }, kEdge},
-        {"edge infinite", [](PlanarMesh& m) { m.lattice.edge = std::numeric_limits<double>::infinity(); }, kEdge},
-        {"edge of another lattice", [](PlanarMesh& m) { m.lattice.edge *= 1.0 + 1e-9; }, kPlace},
+        {"edge not a number", [](PlanarMesh&, Lattice& l) { l.edge = std::nan(""); }, kEdge},
+        {"edge 0", [](PlanarMesh&, Lattice& l) { l.edge = 0.0; }, kEdge},
+        {"edge infinite", [](PlanarMesh&, Lattice& l) { l.edge = std::numeric_limits<double>::infinity(); }, kEdge},
+        {"edge of another lattice", [](PlanarMesh&, Lattice& l) { l.edge *= 1.0 + 1e-9; }, kPlace},
         {"a vertex off by one bit",
-         [](PlanarMesh& m) { m.vertices.back().x = std::nextafter(m.vertices.back().x, 9.0); }, kPlace},
+         [](PlanarMesh& m, Lattice&) { m.vertices.back().x = std::nextafter(m.vertices.back().x, 9.0); }, kPlace},
         {"a vertex in the middle off by one bit",
-         [](PlanarMesh& m) {
-             Vec2& p = m.vertices[m.lattice.runs[5].vertex + 1];
+         [](PlanarMesh& m, Lattice& l) {
+             Vec2& p = m.vertices[l.grid.at(l.grid.region().intervals()[5].first()) + 1];
              p.y = std::nextafter(p.y, 9.0);
          },
          kPlace},
-        {"a run a column further", [](PlanarMesh& m) { ++m.lattice.runs.back().column; }, kPlace},
-        {"rows descending", [](PlanarMesh& m) { m.lattice.runs[4].row = m.lattice.runs[3].row - 1; }, kRuns},
-        {"runs swapped", [](PlanarMesh& m) { std::swap(m.lattice.runs[3], m.lattice.runs[4]); }, kRuns},
-        {"runs of one row swapped",
-         [=](PlanarMesh& m) { std::swap(m.lattice.runs[parted], m.lattice.runs[parted + 1]); }, kRuns},
-        {"one run in two, without a gap",
-         [](PlanarMesh& m) {
-             LatticeRun rest = m.lattice.runs[4];
-             m.lattice.runs[4].count = 1;
-             rest.column += 1;
-             rest.vertex += 1;
-             rest.count -= 1;
-             m.lattice.runs.insert(m.lattice.runs.begin() + 5, rest);
+        {"an interval a column further",
+         [](PlanarMesh&, Lattice& l) {
+             change(l, [](std::vector<RowInterval>& intervals) {
+                 ++intervals.back().begin;
+                 ++intervals.back().end;
+             });
          },
-         kRuns},
-        {"a run of nothing",
-         [](PlanarMesh& m) {
-             LatticeRun none = m.lattice.runs.back();
-             none.vertex += none.count;
-             none.row += 1;
-             none.count = 0;
-             m.lattice.runs.push_back(none);
+         kPlace},
+        {"an interval in another row",
+         [](PlanarMesh&, Lattice& l) {
+             change(l, [](std::vector<RowInterval>& intervals) { intervals.back().row += 2; });
          },
-         kRuns},
-        {"a run left out", [](PlanarMesh& m) { m.lattice.runs.erase(m.lattice.runs.begin() + 4); }, kRuns},
-        {"a run that goes on beyond the vertices", [](PlanarMesh& m) { ++m.lattice.runs.back().count; }, kRuns},
-        {"the last run left out", [](PlanarMesh& m) { m.lattice.runs.pop_back(); }, kLast},
-        {"the last run too short", [](PlanarMesh& m) { --m.lattice.runs.back().count; }, kLast},
-        {"a rim vertex in a run",
-         [](PlanarMesh& m) {
-             m.lattice.runs = {{0, 0, 0, 1}};
+         kPlace},
+        {"an interval left out",
+         [](PlanarMesh&, Lattice& l) {
+             change(l, [](std::vector<RowInterval>& intervals) { intervals.erase(intervals.begin() + 4); });
          },
-         kRuns},
-        {"regular from too early on", [](PlanarMesh& m) { --m.lattice.first_regular_triangle; }, kRegular},
-        {"regular from too late on", [](PlanarMesh& m) { ++m.lattice.first_regular_triangle; }, kRegular},
+         kLast},
+        {"the last interval too long",
+         [](PlanarMesh&, Lattice& l) {
+             change(l, [](std::vector<RowInterval>& intervals) { ++intervals.back().end; });
+         },
+         kLast},
+        {"the last interval too short",
+         [](PlanarMesh&, Lattice& l) {
+             change(l, [](std::vector<RowInterval>& intervals) { --intervals.back().end; });
+         },
+         kLast},
+        {"no points", [](PlanarMesh&, Lattice& l) { l.grid = {}; }, kLast},
+        {"vertices of the rim",
+         [](PlanarMesh& m, Lattice& l) {
+             const auto count = static_cast<std::int32_t>(m.vertices.size());
+             l.grid = LatticeGrid(LatticeRegion({{0, 0, count}}), 0);
+         },
+         kLast},
+        {"regular from too early on", [](PlanarMesh&, Lattice& l) { --l.first_regular_triangle; }, kRegular},
+        {"regular from too late on", [](PlanarMesh&, Lattice& l) { ++l.first_regular_triangle; }, kRegular},
         {"regular never",
-         [](PlanarMesh& m) { m.lattice.first_regular_triangle = static_cast<std::uint32_t>(m.triangles.size()); },
+         [](PlanarMesh& m, Lattice& l) { l.first_regular_triangle = static_cast<std::uint32_t>(m.triangles.size()); },
          kRegular},
         {"a regular triangle among the others",
-         [=](PlanarMesh& m) { std::swap(m.triangles[0], m.triangles[first_regular]); }, kRegular},
-        {"a regular triangle missing", [](PlanarMesh& m) { m.triangles.pop_back(); }, kTriangles},
+         [=](PlanarMesh& m, Lattice&) { std::swap(m.triangles[0], m.triangles[first_regular]); }, kRegular},
+        {"a regular triangle missing", [](PlanarMesh& m, Lattice&) { m.triangles.pop_back(); }, kTriangles},
         {"a triangle at the seam missing",
-         [=](PlanarMesh& m) {
+         [=](PlanarMesh& m, Lattice& l) {
              m.triangles.erase(m.triangles.begin() + first_regular - 1);
-             --m.lattice.first_regular_triangle;
+             --l.first_regular_triangle;
          },
          kTriangles},
-        {"a triangle twice", [](PlanarMesh& m) { m.triangles.push_back(m.triangles.back()); }, kTriangles}};
+        {"a triangle twice", [](PlanarMesh& m, Lattice&) { m.triangles.push_back(m.triangles.back()); }, kTriangles}};
     for (const Defect& defect : defects) {
         PlanarMesh broken = whole;
-        defect.make(broken);
+        Lattice lattice = *whole.lattice;
+        defect.make(broken, lattice);
+        broken.lattice = std::make_shared<const Lattice>(std::move(lattice));
         try {
             broken.validate();
             ADD_FAILURE() << defect.name << " passes";

@@ -18,140 +18,106 @@
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
-#include "mesh/lattice_core.h"
 #include "mesh/lattice_grid.h"
+#include "mesh/lattice_triangles.h"
 
 namespace droplet {
-
-// Beside the types, where comparisons in standard containers find it.
-static bool operator==(const Site& a, const Site& b)
-{
-    return a.row == b.row && a.column == b.column;
-}
-
 namespace {
 
-using Row = LatticeRegion::Row;
-using Columns = std::set<std::int32_t>;
 using Points = std::set<std::pair<std::int32_t, std::int32_t>>;  // row, column
 using Polygons = std::vector<std::vector<Vec2>>;
-
-Columns columnsOf(const Row& row)
-{
-    Columns columns;
-    for (const ColumnInterval& i : row) {
-        for (std::int32_t c = i.begin; c < i.end; ++c) {
-            columns.insert(c);
-        }
-    }
-    return columns;
-}
-
-Row rowOf(const Columns& columns)
-{
-    Row row;
-    for (const std::int32_t c : columns) {
-        if (row.empty() || row.back().end != c) {
-            row.push_back({c, c});
-        }
-        row.back().end = c + 1;
-    }
-    return row;
-}
 
 Points pointsOf(const LatticeRegion& region)
 {
     Points points;
-    for (std::int32_t r = region.firstRow(); r < region.endRow(); ++r) {
-        for (const std::int32_t c : columnsOf(region.row(r))) {
-            points.emplace(r, c);
-        }
+    for (const Site& site : region.sites()) {
+        points.emplace(site.row, site.column);
     }
     return points;
 }
 
-/// Intervals not empty, ascending, with gaps between.
-bool isNormal(const Row& row)
+bool holds(const Points& points, Site site)
 {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-        if (row[k].begin >= row[k].end || (k > 0 && row[k].begin <= row[k - 1].end)) {
+    return points.contains({site.row, site.column});
+}
+
+/// Intervals not empty, ascending, with gaps between.
+bool isNormal(const LatticeRegion& region)
+{
+    const std::vector<RowInterval>& intervals = region.intervals();
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
+        const RowInterval& i = intervals[k];
+        const RowInterval& last = intervals[k == 0 ? 0 : k - 1];
+        if (i.begin >= i.end || (k > 0 && (i.row < last.row || (i.row == last.row && i.begin <= last.end)))) {
             return false;
         }
     }
     return true;
 }
 
-/// Columns around zero, each there with a probability of its own kind: gaps of one, full rows and empty ones occur.
-Columns randomColumns(std::mt19937& random)
-{
-    std::bernoulli_distribution there(std::uniform_real_distribution<double>(0.0, 1.0)(random));
-    Columns columns;
-    for (std::int32_t c = -9; c < 10; ++c) {
-        if (there(random)) {
-            columns.insert(c);
-        }
-    }
-    return columns;
-}
-
+/// Points around zero, in every row each there with a probability of its own kind: gaps of one, full rows and empty
+/// ones occur.
 LatticeRegion randomRegion(std::mt19937& random)
 {
     const auto first = std::uniform_int_distribution<std::int32_t>(-6, 3)(random);
-    std::vector<Row> rows;
-    for (int k = std::uniform_int_distribution<int>(0, 8)(random); k > 0; --k) {
-        rows.push_back(rowOf(randomColumns(random)));
-    }
-    return {first, std::move(rows)};
-}
-
-TEST(LatticeRegion, RowsObeyTheAlgebraOfSets)
-{
-    std::mt19937 random(1);
-    for (int round = 0; round < 2000; ++round) {
-        const Columns a = randomColumns(random);
-        const Columns b = randomColumns(random);
-        Columns difference;
-        std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(difference, difference.end()));
-        Columns intersection;
-        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::inserter(intersection, intersection.end()));
-        const Row less = minus(rowOf(a), rowOf(b));
-        const Row both = common(rowOf(a), rowOf(b));
-        ASSERT_EQ(columnsOf(less), difference);
-        ASSERT_EQ(columnsOf(both), intersection);
-        ASSERT_TRUE(isNormal(less) && isNormal(both));
-
-        const std::int32_t by = std::uniform_int_distribution<std::int32_t>(-5, 5)(random);
-        const std::int32_t shorter = std::uniform_int_distribution<std::int32_t>(0, 3)(random);
-        Columns moved;
-        for (const std::int32_t c : a) {
-            bool stays = true;
-            for (std::int32_t k = 1; k <= shorter; ++k) {
-                stays = stays && a.contains(c + k);
-            }
-            if (stays) {
-                moved.insert(c + by);
+    const auto end = first + std::uniform_int_distribution<std::int32_t>(0, 8)(random);
+    std::vector<RowInterval> points;
+    for (std::int32_t r = first; r < end; ++r) {
+        std::bernoulli_distribution there(std::uniform_real_distribution<double>(0.0, 1.0)(random));
+        for (std::int32_t c = -9; c < 10; ++c) {
+            if (there(random)) {
+                points.push_back({r, c, c + 1});
             }
         }
-        const Row found = shifted(rowOf(a), by, shorter);
-        ASSERT_EQ(columnsOf(found), moved);
-        ASSERT_TRUE(isNormal(found));
+    }
+    return LatticeRegion(std::move(points));
+}
+
+TEST(LatticeRegion, ObeysTheAlgebraOfSets)
+{
+    std::mt19937 random(1);
+    for (int round = 0; round < 1000; ++round) {
+        const LatticeRegion first = randomRegion(random);
+        const LatticeRegion second = randomRegion(random);
+        const Points a = pointsOf(first);
+        const Points b = pointsOf(second);
+        Points difference;
+        std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(difference, difference.end()));
+        Points intersection;
+        std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::inserter(intersection, intersection.end()));
+        const LatticeRegion less = without(first, second);
+        const LatticeRegion both = common(first, second);
+        ASSERT_EQ(pointsOf(less), difference);
+        ASSERT_EQ(pointsOf(both), intersection);
+        ASSERT_TRUE(isNormal(less) && isNormal(both));
+        for (const LatticeStep step : kLatticeSteps) {
+            Points further;
+            for (const auto& [r, c] : a) {
+                const Site site = neighbour({r, c}, step);
+                further.emplace(site.row, site.column);
+            }
+            ASSERT_EQ(pointsOf(moved(first, step)), further);
+        }
     }
 }
 
-TEST(LatticeRegion, UnitedIntervalsMayOverlapTouchAndComeInAnyOrder)
+TEST(LatticeRegion, IntervalsMayOverlapTouchAndComeInAnyOrder)
 {
     std::mt19937 random(2);
     for (int round = 0; round < 2000; ++round) {
-        Row intervals;
-        Columns all;
-        for (int k = std::uniform_int_distribution<int>(0, 6)(random); k > 0; --k) {
+        std::vector<RowInterval> intervals;
+        Points all;
+        for (int k = std::uniform_int_distribution<int>(0, 9)(random); k > 0; --k) {
+            const std::int32_t row = std::uniform_int_distribution<std::int32_t>(-2, 1)(random);
             const std::int32_t begin = std::uniform_int_distribution<std::int32_t>(-20, 20)(random);
-            const std::int32_t end = begin + std::uniform_int_distribution<std::int32_t>(1, 8)(random);
-            intervals.push_back({begin, end});
-            all.merge(columnsOf({{begin, end}}));
+            const std::int32_t end = begin + std::uniform_int_distribution<std::int32_t>(-1, 8)(random);
+            intervals.push_back({row, begin, end});
+            for (std::int32_t c = begin; c < end; ++c) {
+                all.emplace(row, c);
+            }
         }
-        const Row found = united(intervals);
-        ASSERT_EQ(columnsOf(found), all);
+        const LatticeRegion found(intervals);
+        ASSERT_EQ(pointsOf(found), all);
         ASSERT_TRUE(isNormal(found));
     }
 }
@@ -163,13 +129,23 @@ TEST(LatticeRegion, KnowsItsPoints)
         const LatticeRegion region = randomRegion(random);
         const Points points = pointsOf(region);
         ASSERT_EQ(region.size(), points.size());
-        for (std::int32_t r = region.firstRow() - 2; r < region.endRow() + 2; ++r) {
-            for (std::int32_t c = -12; c < 13; ++c) {
-                ASSERT_EQ(region.contains(r, c), points.contains({r, c}));
+        ASSERT_EQ(region.empty(), points.empty());
+        for (std::int32_t r = -10; r < 15; ++r) {
+            std::size_t in_row = 0;
+            for (const RowInterval& i : region.row(r)) {
+                EXPECT_EQ(i.row, r);
+                in_row += i.size();
             }
+            for (std::int32_t c = -12; c < 13; ++c) {
+                ASSERT_EQ(region.contains({r, c}), points.contains({r, c}));
+                if (region.contains({r, c})) {
+                    --in_row;
+                    const RowInterval& i = region.intervals()[region.intervalOf({r, c})];
+                    EXPECT_TRUE(i.row == r && i.begin <= c && c < i.end);
+                }
+            }
+            EXPECT_EQ(in_row, 0U);
         }
-        EXPECT_TRUE(region.row(region.firstRow() - 1).empty());
-        EXPECT_TRUE(region.row(region.endRow()).empty());
     }
 }
 
@@ -183,21 +159,36 @@ TEST(LatticeRegion, ErodedPointsHaveAllTheirNeighbours)
         Points wanted;
         for (const auto& [r, c] : points) {
             const std::array<Site, 6> around = neighboursOf({r, c});
-            if (std::all_of(around.begin(), around.end(), [&](Site s) { return points.contains({s.row, s.column}); })) {
+            if (std::all_of(around.begin(), around.end(), [&](Site s) { return holds(points, s); })) {
                 wanted.emplace(r, c);
             }
         }
         const LatticeRegion found = eroded(region);
         ASSERT_EQ(pointsOf(found), wanted);
-        for (std::int32_t r = found.firstRow(); r < found.endRow(); ++r) {
-            ASSERT_TRUE(isNormal(found.row(r)));
-        }
+        ASSERT_TRUE(isNormal(found));
         left += wanted.size();
     }
     EXPECT_GT(left, 500U);
 }
 
-TEST(LatticeRegion, TrianglesAreTriplesOfNeighbours)
+TEST(LatticeRegion, EverySecondPointIsOnTheCoarserLattice)
+{
+    std::mt19937 random(8);
+    for (int round = 0; round < 500; ++round) {
+        const LatticeRegion region = randomRegion(random);
+        Points wanted;
+        for (std::int32_t r = -9; r < 10; ++r) {
+            for (std::int32_t c = -9; c < 10; ++c) {
+                if (region.contains(onFiner({r, c}))) {
+                    wanted.emplace(r, c);
+                }
+            }
+        }
+        ASSERT_EQ(pointsOf(everySecond(region)), wanted);
+    }
+}
+
+TEST(LatticeTriangles, AreTriplesOfNeighbours)
 {
     std::mt19937 random(5);
     for (int round = 0; round < 300; ++round) {
@@ -208,16 +199,28 @@ TEST(LatticeRegion, TrianglesAreTriplesOfNeighbours)
             const std::array<Site, 6> around = neighboursOf({r, c});
             for (std::size_t i = 0; i < 6; ++i) {
                 for (std::size_t j = 0; j < i; ++j) {
-                    const Vec2 side = latticePoint(1.0, around[i].row, around[i].column) -
-                                      latticePoint(1.0, around[j].row, around[j].column);
-                    corners += length(side) < 1.01 && points.contains({around[i].row, around[i].column}) &&
-                                       points.contains({around[j].row, around[j].column})
-                                   ? 1
-                                   : 0;
+                    const Vec2 side = latticePoint(1.0, around[i]) - latticePoint(1.0, around[j]);
+                    corners += length(side) < 1.01 && holds(points, around[i]) && holds(points, around[j]) ? 1 : 0;
                 }
             }
         }
-        ASSERT_EQ(3 * countTriangles(region), corners);
+        const LatticeTriangles triangles = trianglesOf(region);
+        ASSERT_EQ(3 * triangles.size(), corners);
+
+        const LatticeGrid grid(region, 3);
+        std::vector<Triangle> found;
+        append(found, triangles, grid);
+        ASSERT_EQ(found.size(), triangles.size());
+        ASSERT_EQ(std::set<Triangle>(found.begin(), found.end()).size(), found.size());
+        for (const Triangle& t : found) {
+            const Vec2 a = latticePoint(1.0, grid.siteOf(t[0]));
+            const Vec2 b = latticePoint(1.0, grid.siteOf(t[1]));
+            const Vec2 c = latticePoint(1.0, grid.siteOf(t[2]));
+            ASSERT_NEAR(cross(b - a, c - a), 0.5 * std::numbers::sqrt3, 1e-12);  // equilateral, counter-clockwise
+        }
+        EXPECT_EQ(without(triangles, triangles).size(), 0U);
+        EXPECT_EQ(without(triangles, trianglesOf(eroded(region))).size(),
+                  triangles.size() - trianglesOf(eroded(region)).size());
     }
 }
 
@@ -279,6 +282,7 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
         for (const double edge : {3.0, 0.4, 0.11, 0.037}) {
             for (const double clearance : {0.0, 0.3, 0.65, 1.7}) {
                 const LatticeRegion region = pointsInside(polygons, edge, clearance * edge);
+                ASSERT_TRUE(isNormal(region));
                 const double height = 0.5 * std::numbers::sqrt3 * edge;
                 std::size_t count = 0;
                 const auto [low, high] = std::minmax_element(polygons[0].begin(), polygons[0].end(),
@@ -286,15 +290,14 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
                 const auto [left, right] = std::minmax_element(polygons[0].begin(), polygons[0].end(),
                                                                [](Vec2 a, Vec2 b) { return a.x < b.x; });
                 for (auto r = static_cast<std::int32_t>(low->y / height) - 2; r * height < high->y + edge; ++r) {
-                    ASSERT_TRUE(isNormal(region.row(r)));
                     for (auto c = static_cast<std::int32_t>(left->x / edge) - 2; c * edge < right->x + edge; ++c) {
-                        const double deep = depth(polygons, latticePoint(edge, r, c));
-                        count += region.contains(r, c) ? 1 : 0;
+                        const double deep = depth(polygons, latticePoint(edge, {r, c}));
+                        count += region.contains({r, c}) ? 1 : 0;
                         if (std::abs(deep - clearance * edge) < 1e-12) {
                             ++doubtful;  // to the last bit either way
                             continue;
                         }
-                        ASSERT_EQ(region.contains(r, c), deep > clearance * edge) << edge << " " << r << " " << c;
+                        ASSERT_EQ(region.contains({r, c}), deep > clearance * edge) << edge << " " << r << " " << c;
                     }
                 }
                 EXPECT_EQ(count, region.size());
@@ -314,7 +317,7 @@ TEST(LatticeRegion, HexagonHoldsTheNextSmallerOne)
         // Sides of n edges: rows n have 2n columns less n.
         for (const Site s : {Site{0, n}, Site{n, (n + 1) / 2 - n % 2}, Site{n, (n + 1) / 2 - n % 2 - n}, Site{0, -n},
                              Site{-n, (n + 1) / 2 - n % 2 - n}, Site{-n, (n + 1) / 2 - n % 2}}) {
-            hexagon.push_back(latticePoint(0.5, s.row, s.column));
+            hexagon.push_back(latticePoint(0.5, s));
         }
         for (std::size_t k = 0; k < 6; ++k) {
             ASSERT_NEAR(length(hexagon[(k + 1) % 6] - hexagon[k]), 0.5 * n, 1e-12);
@@ -347,17 +350,18 @@ TEST(LatticeGrid, GivesEveryPointAnIndexAndBack)
             ASSERT_TRUE(grid.siteOf(next) == (Site{r, c}));
             ++next;
         }
+        EXPECT_EQ(grid.begin(), first);
         EXPECT_EQ(grid.end(), next);
     }
 }
 
-TEST(LatticeGrid, NeighboursAreOneEdgeAway)
+TEST(LatticeSite, NeighboursAreOneEdgeAway)
 {
     for (std::int32_t r = -9; r < 10; ++r) {
         for (std::int32_t c = -9; c < 10; ++c) {
             Points distinct;
             for (const Site s : neighboursOf({r, c})) {
-                EXPECT_NEAR(length(latticePoint(1.0, s.row, s.column) - latticePoint(1.0, r, c)), 1.0, 1e-14);
+                EXPECT_NEAR(length(latticePoint(1.0, s) - latticePoint(1.0, {r, c})), 1.0, 1e-14);
                 distinct.emplace(s.row, s.column);
             }
             EXPECT_EQ(distinct.size(), 6U);
@@ -365,19 +369,19 @@ TEST(LatticeGrid, NeighboursAreOneEdgeAway)
     }
 }
 
-TEST(LatticeGrid, CoarserPointsAreFinerOnesAndAllOthersLieHalfWay)
+TEST(LatticeSite, CoarserPointsAreFinerOnesAndAllOthersLieHalfWay)
 {
     for (std::int32_t r = -17; r < 18; ++r) {
         for (std::int32_t c = -17; c < 18; ++c) {
             const Site finer = onFiner({r, c});
-            EXPECT_NEAR(length(latticePoint(1.0, finer.row, finer.column) - latticePoint(2.0, r, c)), 0.0, 1e-14);
+            EXPECT_NEAR(length(latticePoint(1.0, finer) - latticePoint(2.0, {r, c})), 0.0, 1e-14);
             for (const Site& back : onCoarser(finer)) {
                 EXPECT_TRUE(back == (Site{r, c}));
             }
             const std::array<Site, 2> parents = onCoarser({r, c});
-            const Vec2 a = latticePoint(2.0, parents[0].row, parents[0].column);
-            const Vec2 b = latticePoint(2.0, parents[1].row, parents[1].column);
-            EXPECT_NEAR(length(0.5 * (a + b) - latticePoint(1.0, r, c)), 0.0, 1e-14) << r << " " << c;
+            const Vec2 a = latticePoint(2.0, parents[0]);
+            const Vec2 b = latticePoint(2.0, parents[1]);
+            EXPECT_NEAR(length(0.5 * (a + b) - latticePoint(1.0, {r, c})), 0.0, 1e-14) << r << " " << c;
             EXPECT_TRUE(length(b - a) == 0.0 || std::abs(length(b - a) - 2.0) < 1e-14) << r << " " << c;
         }
     }

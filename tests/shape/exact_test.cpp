@@ -12,8 +12,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/mesh/triangulate.h"
@@ -21,6 +23,7 @@
 #include "droplet/shape/solve.h"
 #include "droplet/shape/spread.h"
 #include "droplet/units.h"
+#include "mesh/lattice.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
 #include "support/young_laplace.h"
@@ -450,7 +453,9 @@ TEST(Exact, DoesNotDependOnUnits)
     for (Vec2& p : small[0].vertices) {
         p = 1e-3 * p;
     }
-    small[0].lattice.edge *= 1e-3;
+    Lattice lattice = *small[0].lattice;
+    lattice.edge *= 1e-3;
+    small[0].lattice = std::make_shared<const Lattice>(std::move(lattice));
     const SolveOptions options = unitOptions(Model::Exact, 2.0, 1.0);
     SolveOptions scaled = options;
     scaled.liquid = {"other", 0.07, 1000.0};

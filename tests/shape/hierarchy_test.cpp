@@ -39,7 +39,7 @@ double dotOf(const Vector& a, const Vector& b)
 template <typename Visit>
 void forEachUnknown(const Level& level, const Visit& visit)
 {
-    for (const RegularRun& run : level.regular) {
+    for (const GridRun& run : level.regular) {
         for (std::uint32_t k = 0; k < run.count; ++k) {
             visit(run.first + k);
         }
@@ -60,7 +60,7 @@ Vector randomVector(const Level& level, std::mt19937& random)
 Vector applied(const Level& level, const Vector& x)
 {
     Vector result(level.size, 0.0);
-    for (const RegularRun& run : level.regular) {
+    for (const GridRun& run : level.regular) {
         for (std::uint32_t k = 0; k < run.count; ++k) {
             const std::uint32_t i = run.first + k;
             const RegularRow row = regularRow(level, i, run.below + k);

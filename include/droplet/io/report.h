@@ -20,7 +20,7 @@
 
 namespace droplet {
 
-/// How many stages the river has.
+/// How many stages there are.
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Write) + 1;
 
 /// What was set, and in what.

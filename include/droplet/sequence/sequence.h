@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "droplet/droplet.h"
@@ -26,28 +26,27 @@ struct SequenceOptions {
     void validate() const;
 };
 
-/// A droplet's place in the story.
+/// Where a droplet of a frame comes from, and what it holds.
 struct Ancestry {
     std::size_t id = 0;             ///< the same from frame to frame; never given twice
     std::vector<std::size_t> from;  ///< ids in the frame before of what became this droplet; empty where it is new
     double volume = 0.0;            ///< prescribed [m³]
 };
 
-/// One frame of a sequence, and what the next one needs of it.
+/// What the next frame needs to know of how a frame was made.
+struct FrameLineage;
+
+/// One frame of a sequence.
 struct Frame {
     Droplet droplet;
     std::vector<Ancestry> droplets;  ///< one per droplet
     bool continues = false;      ///< the surface is that of the frame before, moved: vertex by vertex, same triangles
     double volume_gained = 0.0;  ///< by droplets that come from nowhere; with VolumeMode::Total 0 [m³]
     double volume_lost = 0.0;    ///< by droplets that went nowhere; with VolumeMode::Total 0 [m³]
-
-    std::vector<PlanarMesh> first_meshes;  ///< as they stood where the connections began
-    std::vector<PlanarMesh> bases;         ///< of closed surfaces on flat ground
-    std::vector<PlanarMesh> first_bases;
-    std::size_t next_id = 0;
+    std::shared_ptr<const FrameLineage> lineage;  ///< of firstFrame() and nextFrame(), for nextFrame()
 };
 
-/// The first frame: the river, with one pressure for all if the total volume is to be kept.
+/// The first frame: makeDroplet(), with one pressure for all if the total volume is to be kept.
 /// @throws Error as makeDroplet
 Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
@@ -66,8 +65,8 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 ///
 /// Guarantees: with VolumeMode::Track volumes are those of the frame before − lost + gained, with VolumeMode::Total the
 /// same in every frame, to 1e-9.
-/// @param before   the frame before, of a picture of the same extent
-/// @throws Error   as makeDroplet; InvalidInput if the extent is another
+/// @param before   the frame before, as firstFrame() or nextFrame() made it, of a picture of the same extent
+/// @throws Error   as makeDroplet; InvalidInput if the extent is another; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
 }  // namespace droplet

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "batch_options.h"
+
+#include <charconv>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include "option_values.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A shard as in `2/8`.
+BatchShard shardOf(const Given& given)
+{
+    constexpr std::size_t kMost = 1'000'000;
+    const auto number = [](std::string_view digits) {
+        std::size_t value = 0;
+        const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return failure == std::errc{} && end == digits.data() + digits.size() ? value : 0;
+    };
+    const std::string_view text = given.text;
+    const auto slash = text.find('/');
+    const BatchShard shard{number(text.substr(0, slash)),
+                           slash == std::string_view::npos ? 0 : number(text.substr(slash + 1))};
+    if (shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
+        refuse(given, "a share and the number of shares, such as 2/8");
+    }
+    return shard;
+}
+
+/// The path that a share of a batch has: with the share in its name.
+std::string ofShard(fs::path path, const std::optional<BatchShard>& shard)
+{
+    if (shard) {
+        path.replace_filename(path.stem().string() + "-" + std::to_string(shard->index) + "-of-" +
+                              std::to_string(shard->count) + path.extension().string());
+    }
+    return path.string();
+}
+
+/// The manifest in the folder that all outputs share.
+fs::path manifestBeside(const std::string& output_pattern)
+{
+    const std::string fixed = output_pattern.substr(0, output_pattern.find_first_of("{%"));
+    return fs::path(fixed.substr(0, fixed.rfind('/') + 1)) / "manifest.json";
+}
+
+std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLine& line)
+{
+    static const std::set<std::string> others{"--config",   "--help",       "--json",      "--keep-going",
+                                              "--manifest", "--no-clobber", "--no-resume", "--output",
+                                              "--progress", "--quiet",      "--recursive", "--shard",
+                                              "--threads",  "--verbose",    "--version",   "--contact-sheet"};
+    std::vector<std::pair<std::string, std::string>> decisive;
+    for (const auto& [name, value] : line.given()) {
+        if (others.count(name) == 0) {
+            decisive.emplace_back(name.substr(2), value);
+        }
+    }
+    return decisive;
+}
+
+}  // namespace
+
+void declareBatch(CommandLine& line)
+{
+    constexpr const char* kGroup = "Batch";
+    line.addFlag(kGroup, "--keep-going", "go on after an item that failed");
+    line.addFlag(kGroup, "--no-resume", "make again what stands as it would be made");
+    line.add(kGroup, "--shard", "SHARE", "2/8 makes every 8th item, from the second on");
+    line.add(kGroup, "--manifest", "FILE",
+             "what became of every item, as JSON\n"
+             "[manifest.json in the folder of all outputs]");
+    line.add(kGroup, "--contact-sheet", "FILE", "draw all of them on one picture, PNG");
+}
+
+BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern)
+{
+    BatchOptions options;
+    options.keep_going = line.flag("--keep-going");
+    options.resume = !line.flag("--no-resume");
+    if (const auto shard = line.value("--shard")) {
+        options.shard = shardOf(*shard);
+    }
+    const auto manifest = line.value("--manifest");
+    options.manifest = ofShard(manifest ? fs::path(manifest->text) : manifestBeside(output_pattern), options.shard);
+    if (const auto sheet = line.value("--contact-sheet")) {
+        if (fs::path(sheet->text).extension() != ".png") {
+            refuse(*sheet, "a file that ends in .png");
+        }
+        options.contact_sheet = ofShard(sheet->text, options.shard);
+        const auto format = line.value("--format");
+        if (format && fs::path(output_pattern).extension() != "." + format->text) {
+            refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);
+        }
+    }
+    if (const auto material = line.value("--material")) {
+        options.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
+    }
+    options.told = decisiveOptions(line);
+    if (run.config) {
+        options.read.push_back(*run.config);
+    }
+    options.files = run.files;
+    options.threads = run.threads;
+    options.verbosity = run.verbosity;
+    options.progress = run.progress;
+    return options;
+}
+
+}  // namespace cli

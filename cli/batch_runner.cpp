@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Threads are those of TBB, as many as items are worked on at one time. A thread that waits for the parts of its item
+// takes no other item in the meantime, which would bind two items' memory to it; one that finds no more items helps
+// with those still in work.
+#include "batch_runner.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "batch_manifest.h"
+#include "batch_progress.h"
+#include "contact_sheet.h"
+#include "content_hash.h"
+#include "droplet/error.h"
+#include "droplet/version.h"
+#include "exit_code.h"
+#include "interruption.h"
+#include "option_values.h"
+#include "output_clashes.h"
+#include "seconds.h"
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+using droplet::Error;
+using droplet::ErrorCode;
+
+/// What is known to fail must fail before any work is done.
+void prepare(const std::string& output, const droplet::OutputOptions& options = {})
+{
+    const fs::path folder = fs::path(output).parent_path();
+    std::error_code failure;
+    if (!folder.empty() && !fs::is_directory(folder, failure) && !fs::create_directories(folder, failure) && failure) {
+        throw Error(ErrorCode::OutputFailed, "folder " + folder.string() + " cannot be made: " + failure.message());
+    }
+    droplet::checkWritable(output, options);
+}
+
+std::size_t threadsOf(const BatchOptions& options)
+{
+    return options.threads.value_or(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+/// Items on their way, and what becomes of them.
+class Batch {
+public:
+    Batch(const std::vector<BatchItem>& items, const BatchOptions& options, EarlierRun earlier)
+        : items_(items),
+          options_(options),
+          earlier_(std::move(earlier)),
+          rows_(shareOfRows()),
+          has_ended_(rows_.size(), false),
+          progress_(rows_.size(), options)
+    {
+    }
+
+    void run()
+    {
+        const std::size_t threads = threadsOf(options_);
+        constexpr std::size_t kStack = std::size_t{8} << 20;  // as the first thread has
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const tbb::global_control stacks(tbb::global_control::thread_stack_size, kStack);
+        tbb::task_arena arena(static_cast<int>(threads));
+        arena.execute([&] {
+            tbb::task_group group;
+            for (std::size_t i = 0; i < std::min(threads, rows_.size()); ++i) {
+                group.run([&] {
+                    while (const auto place = next()) {
+                        work(*place);
+                    }
+                });
+            }
+            group.wait();
+        });
+    }
+
+    /// The files that are as they were asked for, in their order.
+    [[nodiscard]] std::vector<std::string> outputs() const
+    {
+        std::vector<std::string> paths;
+        for (const ManifestRow& row : rows_) {
+            if (row.status == ItemStatus::Made || row.status == ItemStatus::Skipped) {
+                paths.push_back(items_[row.index].output);
+            }
+        }
+        return paths;
+    }
+
+    int finish()
+    {
+        settle();
+        writeManifest(rows_, items_, options_, progress_.elapsed());
+        progress_.summarise(rows_);
+        return std::any_of(rows_.begin(), rows_.end(), hasFailed) ? kSomeFailed : 0;
+    }
+
+private:
+    static bool hasFailed(const ManifestRow& row) { return row.status == ItemStatus::Failed; }
+
+    [[nodiscard]] ManifestRow notStarted(std::size_t index) const
+    {
+        ManifestRow row;
+        row.index = index;
+        row.file = earlier_.at(items_[index]);
+        return row;
+    }
+
+    [[nodiscard]] std::vector<ManifestRow> shareOfRows() const
+    {
+        std::vector<ManifestRow> rows;
+        const BatchShard shard = options_.shard.value_or(BatchShard{});
+        for (std::size_t i = shard.index - 1; i < items_.size(); i += shard.count) {
+            rows.push_back(notStarted(i));
+        }
+        return rows;
+    }
+
+    /// The row to work on next.
+    std::optional<std::size_t> next()
+    {
+        const std::lock_guard lock(mutex_);
+        if (next_ == rows_.size() || Interruption::asked() != 0 || (failed_ && !options_.keep_going)) {
+            return std::nullopt;
+        }
+        return next_++;
+    }
+
+    void work(std::size_t place)
+    {
+        const auto start = Clock::now();
+        ManifestRow row = rows_[place];
+        tbb::this_task_arena::isolate([&] { make(row); });
+        row.time = secondsSince(start);
+
+        const std::lock_guard lock(mutex_);
+        rows_[place] = std::move(row);
+        has_ended_[place] = true;
+        ++ended_;
+        failed_ = failed_ || hasFailed(rows_[place]);
+        tellInOrder();
+        progress_.drawBar(ended_);
+        keepManifest();
+    }
+
+    /// Whatever happens to one item must not end the others.
+    void make(ManifestRow& row) const
+    {
+        const auto fail = [&](const std::string& error, ExitCode code) {
+            row.file.reset();
+            row.status = ItemStatus::Failed;
+            row.error = oneLine(error);
+            row.exit_code = static_cast<int>(code);
+        };
+        const BatchItem& item = items_[row.index];
+        try {
+            BatchWork work = item.open();
+            const std::string fingerprint = fingerprintOf({droplet::kVersion, work.fingerprint});
+            if (options_.resume && stands(item, fingerprint, row.file)) {
+                row.status = ItemStatus::Skipped;
+                return;
+            }
+            row.file.reset();
+            prepare(item.output, options_.files);
+            for (const std::string& other : item.others) {
+                prepare(other, options_.files);
+            }
+            MadeFile file;
+            file.fingerprint = fingerprint;
+            file.others = item.others;
+            file.figures = work.make();
+            work = {};  // the input's memory
+            file.sha256 = hashOfFile(item.output);
+            std::error_code no_size;  // of a device
+            const auto bytes = fs::file_size(item.output, no_size);
+            file.bytes = no_size ? 0 : bytes;
+            row.file = std::move(file);
+            row.status = ItemStatus::Made;
+        } catch (const Error& error) {
+            fail(error.what(), exitCodeOf(error.code()));
+        } catch (const std::bad_alloc&) {
+            fail("out of memory; fewer --triangles, a smaller picture or fewer --threads need less",
+                 ExitCode::InternalError);
+        } catch (const std::exception& error) {
+            fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
+        } catch (...) {
+            fail("internal error", ExitCode::InternalError);
+        }
+    }
+
+    void tellInOrder()
+    {
+        while (told_ < rows_.size() && has_ended_[told_] && !told_failure_) {
+            const ManifestRow& row = rows_[told_++];
+            progress_.tell(items_[row.index], row);
+            told_failure_ = hasFailed(row) && !options_.keep_going;
+        }
+    }
+
+    /// What comes after the first that failed counts as not started, as if one had been worked on after another.
+    void settle()
+    {
+        const auto failed = std::find_if(rows_.begin(), rows_.end(), hasFailed);
+        if (options_.keep_going || failed == rows_.end()) {
+            return;
+        }
+        std::for_each(failed + 1, rows_.end(), [&](ManifestRow& row) { row = notStarted(row.index); });
+    }
+
+    void keepManifest()
+    {
+        if (secondsSince(kept_at_) < interval_) {
+            return;
+        }
+        const auto start = Clock::now();
+        try {
+            writeManifest(rows_, items_, options_, progress_.elapsed());
+        } catch (const Error&) {
+            // It is tried again, and at the end the cause is told.
+        }
+        // A manifest of a million rows must not take the time of the work.
+        constexpr double kShare = 20.0;
+        interval_ = std::max(interval_, kShare * secondsSince(start));
+        kept_at_ = Clock::now();
+    }
+
+    const std::vector<BatchItem>& items_;
+    const BatchOptions& options_;
+    EarlierRun earlier_;
+
+    std::mutex mutex_;  ///< over all below while threads run
+    std::vector<ManifestRow> rows_;
+    std::vector<bool> has_ended_;  ///< by row
+    BatchProgress progress_;
+    std::size_t next_ = 0;
+    std::size_t ended_ = 0;
+    std::size_t told_ = 0;
+    bool failed_ = false;
+    bool told_failure_ = false;
+    Clock::time_point kept_at_ = Clock::now();
+    double interval_ = 5.0;  ///< [s]
+};
+
+}  // namespace
+
+int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
+{
+    if (items.empty()) {
+        refuse("there is nothing to make");
+    }
+    refuseClashes(items, options);
+    prepare(options.manifest);
+    if (options.contact_sheet) {
+        prepare(*options.contact_sheet, options.files);
+    }
+    Batch batch(items, options, EarlierRun(options.manifest));
+    int code = 0;
+    int signal = 0;
+    {
+        const Interruption interruption;
+        batch.run();
+        code = batch.finish();
+        signal = Interruption::asked();
+    }
+    if (signal != 0) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+    if (options.contact_sheet) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadsOf(options));
+        writeContactSheet({*options.contact_sheet, options.material, batch.outputs()}, options.files);
+    }
+    return code;
+}
+
+}  // namespace cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_places.h"
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <system_error>
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+std::string Places::of(const std::string& path)
+{
+    std::error_code ignored;
+    const fs::path absolute = fs::absolute(path, ignored);
+    if (fs::is_symlink(fs::symlink_status(absolute, ignored))) {
+        return fs::weakly_canonical(absolute, ignored).string();
+    }
+    auto [folder, is_new] = folders_.try_emplace(absolute.parent_path().string());
+    if (is_new) {
+        folder->second = fs::weakly_canonical(absolute.parent_path(), ignored).string();
+    }
+    return (fs::path(folder->second) / absolute.filename()).lexically_normal().string();
+}
+
+std::optional<FileNode> nodeOf(const std::string& path)
+{
+    struct stat status = {};
+    if (stat(path.c_str(), &status) != 0) {
+        return std::nullopt;
+    }
+    return FileNode(status.st_dev, status.st_ino);
+}
+
+}  // namespace cli
