@@ -18,6 +18,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -671,7 +672,7 @@ void OntoOptions::validate() const
 {
     if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
         throw Error(ErrorCode::InvalidArgument,
-                    "extent " + std::to_string(extent.x) + " m × " + std::to_string(extent.y) + " m must be positive");
+                    "extent " + numberText(extent.x) + " m × " + numberText(extent.y) + " m must be positive");
     }
 }
 
