@@ -50,7 +50,7 @@ def machine(build):
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     cache = (build / "CMakeCache.txt").read_text()
     compiler = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache, re.MULTILINE).group(1)
-    packages = ["freefem++", "libcgal-dev", "libeigen3-dev", "libsuitesparse-dev", "libopenblas0-pthread", "libtbb-dev",
+    packages = ["freefem++", "libcgal-dev", "libeigen3-dev", "libopenblas0-pthread", "libtbb-dev",
                 "libbenchmark-dev"]
     versions = dict(line.split("=") for line in
                     output_of("dpkg-query", "--show", "--showformat", "${Package}=${Version}\n", *packages).split())

@@ -100,12 +100,10 @@ def growth(results):
             ("CGAL Delaunay_mesher_2", against_triangles(results.stages("Triangulate", "Delaunay_mesher_2"), "seconds"),
              True),
             ("multigrid-pcg", solver("multigrid-pcg", "seconds"), False),
-            ("cholmod-supernodal", solver("cholmod-supernodal", "seconds"), True),
             ("simplicial-llt", solver("simplicial-llt", "seconds"), True)]
     memory = [("droplet-shape, whole process", against_triangles(ours, "peak_bytes"), False),
               ("FreeFem++, whole process", against_triangles(theirs, "peak_bytes"), False),
               ("multigrid-pcg", solver("multigrid-pcg", "peak_bytes"), False),
-              ("cholmod-supernodal", solver("cholmod-supernodal", "peak_bytes"), True),
               ("simplicial-llt", solver("simplicial-llt", "peak_bytes"), True)]
     error = [("droplet-shape, volume", solver("multigrid-pcg", "volume_error", "disc"), False),
              ("FreeFem++, volume", against_triangles(results.data["freefem_disc"].values(), "volume_error"), False),

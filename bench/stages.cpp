@@ -30,7 +30,6 @@ struct SolverCase {
 
 constexpr std::array kSolvers = {
     SolverCase{"simplicial-llt", Solver::Llt, 1'000'000, 400'000},
-    SolverCase{"cholmod-supernodal", Solver::Cholmod, 4'000'000, 1'000'000},
     SolverCase{"multigrid-pcg", Solver::Multigrid, 4'000'000, 4'000'000},
 };
 

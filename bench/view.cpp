@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/picture/evening_road.h"
+#include "droplet/windshield/presets.h"
 
 namespace {
 
@@ -91,7 +91,7 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
     options.samples = samples;
     options.shape.contact_angle = parameters.forces.wetting.contact_angle;
     DriversView view(parameters.glass, options);
-    const std::vector<Picture> roads{eveningRoad(), eveningRoad({.travelled = 2.0})};
+    const std::vector<Picture> roads{defaultBackground(options), defaultBackground(options, 2.0)};
     WindshieldState state = begin_state;
     view.lookAt(roads[0]);
     view.show(state);

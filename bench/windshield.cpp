@@ -22,7 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/windshield/presets.h"
 #include "memory.h"
+#include "windshield/still_droplets.h"
 
 namespace {
 
@@ -70,12 +72,12 @@ WindshieldState scattered(const WindshieldParameters& p, std::size_t running, st
         state.droplets.push_back({state.next_id++, place, {0.0, 0.05}, (2.0 + 10.0 * uniform(bits)) * 1e-9, 0.0, 0});
         state.rained.add(state.droplets.back().volume);
     }
-    StillDroplets& s = state.still;
+    StillCells& s = StillCells::of(state.still);
     for (std::size_t k = 0; k < still; ++k) {
         const Vec2 place{size.x * uniform(bits), size.y * uniform(bits)};
         const std::size_t number =
             static_cast<std::size_t>(place.y / s.cell) * s.columns + static_cast<std::size_t>(place.x / s.cell);
-        if (s.counts[number] < StillDroplets::kMost) {
+        if (s.counts[number] < StillCells::kMost) {
             const double volume = (0.02 + 0.38 * uniform(bits)) * 1e-9;
             s.put(number, {place, volume});
             state.rained.add(volume);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "animate_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <filesystem>
@@ -194,15 +195,11 @@ private:
             render.stand = droplet::groundMesh(sequence_.droplet.solve.ground, render.extent);
             render.frames_stand = false;
         }
-        std::ostringstream caption;
-        caption << "frame " << number + 1 << ": " << std::setprecision(3);
-        if (report.pressure) {
-            caption << *report.pressure << " Pa, ";
-        } else {
-            caption << report.droplets.size() << " droplets, ";
-        }
-        caption << report.total.height_max / droplet::kMillimetre << " mm high";
-        tiles_.push_back({droplet::render(frame_->droplet.surface, render), caption.str()});
+        const std::string what = report.pressure ? fmt::format("{:.3g} Pa", *report.pressure)
+                                                 : fmt::format("{} droplets", report.droplets.size());
+        tiles_.push_back({droplet::render(frame_->droplet.surface, render),
+                          fmt::format("frame {}: {}, {:.3g} mm high", number + 1, what,
+                                      report.total.height_max / droplet::kMillimetre)});
     }
 
     [[nodiscard]] droplet::Picture sheet()
@@ -268,9 +265,7 @@ private:
 
 std::string inMicrolitres(double volume)
 {
-    std::ostringstream text;
-    text << std::setprecision(4) << volume / droplet::kMicrolitre << " uL";
-    return text.str();
+    return fmt::format("{:.4g} uL", volume / droplet::kMicrolitre);
 }
 
 std::string summaryOf(const droplet::SequenceReport& report, bool verbose)

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "droplet/version.h"
+#include "common_options.h"
 #include "files.h"
 
 namespace cli {
@@ -111,11 +111,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     CommandLine line(commandText());
     declareAnimate(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        return line.help();
-    }
-    if (line.flag("--version")) {
-        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    if (const auto text = textAskedFor(line)) {
+        return *text;
     }
     AnimateOptions options;
     options.footprint = readFootprint(line);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/picture/evening_road.h"
 #include "files.h"
 
 namespace cli {
@@ -111,12 +110,11 @@ std::optional<Picture> Background::next(double travelled)
     if (options_.path) {
         return std::exchange(picture_, std::nullopt);
     }
-    droplet::RoadOptions road;
-    road.width = width_;
-    road.height = height_;
-    road.field_of_view = options_.field_of_view;
-    road.travelled = travelled;
-    return droplet::eveningRoad(road);
+    droplet::ViewOptions view;
+    view.width = width_;
+    view.height = height_;
+    view.field_of_view = options_.field_of_view;
+    return droplet::defaultBackground(view, travelled);
 }
 
 void Background::skip(std::size_t frames)

@@ -10,6 +10,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
+#include "droplet/windshield/state_bytes.h"
 #include "files.h"
 
 namespace cli {

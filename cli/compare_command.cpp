@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compare_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "droplet/compare/compare.h"
 #include "droplet/compare/comparison_report.h"
 #include "droplet/error.h"
@@ -24,7 +24,6 @@
 #include "droplet/picture/picture.h"
 #include "droplet/picture/render.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
 #include "files.h"
 #include "option_values.h"
 #include "terminal.h"
@@ -77,13 +76,7 @@ void declare(CommandLine& line)
              "draw A with how far it lies outside B, or inside,\n"
              "in colours: .png; - is standard output");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
-    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
-    line.add(kRun, "--config", "FILE",
-             "take options from lines such as tolerance = \"0.01mm\";\n"
-             "the command line goes before them");
-    line.addFlag(kRun, "-h,--help", "print this help");
-    line.addFlag(kRun, "--version", "print the version");
+    declareCommon(line, kRun, "tolerance = \"0.01mm\"");
 }
 
 /// A share in per cent: of a bare number it is a guess whether it is one.
@@ -127,10 +120,7 @@ Options readOptions(const CommandLine& line)
         }
         options.picture = picture->text;
     }
-    constexpr std::size_t kMostThreads = 1024;  // as of all commands
-    if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMostThreads, "1024");
-    }
+    options.threads = readThreads(line);
     options.files.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     return options;
@@ -138,22 +128,16 @@ Options readOptions(const CommandLine& line)
 
 // -------------------------------------------------------------------------------------------------- the table
 
-std::string text(const char* format, double value)
-{
-    std::array<char, 350> room{};
-    std::snprintf(room.data(), room.size(), format, value);
-    return room.data();
-}
-
 std::string millimetres(double metres)
 {
-    return text("%.4g", metres / droplet::kMillimetre) + " mm";
+    return fmt::format("{:.4g}", metres / droplet::kMillimetre) + " mm";
 }
 
 std::string place(droplet::Vec3 p)
 {
-    return "(" + text("%.4g", p.x / droplet::kMillimetre) + ", " + text("%.4g", p.y / droplet::kMillimetre) + ", " +
-           text("%.4g", p.z / droplet::kMillimetre) + ") mm";
+    return "(" + fmt::format("{:.4g}", p.x / droplet::kMillimetre) + ", " +
+           fmt::format("{:.4g}", p.y / droplet::kMillimetre) + ", " +
+           fmt::format("{:.4g}", p.z / droplet::kMillimetre) + ") mm";
 }
 
 /// A row of the table: columns of one width, by characters, not bytes.
@@ -171,7 +155,7 @@ std::string row(const std::vector<std::string>& cells)
 
 std::string shareOf(double a, double b)
 {
-    return a != 0.0 ? text("%+.3g", 100.0 * (b - a) / std::abs(a)) + " %" : "";
+    return a != 0.0 ? fmt::format("{:+.3g}", 100.0 * (b - a) / std::abs(a)) + " %" : "";
 }
 
 std::string topologyOf(const droplet::Topology& topology)
@@ -189,14 +173,15 @@ std::string table(const droplet::Comparison& found)
     const double square = droplet::kMillimetre * droplet::kMillimetre;
     std::string lines = row({"", "A", "B", "B − A"});
     lines += row({"triangles", std::to_string(a.triangles), std::to_string(b.triangles)});
-    lines += row({"area", text("%.5g", a.area / square) + " mm²", text("%.5g", b.area / square) + " mm²",
-                  shareOf(a.area, b.area)});
-    lines += row({"volume", text("%.5g", a.volume / droplet::kMicrolitre) + " µL",
-                  text("%.5g", b.volume / droplet::kMicrolitre) + " µL", shareOf(a.volume, b.volume)});
+    lines += row({"area", fmt::format("{:.5g}", a.area / square) + " mm²",
+                  fmt::format("{:.5g}", b.area / square) + " mm²", shareOf(a.area, b.area)});
+    lines += row({"volume", fmt::format("{:.5g}", a.volume / droplet::kMicrolitre) + " µL",
+                  fmt::format("{:.5g}", b.volume / droplet::kMicrolitre) + " µL", shareOf(a.volume, b.volume)});
     if (a.contact_angle && b.contact_angle) {
-        lines += row({"contact angle", text("%.2f", a.contact_angle->mean / droplet::kDegree) + "°",
-                      text("%.2f", b.contact_angle->mean / droplet::kDegree) + "°",
-                      text("%+.2g", (b.contact_angle->mean - a.contact_angle->mean) / droplet::kDegree) + "°"});
+        lines +=
+            row({"contact angle", fmt::format("{:.2f}", a.contact_angle->mean / droplet::kDegree) + "°",
+                 fmt::format("{:.2f}", b.contact_angle->mean / droplet::kDegree) + "°",
+                 fmt::format("{:+.2g}", (b.contact_angle->mean - a.contact_angle->mean) / droplet::kDegree) + "°"});
     }
     lines +=
         row({"topology", topologyOf(a.topology), topologyOf(b.topology), found.same_topology ? "same" : "differs"});
@@ -209,7 +194,7 @@ std::string table(const droplet::Comparison& found)
     over("  to", [](const droplet::SurfaceDistance& d) { return millimetres(d.upper); });
     over("  rms", [](const droplet::SurfaceDistance& d) { return millimetres(d.rms); });
     over("  mean", [](const droplet::SurfaceDistance& d) { return millimetres(d.mean); });
-    const auto angle = [](double radians) { return text("%.3g", radians / droplet::kDegree) + "°"; };
+    const auto angle = [](double radians) { return fmt::format("{:.3g}", radians / droplet::kDegree) + "°"; };
     lines +=
         row({"normals, rms", angle(found.normals_of_a.rms), angle(found.normals_of_b.rms), angle(found.normals.rms)});
     lines += row({"  largest", angle(found.normals_of_a.largest), angle(found.normals_of_b.largest),
@@ -238,12 +223,8 @@ int runCompare(int argc, const char* const* argv)
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        print(line.help());
-        return 0;
-    }
-    if (line.flag("--version")) {
-        print("droplet-shape " + std::string(droplet::kVersion) + "\n");
+    if (const auto text = textAskedFor(line)) {
+        print(*text);
         return 0;
     }
     const Options options = readOptions(line);

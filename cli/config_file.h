@@ -13,8 +13,8 @@ struct ConfigEntry {
     int line = 0;
 };
 
-/// Reads the flat part of TOML that options need: `key = value` lines and comments; strings, numbers and booleans.
-/// What it does not read it refuses, so that nothing in a file is passed over in silence.
+/// Reads TOML, of which options need no tables, arrays or dates: what it does not read it refuses, so that nothing in a
+/// file is passed over in silence. A number is given by its value, in the fewest digits that tell it.
 /// @throws droplet::Error InvalidArgument, naming file and line
 std::vector<ConfigEntry> readConfig(const std::string& path);
 

@@ -21,7 +21,7 @@ _droplet_shape()
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
         --volume-mode) choices='total track' ;;
-        --solver) choices='auto llt cholmod multigrid' ;;
+        --solver) choices='auto llt multigrid' ;;
         --view) choices='three-quarter top side' ;;
         --colour) choices='look contours contact-angle' ;;
         --align) choices='start centre end' ;;

@@ -228,9 +228,11 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
         settings.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
     }
     if (const auto solver = line.value("--solver")) {
+        if (solver->text == "cholmod") {
+            refuse(solver->subject + ": 'cholmod' is no longer built in, llt factors the same matrix");
+        }
         settings.droplet.solve.solver = choice<droplet::Solver>(*solver, {{"auto", droplet::Solver::Auto},
                                                                           {"llt", droplet::Solver::Llt},
-                                                                          {"cholmod", droplet::Solver::Cholmod},
                                                                           {"multigrid", droplet::Solver::Multigrid}});
     }
 }
@@ -311,8 +313,7 @@ void declareRun(CommandLine& line)
     line.addFlag(kGroup, "--no-clobber", "do not replace existing files");
     line.add(kGroup, "--solver", "NAME",
              "of the linear system: auto, whichever is fastest; llt,\n"
-             "Eigen's factorisation; cholmod, CHOLMOD's; multigrid,\n"
-             "by iteration [auto]");
+             "Eigen's factorisation; multigrid, by iteration [auto]");
     line.add(kGroup, "-j,--threads", "N", "use at most N threads [all cores]");
     line.addFlag(kGroup, "-q,--quiet", "say nothing but errors");
     line.addFlag(kGroup, "-v,--verbose", "say more: every droplet, times, memory");

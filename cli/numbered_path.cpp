@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numbered_path.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -55,9 +57,7 @@ std::optional<NumberedPath> NumberedPath::of(const std::string& text, const std:
 
 std::string NumberedPath::nameAt(std::size_t number) const
 {
-    std::string digits = std::to_string(number);
-    digits.insert(0, digits_ - std::min(digits_, digits.size()), '0');
-    return before_ + digits + after_;
+    return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
 }
 
 std::string NumberedPath::at(std::size_t number) const
@@ -127,9 +127,9 @@ std::vector<std::pair<std::size_t, std::string>> NumberedPath::existing() const
     for (const std::size_t number : numbers) {
         const std::size_t expected = numbers.front() + files.size();
         if (number != expected) {
-            throw droplet::Error(droplet::ErrorCode::InvalidInput, at(expected) + " is missing; frames go from " +
-                                                                       std::to_string(numbers.front()) + " to " +
-                                                                       std::to_string(numbers.back()));
+            throw droplet::Error(
+                droplet::ErrorCode::InvalidInput,
+                fmt::format("{} is missing; frames go from {} to {}", at(expected), numbers.front(), numbers.back()));
         }
         files.emplace_back(number, at(number));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "option_values.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,7 +18,7 @@ void refuse(const std::string& message)
 
 void refuse(const Given& given, const std::string& constraint)
 {
-    refuse(given.subject + ": '" + given.text + "' must be " + constraint);
+    refuse(fmt::format("{}: '{}' must be {}", given.subject, given.text, constraint));
 }
 
 double quantity(const Given& given, const Range& range)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preview.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
-#include <iomanip>
 #include <numbers>
-#include <sstream>
 
 #include "droplet/picture/paint.h"
 
@@ -43,10 +43,9 @@ void readSize(const Given& given, PreviewOptions& options)
 std::string numbered(const std::string& path, std::size_t number, std::size_t count)
 {
     const std::filesystem::path whole(path);
-    std::ostringstream digits;
-    digits << std::setfill('0')
-           << std::setw(std::max<int>(kFewestDigits, static_cast<int>(std::to_string(count).size()))) << number;
-    return (whole.parent_path() / whole.stem()).string() + "-" + digits.str() + whole.extension().string();
+    const auto digits = std::max<std::size_t>(kFewestDigits, std::to_string(count).size());
+    return fmt::format("{}-{:0{}}{}", (whole.parent_path() / whole.stem()).string(), number, digits,
+                       whole.extension().string());
 }
 
 std::vector<std::string> paths(const PreviewOptions& options)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -89,10 +89,9 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
     } else if (takesOwnSize(mask, around, options)) {
         droplet.trace.width = *mask.physical_width;
         if (!(droplet.trace.width >= kLength.min && droplet.trace.width <= kLength.max)) {
-            std::ostringstream message;
-            message << "the page states a width of " << droplet.trace.width << "m, must be " << kLength.words
-                    << "; --width goes before it";
-            throw Error(ErrorCode::InvalidInput, message.str());
+            throw Error(ErrorCode::InvalidInput,
+                        fmt::format("the page states a width of {:.6g}m, must be {}; --width goes before it",
+                                    droplet.trace.width, kLength.words));
         }
     }
     const double pixel = droplet::pixelSize(mask, droplet.trace);
@@ -296,11 +295,11 @@ void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
     const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
     const double triangles = area / equilateral;
     if (triangles > static_cast<double>(kMostTriangles)) {
-        std::ostringstream message;
-        message << std::setprecision(3) << "--edge: " << edge / droplet::kMillimetre << "mm would take " << triangles
-                << " triangles on this footprint, must be at least "
-                << edge * std::sqrt(triangles / static_cast<double>(kMostTriangles)) / droplet::kMillimetre << "mm";
-        throw Error(ErrorCode::InvalidArgument, message.str());
+        const double least = edge * std::sqrt(triangles / static_cast<double>(kMostTriangles));
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("--edge: {:.3g}mm would take {:.3g} triangles on this footprint, must be at least "
+                                "{:.3g}mm",
+                                edge / droplet::kMillimetre, triangles, least / droplet::kMillimetre));
     }
 }
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "common_options.h"
 #include "droplet/io/page.h"
-#include "droplet/version.h"
 #include "files.h"
 
 namespace cli {
@@ -196,11 +196,8 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     CommandLine line(commandText());
     declareShape(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        return line.help();
-    }
-    if (line.flag("--version")) {
-        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    if (const auto text = textAskedFor(line)) {
+        return *text;
     }
     ShapeOptions options;
     options.input = line.argument("INPUT");

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "summary.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cmath>
 
 #include "droplet/units.h"
 #include "terminal.h"
@@ -15,21 +17,12 @@ using droplet::Report;
 
 std::string digits(double value, int significant = 4)
 {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", significant, value);
-    return text.data();
-}
-
-std::string fixed(double value, int decimals)
-{
-    std::array<char, 350> text{};  // the largest double has 309 digits before its point
-    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-    return text.data();
+    return fmt::format("{:.{}g}", value + 0.0, significant);
 }
 
 std::string counted(std::size_t count, const std::string& noun)
 {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string millimetres(double metres)
@@ -46,7 +39,7 @@ std::string microlitres(double cubic_metres)
 }
 std::string degrees(double radians)
 {
-    return fixed(radians / droplet::kDegree, 1) + "°";
+    return fmt::format("{:.1f}°", std::round(10.0 * radians / droplet::kDegree) / 10.0 + 0.0);
 }
 
 std::string bytes(std::uint64_t count)
@@ -73,10 +66,9 @@ std::string picture(const droplet::InputReport& input)
         alpha ? (input.inverted ? "transparent" : "opaque") : (input.inverted ? "dark" : "bright");
     const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +
                              (input.own_size ? " as it states" : "") + ", drawn with ";
-    std::string text = (input.drawn ? page : "") + std::to_string(input.width_px) + " × " +
-                       std::to_string(input.height_px) + " pixels of " + millimetres(input.pixel_size) + "; " + liquid +
-                       " is liquid (" + (alpha ? "alpha" : "luma") + "), " +
-                       (input.anti_aliased ? "anti-aliased edges" : "hard edges");
+    std::string text = fmt::format("{}{} × {} pixels of {}; {} is liquid ({}), {} edges", input.drawn ? page : "",
+                                   input.width_px, input.height_px, millimetres(input.pixel_size), liquid,
+                                   alpha ? "alpha" : "luma", input.anti_aliased ? "anti-aliased" : "hard");
     if (input.specks_dropped > 0) {
         text += "; " + counted(input.specks_dropped, "speck") + " dropped, the largest of " +
                 digits(input.largest_speck_px, 3) + " pixels";
@@ -102,9 +94,9 @@ std::string type(const droplet::InputReport& input)
 std::string shape(const Report& report)
 {
     const auto& total = report.total;
-    return microlitres(total.volume) + ", " + millimetres(total.height_max) + " high, contact angle " +
-           degrees(total.contact_angle.mean) + " (" + degrees(total.contact_angle.min) + " to " +
-           degrees(total.contact_angle.max) + ")";
+    return fmt::format("{}, {} high, contact angle {} ({} to {})", microlitres(total.volume),
+                       millimetres(total.height_max), degrees(total.contact_angle.mean),
+                       degrees(total.contact_angle.min), degrees(total.contact_angle.max));
 }
 
 std::string table(const Report& report)
@@ -115,15 +107,13 @@ std::string table(const Report& report)
     for (std::size_t i = 0; i < rows; ++i) {
         const auto& droplet = report.droplets[i];
         const auto& figures = droplet.figures;
-        std::array<char, 160> row{};
-        std::snprintf(row.data(), row.size(), "           %7zu  %5zu  %13.4g  %9.4g  %9.4g  %7.1f  %11.4g\n", i + 1,
-                      droplet.holes, figures.footprint_area / (droplet::kMillimetre * droplet::kMillimetre),
-                      figures.volume / droplet::kMicrolitre, figures.height_max / droplet::kMillimetre,
-                      figures.contact_angle.mean / droplet::kDegree, droplet.pressure);
-        text += row.data();
+        text += fmt::format("           {:7}  {:5}  {:13.4g}  {:9.4g}  {:9.4g}  {:7.1f}  {:11.4g}\n", i + 1,
+                            droplet.holes, figures.footprint_area / (droplet::kMillimetre * droplet::kMillimetre),
+                            figures.volume / droplet::kMicrolitre, figures.height_max / droplet::kMillimetre,
+                            figures.contact_angle.mean / droplet::kDegree, droplet.pressure);
     }
     if (rows < report.droplets.size()) {
-        text += "           and " + std::to_string(report.droplets.size() - rows) + " more, all in the --json report\n";
+        text += fmt::format("           and {} more, all in the --json report\n", report.droplets.size() - rows);
     }
     return text;
 }
@@ -134,15 +124,15 @@ std::string retention(const Report& report)
         return droplet.retention && droplet.retention->wouldSlide();
     });
     const std::string count = sliding == 0 ? "no droplet" : counted(static_cast<std::size_t>(sliding), "droplet");
-    return count + " would slide; pulled by " + digits(report.retention->driving_force * 1e6) + " µN, held by up to " +
-           digits(report.retention->retention_force * 1e6) + " µN";
+    return fmt::format("{} would slide; pulled by {} µN, held by up to {} µN", count,
+                       digits(report.retention->driving_force * 1e6), digits(report.retention->retention_force * 1e6));
 }
 
 std::string object(const droplet::ObjectReport& onto)
 {
-    return oneLine(onto.path) + ": " + counted(onto.droplets_laid, "droplet") + " laid on it, " +
-           std::to_string(onto.droplets_left_out) + " left out, lengths " + digits(onto.least_scale, 3) + " to " +
-           digits(onto.most_scale, 3) + " times the picture's";
+    return fmt::format("{}: {} laid on it, {} left out, lengths {} to {} times the picture's", oneLine(onto.path),
+                       counted(onto.droplets_laid, "droplet"), onto.droplets_left_out, digits(onto.least_scale, 3),
+                       digits(onto.most_scale, 3));
 }
 
 std::string gravity(const Report& report)
@@ -203,9 +193,9 @@ std::string details(const Report& report)
     text += table(report);
     std::string times;
     for (std::size_t stage = 0; stage < droplet::kStageCount; ++stage) {
-        times += std::string(name(static_cast<droplet::Stage>(stage))) + " " + fixed(report.time[stage], 3) + " s, ";
+        times += fmt::format("{} {:.3f} s, ", name(static_cast<droplet::Stage>(stage)), report.time[stage]);
     }
-    text += line("time", times + "total " + fixed(report.time_total, 3) + " s");
+    text += line("time", fmt::format("{}total {:.3f} s", times, report.time_total));
     text += line("memory", bytes(report.peak_memory) + " at most");
     return text;
 }

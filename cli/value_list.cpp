@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "value_list.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -85,14 +85,6 @@ void shareUnits(std::vector<Item>& items)
     });
 }
 
-/// A number as one would write it: sums of decimal steps have more digits than they should.
-std::string written(double value)
-{
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.12g", value);
-    return text.data();
-}
-
 using ValueOf = std::function<double(const Piece&)>;
 
 std::vector<double> valuesOf(const Given& given, const Item& item, const ValueOf& value_of)
@@ -121,7 +113,8 @@ std::vector<double> valuesOf(const Given& given, const Item& item, const ValueOf
     std::vector<double> values;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(steps); ++k) {
         const double value = from + static_cast<double>(k) * step;
-        values.push_back(same_unit ? value_of({written(value), item[0].unit}) : value);
+        // Sums of decimal steps have more digits than they should.
+        values.push_back(same_unit ? value_of({fmt::format("{:.12g}", value), item[0].unit}) : value);
     }
     return values;
 }

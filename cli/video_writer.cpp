@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video_writer.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -110,9 +112,6 @@ VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path
     if (video_ == nullptr) {
         throw Error(ErrorCode::OutputFailed, path_ + ": no room for a temporary file: " + std::strerror(errno));
     }
-    std::ostringstream rate;
-    rate.precision(12);
-    rate << options.frames_per_second;
     try {
         process_ = startFfmpeg({"ffmpeg",
                                 "-nostdin",
@@ -125,7 +124,7 @@ VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path
                                 "-s",
                                 std::to_string(options.width) + "x" + std::to_string(options.height),
                                 "-r",
-                                rate.str(),
+                                fmt::format("{:.12g}", options.frames_per_second),
                                 "-i",
                                 "-",
                                 "-an",

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wind_tunnel_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -25,44 +24,36 @@
 namespace cli {
 namespace {
 
-std::string text(const char* format, double value)
-{
-    std::array<char, 64> room{};
-    std::snprintf(room.data(), room.size(), format, value);
-    return room.data();
-}
-
 std::string share(double value)
 {
     // Rounded, so that nothing is not less than nothing.
-    const double tenths = std::round(1000.0 * value) / 10.0;
-    return text("%+.1f", tenths == 0.0 ? 0.0 : tenths) + " %";
+    return fmt::format("{:+.1f} %", std::round(1000.0 * value) / 10.0 + 0.0);
 }
 
 std::string volume(double value)
 {
-    return text("%.4g", value / droplet::kMicrolitre) + " µL";
+    return fmt::format("{:.4g}", value / droplet::kMicrolitre) + " µL";
 }
 
 /// What a slope and a hysteresis have in common.
 std::string headOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
 {
     std::string line = run.preset + ": contact angle " +
-                       text("%.4g", run.swept.model.wetting.contact_angle / droplet::kDegree) + "°, slope " +
-                       text("%.4g", of.slope / droplet::kDegree) + "°, ";
+                       fmt::format("{:.4g}", run.swept.model.wetting.contact_angle / droplet::kDegree) + "°, slope " +
+                       fmt::format("{:.4g}", of.slope / droplet::kDegree) + "°, ";
     if (const auto& angle = run.swept.model.wetting.falling_angle) {
-        line += "falling angle " + text("%.4g", *angle / droplet::kDegree) + "° of every droplet";
+        line += "falling angle " + fmt::format("{:.4g}", *angle / droplet::kDegree) + "° of every droplet";
     } else {
-        line += "hysteresis " + text("%.3g", of.hysteresis);
+        line += "hysteresis " + fmt::format("{:.3g}", of.hysteresis);
         if (run.falling_angle) {
-            line += " (falling angle " + text("%.4g", *run.falling_angle / droplet::kDegree) + "° of " +
+            line += " (falling angle " + fmt::format("{:.4g}", *run.falling_angle / droplet::kDegree) + "° of " +
                     volume(*run.falling_volume) + ")";
         }
     }
     if (of.critical_volume) {
         const double radius = of.cap.contact_radius * std::cbrt(*of.critical_volume / of.cap.volume);
         line += "; without wind droplets run down from " + volume(*of.critical_volume) + ", contact radius " +
-                text("%.3g", radius / droplet::kMillimetre) + " mm";
+                fmt::format("{:.3g}", radius / droplet::kMillimetre) + " mm";
     }
     return line + "\n";
 }
@@ -72,14 +63,14 @@ std::string lineOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
     const droplet::Thresholds& found = of.thresholds;
     std::string line = "  " + volume(of.cap.volume) + ": ";
     if (!found.upper) {
-        line += found.lower ? "still from " + text("%.2f", *found.lower) + " m/s on" : "no wind moves it";
+        line += found.lower ? "still from " + fmt::format("{:.2f}", *found.lower) + " m/s on" : "no wind moves it";
         return line + "\n";
     }
-    line += found.lower ? "still from " + text("%.2f", *found.lower) + " to " : "still up to ";
-    line += text("%.2f", *found.upper) + " m/s";
+    line += found.lower ? "still from " + fmt::format("{:.2f}", *found.lower) + " to " : "still up to ";
+    line += fmt::format("{:.2f}", *found.upper) + " m/s";
     if (const auto distance = run.measured ? distanceFrom(*run.measured, found) : std::nullopt) {
         line += ", " + share(distance->lower) + " and " + share(distance->upper) + " off the measured " +
-                text("%.3g", run.measured->from) + " to " + text("%.3g", run.measured->to) + " m/s";
+                fmt::format("{:.3g}", run.measured->from) + " to " + fmt::format("{:.3g}", run.measured->to) + " m/s";
     }
     return line + "\n";
 }

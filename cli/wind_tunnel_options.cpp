@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "command_line.h"
-#include "droplet/version.h"
+#include "common_options.h"
 #include "droplet/wind_io/chart.h"
 #include "force_options.h"
 #include "option_values.h"
@@ -81,13 +81,7 @@ void declare(CommandLine& line)
     constexpr const char* kRun = "Run";
     line.add(kRun, "--json", "FILE", "write all of it as JSON; - is standard output");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
-    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
-    line.add(kRun, "--config", "FILE",
-             "take options from lines such as slope = \"45deg\";\n"
-             "the command line goes before them");
-    line.addFlag(kRun, "-h,--help", "print this help");
-    line.addFlag(kRun, "--version", "print the version");
+    declareCommon(line, kRun, "slope = \"45deg\"");
     line.exclude({"--hysteresis", "--falling-angle"});
 }
 
@@ -322,11 +316,8 @@ std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const cha
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        return line.help();
-    }
-    if (line.flag("--version")) {
-        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    if (const auto text = textAskedFor(line)) {
+        return *text;
     }
     WindTunnelOptions options;
     readOutputs(line, options);
@@ -336,10 +327,7 @@ std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const cha
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }
-    constexpr std::size_t kMostThreads = 1024;  // as of all commands
-    if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMostThreads, "1024");
-    }
+    options.threads = readThreads(line);
     options.files.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     check(options);

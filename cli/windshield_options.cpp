@@ -8,8 +8,10 @@
 #include <set>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "droplet/windshield/presets.h"
 #include "files.h"
 #include "force_options.h"
 #include "option_values.h"
@@ -115,13 +117,7 @@ void declare(CommandLine& line)
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "go on where a run of the same options was interrupted");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
-    line.add(kRun, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(kRun, "-q,--quiet", "say nothing but errors");
-    line.add(kRun, "--config", "FILE",
-             "take options from lines such as rain = \"5mm/h\";\n"
-             "the command line goes before them");
-    line.addFlag(kRun, "-h,--help", "print this help");
-    line.addFlag(kRun, "--version", "print the version");
+    declareCommon(line, kRun, "rain = \"5mm/h\"");
     line.exclude({"--resume", "--no-clobber"});
 }
 
@@ -307,11 +303,8 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        return line.help();
-    }
-    if (line.flag("--version")) {
-        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    if (const auto text = textAskedFor(line)) {
+        return *text;
     }
     WindshieldOptions options;
     readCar(line, options);
@@ -329,10 +322,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }
-    constexpr std::size_t kMostThreads = 1024;  // as of all commands
-    if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMostThreads, "1024");
-    }
+    options.threads = readThreads(line);
     options.output_options.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     // Options that tell how to go about it, or how far, are no part of what is shown.

@@ -14,27 +14,30 @@ inline constexpr std::size_t kBlock = 16384;
 
 /// Calls work(begin, end) for every block of [0, count), in parallel if there are several.
 template <typename Work>
-void forBlocks(std::size_t count, const Work& work)
+void forBlocks(std::size_t count, const Work& work, std::size_t length = kBlock)
 {
-    if (count <= kBlock) {
+    if (count <= length) {
         work(std::size_t{0}, count);
         return;
     }
-    tbb::parallel_for(std::size_t{0}, (count + kBlock - 1) / kBlock,
-                      [&](std::size_t b) { work(b * kBlock, std::min(count, (b + 1) * kBlock)); });
+    tbb::parallel_for(std::size_t{0}, (count + length - 1) / length,
+                      [&](std::size_t b) { work(b * length, std::min(count, (b + 1) * length)); });
 }
 
 /// What map(begin, end) returns for every block of [0, count), in their order: summed up, the same at any number of
 /// threads.
 template <typename Result, typename Map>
-std::vector<Result> mapBlocks(std::size_t count, const Map& map)
+std::vector<Result> mapBlocks(std::size_t count, const Map& map, std::size_t length = kBlock)
 {
-    std::vector<Result> results((count + kBlock - 1) / kBlock);
-    forBlocks(count, [&](std::size_t begin, std::size_t end) {
-        if (begin < end) {
-            results[begin / kBlock] = map(begin, end);
-        }
-    });
+    std::vector<Result> results((count + length - 1) / length);
+    forBlocks(
+        count,
+        [&](std::size_t begin, std::size_t end) {
+            if (begin < end) {
+                results[begin / length] = map(begin, end);
+            }
+        },
+        length);
     return results;
 }
 

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/droplet.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "droplet/error.h"
 #include "droplet/shape/spread.h"
 #include "droplet/units.h"
+#include "number_text.h"
 #include "pipeline.h"
 #include "shape/cap.h"
 
 namespace droplet {
 namespace {
 
-std::string rounded(double value, int digits = 3)
+std::string rounded(double value)
 {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-    return text.data();
+    return numberText(value, 3);
 }
 
 std::string percent(double share)
@@ -116,11 +113,11 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
     switch (report.termination) {
         case Termination::NoHeightField:
             return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
-                   rounded(report.largest_volume / kMicrolitre, 4) +
+                   numberText(report.largest_volume / kMicrolitre, 4) +
                    " uL, beyond it the liquid hangs over its rim; ask for less";
         case Termination::Unstable:
-            return which + "gravity pulls such a droplet off: its Bond number is " + rounded(report.bond_number, 4) +
-                   ", and at most " + rounded(report.critical_bond_number, 4) +
+            return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
+                   ", and at most " + numberText(report.critical_bond_number, 4) +
                    " holds on this footprint; ask for less gravity or a smaller width";
         case Termination::NotConverged:
         case Termination::Converged:

@@ -11,18 +11,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
 
 [[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
 {
-    std::ostringstream message;
-    message << field << " is " << value << ", must be " << constraint;
-    throw Error(ErrorCode::InvalidArgument, message.str());
+    throw Error(ErrorCode::InvalidArgument, fmt::format("{} is {}, must be {}", field, numberText(value), constraint));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "utf8.h"
 
-#include <array>
+#include <fmt/core.h>
+
 #include <cstddef>
-#include <cstdio>
+#include <cstdint>
 
 #include "droplet/error.h"
 
@@ -71,9 +72,7 @@ std::string encodeUtf8(char32_t c)
 
 std::string codePointOf(char32_t c)
 {
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "U+%04lX", static_cast<unsigned long>(c));
-    return text.data();
+    return fmt::format("U+{:04X}", static_cast<std::uint32_t>(c));
 }
 
 }  // namespace droplet

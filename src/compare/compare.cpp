@@ -20,6 +20,7 @@
 
 #include "compare/hausdorff.h"
 #include "droplet/error.h"
+#include "number_text.h"
 #include "rays/nearest.h"
 
 namespace droplet {
@@ -360,10 +361,10 @@ void check(const CompareOptions& options)
         throw Error(ErrorCode::InvalidArgument, "compare options: " + what);
     };
     if (!(options.share > 0.0 && options.share < 1.0)) {
-        refuse("share = " + std::to_string(options.share) + " must be over 0 and under 1");
+        refuse("share = " + numberText(options.share) + " must be over 0 and under 1");
     }
     if (options.tolerance && !(*options.tolerance >= 0.0 && std::isfinite(*options.tolerance))) {
-        refuse("tolerance = " + std::to_string(*options.tolerance) + " must be finite and not negative");
+        refuse("tolerance = " + numberText(*options.tolerance) + " must be finite and not negative");
     }
 }
 

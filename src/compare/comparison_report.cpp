@@ -3,14 +3,13 @@
 // The names are the contract of the schema droplet-shape.compare/1: keys may be added, none renamed or left out.
 #include "droplet/compare/comparison_report.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -72,13 +71,6 @@ std::optional<double> share(double a, double b)
     return a != 0.0 ? std::optional((b - a) / std::abs(a)) : std::nullopt;
 }
 
-std::string digits(double value)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
-
 std::string inWords(const Topology& topology)
 {
     if (!topology.manifold) {
@@ -100,20 +92,20 @@ std::vector<std::string> exceeded(const Comparison& comparison, const Tolerances
                         inWords(comparison.b.topology));
     }
     if (tolerances.distance && !(comparison.symmetric.upper <= *tolerances.distance)) {
-        lines.push_back("the largest distance of " + digits(comparison.symmetric.upper / kMillimetre) + " mm is over " +
-                        digits(*tolerances.distance / kMillimetre) + " mm");
+        lines.push_back("the largest distance of " + numberText(comparison.symmetric.upper / kMillimetre) +
+                        " mm is over " + numberText(*tolerances.distance / kMillimetre) + " mm");
     }
     const std::optional<double> volume = comparison.relativeVolume();
     const bool volumes_differ =
         volume ? !(std::abs(*volume) <= tolerances.volume.value_or(0.0)) : comparison.b.volume != 0.0;
     if (tolerances.volume && volumes_differ) {
         lines.push_back("the difference in volume of " +
-                        (volume ? digits(100.0 * *volume) + " %" : "something from nothing") + " is over " +
-                        digits(100.0 * *tolerances.volume) + " %");
+                        (volume ? numberText(100.0 * *volume) + " %" : "something from nothing") + " is over " +
+                        numberText(100.0 * *tolerances.volume) + " %");
     }
     if (tolerances.normals && !(comparison.normals.rms <= *tolerances.normals)) {
-        lines.push_back("the rms angle between normals of " + digits(comparison.normals.rms / kDegree) +
-                        " deg is over " + digits(*tolerances.normals / kDegree) + " deg");
+        lines.push_back("the rms angle between normals of " + numberText(comparison.normals.rms / kDegree) +
+                        " deg is over " + numberText(*tolerances.normals / kDegree) + " deg");
     }
     return lines;
 }

@@ -12,6 +12,7 @@
 
 #include "droplet/error.h"
 #include "image/image.h"
+#include "number_text.h"
 
 namespace droplet {
 
@@ -229,7 +230,7 @@ void Mask::validate() const
                     "mask size " + std::to_string(width) + " x " + std::to_string(height) + " must be at least 1 x 1");
     }
     if (drawn_scale && !(*drawn_scale > 0.0 && std::isfinite(*drawn_scale))) {
-        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + std::to_string(*drawn_scale) + " must be positive");
+        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + numberText(*drawn_scale) + " must be positive");
     }
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (coverage.size() != pixels) {

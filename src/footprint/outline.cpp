@@ -22,6 +22,7 @@
 #include "footprint/corners.h"
 #include "footprint/fairing.h"
 #include "footprint/slot.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -445,19 +446,12 @@ CorneredLoop fairWithCorners(const SlotLoop& measured, const Coverage& coverage)
 
 void TraceOptions::validate() const
 {
-    const auto fail = [](const std::string& message) { throw Error(ErrorCode::InvalidArgument, message); };
-    if (!(threshold > 0.0 && threshold < 1.0)) {
-        fail("threshold " + std::to_string(threshold) + " must lie between 0 and 1");
+    require(threshold > 0.0 && threshold < 1.0, "threshold", threshold, "between 0 and 1");
+    require(width > 0.0 && std::isfinite(width), "width", width, "finite and more than 0 m");
+    if (pixel_size) {
+        require(*pixel_size > 0.0 && std::isfinite(*pixel_size), "pixel_size", *pixel_size, "finite and more than 0 m");
     }
-    if (!(width > 0.0 && std::isfinite(width))) {
-        fail("width " + std::to_string(width) + " m must be positive");
-    }
-    if (pixel_size && !(*pixel_size > 0.0 && std::isfinite(*pixel_size))) {
-        fail("pixel_size " + std::to_string(*pixel_size) + " m must be positive");
-    }
-    if (!(speck_size >= 0.0 && std::isfinite(speck_size))) {
-        fail("speck_size " + std::to_string(speck_size) + " px² must not be negative");
-    }
+    require(speck_size >= 0.0 && std::isfinite(speck_size), "speck_size", speck_size, "finite and at least 0 px²");
 }
 
 double signedArea(const Loop& loop)

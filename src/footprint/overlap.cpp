@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -89,9 +90,7 @@ std::vector<Stretch> stretchesOf(const std::vector<Crossing>& crossings)
 
 std::vector<Overlap> overlaps(const Domain& first, const Domain& second, double row)
 {
-    if (!(row > 0.0 && std::isfinite(row))) {
-        throw Error(ErrorCode::InvalidArgument, "row " + std::to_string(row) + " m must be positive");
-    }
+    require(row > 0.0 && std::isfinite(row), "row", row, "finite and more than 0 m");
     const Rows of_first = rowsOf(first, row);
     const Rows of_second = rowsOf(second, row);
     std::map<std::pair<std::size_t, std::size_t>, double> areas;

@@ -11,6 +11,7 @@
 #include "droplet/error.h"
 #include "image/image.h"
 #include "image/image_file.h"
+#include "number_text.h"
 
 namespace droplet {
 
@@ -29,7 +30,7 @@ void HeightMap::validate() const
     const auto wrong = std::find_if(levels.begin(), levels.end(), [](float level) { return !std::isfinite(level); });
     if (wrong != levels.end()) {
         const auto index = static_cast<std::size_t>(wrong - levels.begin());
-        throw Error(ErrorCode::InvalidInput, "height map holds " + std::to_string(*wrong) + " at pixel (" +
+        throw Error(ErrorCode::InvalidInput, "height map holds " + numberText(*wrong) + " at pixel (" +
                                                  std::to_string(index % columns) + ", " +
                                                  std::to_string(index / columns) + "); heights must be finite");
     }

@@ -28,6 +28,7 @@
 #include "droplet/units.h"
 #include "image/codecs.h"
 #include "image/image_bytes.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -292,7 +293,7 @@ Raster rasterOf(const Document::Page& page, const DecodeOptions& options)
         width -= 1.0;
     }
     if (!(height() <= kLongestSide && width * height() <= most)) {
-        throwRefused("has a page of " + std::to_string(page.width) + " x " + std::to_string(page.height) +
+        throwRefused("has a page of " + numberText(page.width) + " x " + numberText(page.height) +
                      ", too narrow to be drawn in " + std::to_string(options.max_pixels) + " pixels");
     }
     return {static_cast<int>(width), static_cast<int>(height()), width / page.width};

@@ -19,6 +19,7 @@
 #include "io/axes.h"
 #include "io/byte_stream.h"
 #include "io/gltf_model.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -311,13 +312,9 @@ struct Animation::Content {
 
 void AnimationOptions::validate() const
 {
-    if (!(frames_per_second > 0.0 && std::isfinite(frames_per_second))) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "frames_per_second " + std::to_string(frames_per_second) + " must be positive");
-    }
-    if (frames && *frames == 0) {
-        throw Error(ErrorCode::InvalidArgument, "frames 0 must be at least 1");
-    }
+    require(frames_per_second > 0.0 && std::isfinite(frames_per_second), "frames_per_second", frames_per_second,
+            "finite and more than 0");
+    require(frames != 0, "frames", 0, "at least 1");
 }
 
 Animation::Animation(const AnimationOptions& options) : content_(std::make_unique<Content>())

@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 
 [[noreturn]] inline void refuseFloat(double value)
 {
-    throw Error(ErrorCode::InvalidArgument, "surface holds " + std::to_string(value) + ", which a 32-bit float cannot");
+    throw Error(ErrorCode::InvalidArgument, "surface holds " + numberText(value) + ", which a 32-bit float cannot");
 }
 
 /// The nearest float. @throws Error InvalidArgument beyond float's range

@@ -16,6 +16,7 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -402,8 +403,8 @@ PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
 {
     const std::uint32_t on_rim = mesh.rimVertexCount();
     if (rim.size() != on_rim) {
-        throw Error(ErrorCode::InvalidArgument, "rim must have as many vertices as the mesh's: " +
-                                                    std::to_string(rim.size()) + " against " + std::to_string(on_rim));
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("rim must have as many vertices as the mesh's: {} against {}", rim.size(), on_rim));
     }
     PlanarMesh moved = mesh;
     moved.lattice = {};

@@ -9,6 +9,7 @@
 #include "droplet/mesh/planar_mesh.h"
 #include "mesh/lattice.h"
 #include "mesh/lattice_triangles.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -23,7 +24,7 @@ void validatePlaces(const PlanarMesh& mesh)
 {
     const Lattice& lattice = *mesh.lattice;
     if (!(lattice.edge > 0.0 && std::isfinite(lattice.edge))) {
-        fail("lattice.edge " + std::to_string(lattice.edge) + " m of the mesh must be positive");
+        fail("lattice.edge " + numberText(lattice.edge) + " m of the mesh must be positive");
     }
     const LatticeGrid& grid = lattice.grid;
     if (grid.region().empty() || grid.begin() < mesh.rimVertexCount() || grid.end() != mesh.vertices.size()) {
@@ -106,8 +107,8 @@ void PlanarMesh::validate() const
             const std::uint32_t v = t[k];
             const std::uint32_t w = t[(k + 1) % 3];
             if (onRim(v) && onRim(w) && next[v] != w) {
-                fail("vertices " + std::to_string(v) + " and " + std::to_string(w) +
-                     " of the mesh are joined by an inner edge though both are on the rim");
+                fail(fmt::format(
+                    "vertices {} and {} of the mesh are joined by an inner edge though both are on the rim", v, w));
             }
         }
     }

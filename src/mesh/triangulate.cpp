@@ -23,6 +23,7 @@
 #include "mesh/band.h"
 #include "mesh/lattice_core.h"
 #include "mesh/rim_sampling.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -151,7 +152,7 @@ void TriangulateOptions::validate() const
         throw Error(ErrorCode::InvalidArgument, "triangles 0 must be at least 1");
     }
     if (edge && !(*edge > 0.0 && std::isfinite(*edge))) {
-        throw Error(ErrorCode::InvalidArgument, "edge " + std::to_string(*edge) + " m must be positive");
+        throw Error(ErrorCode::InvalidArgument, "edge " + numberText(*edge) + " m must be positive");
     }
     if (grading < 1 || grading > kMostGrading || !std::has_single_bit(static_cast<unsigned>(grading))) {
         throw Error(ErrorCode::InvalidArgument,
@@ -167,8 +168,8 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
         total_area += area(footprint);
     }
     if (options.edge && total_area / (kRoot3 / 4.0 * *options.edge * *options.edge) > kMostTriangles) {
-        throw Error(ErrorCode::InvalidArgument, "edge " + std::to_string(*options.edge) +
-                                                    " m must be longer: it would take more than 4e9 triangles");
+        throw Error(ErrorCode::InvalidArgument,
+                    "edge " + numberText(*options.edge) + " m must be longer: it would take more than 4e9 triangles");
     }
     // Half as long again as of equilateral triangles: the rim's band has more of them than its area's share.
     const double widest =

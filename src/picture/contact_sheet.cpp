@@ -10,21 +10,13 @@
 #include "droplet/error.h"
 #include "picture/ground.h"
 #include "picture/lettering.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
 
 constexpr int kLeastTile = 16;  // [px]
 constexpr std::array<std::uint8_t, 3> kPaper = {244, 243, 240};
-
-void within(const char* name, int value, int least, int most)
-{
-    if (value < least || value > most) {
-        throw Error(ErrorCode::InvalidArgument, std::string("options.") + name + " = " + std::to_string(value) +
-                                                    " must be from " + std::to_string(least) + " to " +
-                                                    std::to_string(most));
-    }
-}
 
 struct Grid {
     int columns = 1;
@@ -145,11 +137,11 @@ void ContactSheetOptions::validate() const
     constexpr int kMostSheet = 16384;
     constexpr int kLeastSheet = 256;
     if (columns) {
-        within("columns", *columns, 1, kMostColumns);
+        requireWithin("options.columns", *columns, 1, kMostColumns);
     }
-    within("tile_width", tile_width, kLeastTile, kMostTile);
-    within("tile_height", tile_height, kLeastTile, kMostTile);
-    within("most_side", most_side, kLeastSheet, kMostSheet);
+    requireWithin("options.tile_width", tile_width, kLeastTile, kMostTile);
+    requireWithin("options.tile_height", tile_height, kLeastTile, kMostTile);
+    requireWithin("options.most_side", most_side, kLeastSheet, kMostSheet);
 }
 
 Picture contactSheet(const std::vector<Tile>& tiles, const ContactSheetOptions& options)

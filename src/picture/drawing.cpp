@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <string_view>
 #include <utility>
 
 #include "droplet/error.h"
+#include "number_text.h"
+#include "picture/canvas.h"
 #include "picture/lettering.h"
 
 namespace droplet {
@@ -17,46 +18,6 @@ namespace {
 
 /// Of a font's size, what capitals of common sans-serif fonts are high.
 constexpr double kCapitals = 0.72;
-
-std::vector<std::vector<Vec2>> dashesOf(const Line& line)
-{
-    if (!(line.dash > 0.0)) {
-        return {line.points};
-    }
-    std::vector<std::vector<Vec2>> dashes;
-    bool drawn = true;
-    double left = line.dash;
-    std::vector<Vec2> dash;
-    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-        Vec2 from = line.points[i];
-        const Vec2 to = line.points[i + 1];
-        if (drawn && dash.empty()) {
-            dash.push_back(from);
-        }
-        double rest = length(to - from);
-        while (rest > left) {
-            from = from + (left / rest) * (to - from);
-            dash.push_back(from);
-            if (drawn) {
-                dashes.push_back(dash);
-                dash.clear();
-            } else {
-                dash = {from};
-            }
-            drawn = !drawn;
-            left = line.dash;
-            rest = length(to - from);
-        }
-        left -= rest;
-        if (drawn) {
-            dash.push_back(to);
-        }
-    }
-    if (dash.size() > 1) {
-        dashes.push_back(dash);
-    }
-    return dashes;
-}
 
 // --------------------------------------------------------------------------------------------------------- SVG
 
@@ -106,12 +67,10 @@ std::string svgOf(const Area& area)
 
 std::string svgOf(const Line& line)
 {
-    std::string text;
-    for (const auto& points : dashesOf(line)) {
-        text += (text.empty() ? "M" : " M") + places(points);
-    }
-    return "<path d=\"" + text + "\" fill=\"none\" stroke=\"" + hex(line.colour) + "\" stroke-width=\"" +
-           number(line.width) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
+    return "<path d=\"M" + places(line.points) + "\" fill=\"none\" stroke=\"" + hex(line.colour) +
+           "\" stroke-width=\"" + number(line.width) +
+           (line.dash > 0.0 ? "\" stroke-dasharray=\"" + number(line.dash) : "") +
+           "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n";
 }
 
 std::string svgOf(const Text& text)
@@ -129,169 +88,29 @@ std::string svgOf(const Text& text)
 
 // --------------------------------------------------------------------------------------------------------- pixels
 
-/// How much of every pixel of a part of the picture something covers.
-struct Cover {
-    int left = 0;
-    int top = 0;
-    int width = 0;
-    int height = 0;
-    std::vector<float> share;
-
-    /// Of all pixels that points are near to.
-    Cover(const Picture& picture, const std::vector<Vec2>& points, double reach)
-    {
-        Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        Vec2 high = -1.0 * low;
-        for (const Vec2& p : points) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-        const auto within = [](double value, int last) {
-            return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(last)));
-        };
-        left = within(std::floor(low.x - reach), picture.width);
-        top = within(std::floor(low.y - reach), picture.height);
-        width = within(std::ceil(high.x + reach), picture.width) - left;
-        height = within(std::ceil(high.y + reach), picture.height) - top;
-        width = std::max(width, 0);
-        height = std::max(height, 0);
-        share.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
-    }
-
-    float& at(int x, int y)
-    {
-        return share[static_cast<std::size_t>(y - top) * static_cast<std::size_t>(width) +
-                     static_cast<std::size_t>(x - left)];
-    }
-};
-
-void blend(Picture& picture, Cover& cover, const Colour& colour, double opacity)
+void draw(const Canvas& canvas, const Area& area)
 {
-    for (int y = cover.top; y < cover.top + cover.height; ++y) {
-        for (int x = cover.left; x < cover.left + cover.width; ++x) {
-            const double share = opacity * static_cast<double>(cover.at(x, y));
-            if (share > 0.0) {
-                std::uint8_t* const pixel =
-                    picture.rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                              static_cast<std::size_t>(x));
-                for (std::size_t c = 0; c < 3; ++c) {
-                    pixel[c] = static_cast<std::uint8_t>(std::lrint((1.0 - share) * pixel[c] + share * colour[c]));
-                }
-            }
-        }
-    }
+    canvas.trace(area.points);
+    canvas.fill(area.colour, area.opacity);
 }
 
-/// Where a polygon lies within a row of pixels' sixteenth: exact along the row.
-void cross(const std::vector<Vec2>& polygon, double y, std::vector<double>& crossings)
+void draw(const Canvas& canvas, const Line& line)
 {
-    crossings.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec2 a = polygon[i];
-        const Vec2 b = polygon[(i + 1) % polygon.size()];
-        if ((a.y <= y) != (b.y <= y)) {
-            crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-        }
-    }
-    std::sort(crossings.begin(), crossings.end());
+    cairo_set_dash(canvas.cairo(), &line.dash, line.dash > 0.0 ? 1 : 0, 0.0);
+    canvas.trace(line.points);
+    canvas.stroke(line.colour, line.width);
 }
 
-void draw(Picture& picture, const Area& area)
-{
-    Cover cover(picture, area.points, 0.0);
-    constexpr int kParts = 16;
-    std::vector<double> crossings;
-    for (int y = cover.top; y < cover.top + cover.height; ++y) {
-        for (int part = 0; part < kParts; ++part) {
-            cross(area.points, y + (part + 0.5) / kParts, crossings);
-            for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-                const double from = std::max<double>(crossings[i], cover.left);
-                const double to = std::min<double>(crossings[i + 1], cover.left + cover.width);
-                for (int x = static_cast<int>(from); x < to; ++x) {
-                    const double part_of_pixel = std::min<double>(to, x + 1) - std::max<double>(from, x);
-                    cover.at(x, y) += static_cast<float>(part_of_pixel / kParts);
-                }
-            }
-        }
-    }
-    blend(picture, cover, area.colour, area.opacity);
-}
-
-double away(Vec2 p, Vec2 a, Vec2 b)
-{
-    const Vec2 along = b - a;
-    const double squared = dot(along, along);
-    const double t = squared > 0.0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-    return length(p - a - t * along);
-}
-
-void draw(Picture& picture, const Line& line)
-{
-    // A line thinner than a pixel is a paler one.
-    const double opacity = std::min(1.0, line.width);
-    const double reach = 0.5 * std::max(1.0, line.width) + 0.5;
-    Cover cover(picture, line.points, reach);
-    for (const auto& points : dashesOf(line)) {
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            const Vec2 a = points[i];
-            const Vec2 b = points[i + 1];
-            const Cover part(picture, {a, b}, reach);
-            for (int y = part.top; y < part.top + part.height; ++y) {
-                for (int x = part.left; x < part.left + part.width; ++x) {
-                    const double share = std::clamp(reach - away({x + 0.5, y + 0.5}, a, b), 0.0, 1.0);
-                    float& most = cover.at(x, y);
-                    most = std::max(most, static_cast<float>(share));
-                }
-            }
-        }
-    }
-    blend(picture, cover, line.colour, opacity);
-}
-
-void draw(Picture& picture, const Text& text)
+void draw(const Canvas& canvas, const Text& text)
 {
     const double width = textWidth(text.text, text.size);
     const double shift = text.anchor == Anchor::Middle ? 0.5 : text.anchor == Anchor::End ? 1.0 : 0.0;
     const Vec2 at{text.at.x - shift * width, text.at.y};
     const double stroke = text.size * (text.bold ? 0.2 : 0.135);
     if (text.halo) {
-        drawText(picture, text.text, at, {text.size, stroke + 0.55 * text.size, {255, 255, 255}});
+        drawText(canvas, text.text, at, {text.size, stroke + 0.55 * text.size, {255, 255, 255}});
     }
-    drawText(picture, text.text, at, {text.size, stroke, text.colour});
-}
-
-Vec2 scaled(Vec2 p, double scale)
-{
-    return scale * p;
-}
-
-std::vector<Vec2> scaled(std::vector<Vec2> points, double scale)
-{
-    for (Vec2& p : points) {
-        p = scaled(p, scale);
-    }
-    return points;
-}
-
-Area scaled(Area area, double scale)
-{
-    area.points = scaled(std::move(area.points), scale);
-    return area;
-}
-
-Line scaled(Line line, double scale)
-{
-    line.points = scaled(std::move(line.points), scale);
-    line.width *= scale;
-    line.dash *= scale;
-    return line;
-}
-
-Text scaled(Text text, double scale)
-{
-    text.at = scaled(text.at, scale);
-    text.size *= scale;
-    return text;
+    drawText(canvas, text.text, at, {text.size, stroke, text.colour});
 }
 
 void move(std::vector<Vec2>& points, Vec2 by)
@@ -349,15 +168,18 @@ Picture pictureOf(const Drawing& drawing, double scale)
 {
     const double width = std::round(scale * drawing.width);
     const double height = std::round(scale * drawing.height);
-    if (!(width >= 1.0 && height >= 1.0 && width * height <= static_cast<double>(kMostPicturePixels))) {
-        throw Error(ErrorCode::InvalidArgument, "a drawing of " + number(width) + " x " + number(height) +
-                                                    " pixels must have from 1 to " +
-                                                    std::to_string(kMostPicturePixels));
+    if (!(width >= 1.0 && height >= 1.0 && std::max(width, height) <= kLongestCanvas &&
+          width * height <= static_cast<double>(kMostPicturePixels))) {
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("a drawing of {} x {} pixels must have from 1 to {}, and up to {} a side",
+                                numberText(width), numberText(height), kMostPicturePixels, kLongestCanvas));
     }
     Picture picture{static_cast<int>(width), static_cast<int>(height), {}};
     picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 255);
+    const Canvas canvas(picture, {}, {width, height});
+    cairo_scale(canvas.cairo(), scale, scale);
     for (const auto& mark : drawing.marks) {
-        std::visit([&](const auto& one) { draw(picture, scaled(one, scale)); }, mark);
+        std::visit([&](const auto& one) { draw(canvas, one); }, mark);
     }
     return picture;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/legend.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,7 @@ Vec3f linear(Vec3 colour)
 std::string number(double value, double step)
 {
     const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", digits, value == 0.0 ? 0.0 : value);
-    return text.data();
+    return fmt::format("{:.{}f}", value + 0.0, digits);
 }
 
 constexpr double kBar = 1.6;   // width of the colours, in letters' size

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "droplet/error.h"
+#include "picture/canvas.h"
+#include "utf8.h"
 
 namespace droplet {
 namespace {
@@ -128,28 +131,15 @@ constexpr double kBaseline = 2.0;
 constexpr double kGap = 1.9;  // between letters [columns]
 constexpr double kSpace = 2.0;
 
-using Stroke = std::vector<Vec2>;
+struct Stroke {
+    std::vector<Vec2> points;
+    bool smooth = false;
+};
 
 struct Shape {
     std::vector<Stroke> strokes;
     double width = kSpace;
 };
-
-Stroke smoothed(const Stroke& control)
-{
-    constexpr int kParts = 6;
-    Stroke curve{control.front()};
-    Vec2 from = control.front();
-    for (std::size_t i = 1; i + 1 < control.size(); ++i) {
-        const Vec2 to = i + 2 == control.size() ? control.back() : 0.5 * (control[i] + control[i + 1]);
-        for (int k = 1; k <= kParts; ++k) {
-            const double t = static_cast<double>(k) / kParts;
-            curve.push_back((1.0 - t) * (1.0 - t) * from + 2.0 * t * (1.0 - t) * control[i] + t * t * to);
-        }
-        from = to;
-    }
-    return curve;
-}
 
 Shape shapeOf(char32_t code)
 {
@@ -164,15 +154,13 @@ Shape shapeOf(char32_t code)
     while (!rest.empty()) {
         std::string_view text = rest.substr(0, rest.find(','));
         rest.remove_prefix(std::min(rest.size(), text.size() + 1));
-        const bool smooth = text.front() == '~';
-        Stroke points;
-        for (std::size_t i = smooth ? 1 : 0; i + 1 < text.size(); i += 3) {
-            points.push_back({static_cast<double>(text[i] - '0'), static_cast<double>(text[i + 1] - '0') - kBaseline});
+        Stroke stroke{{}, text.front() == '~'};
+        for (std::size_t i = stroke.smooth ? 1 : 0; i + 1 < text.size(); i += 3) {
+            stroke.points.push_back(
+                {static_cast<double>(text[i] - '0'), static_cast<double>(text[i + 1] - '0') - kBaseline});
+            right = std::max(right, stroke.points.back().x);
         }
-        shape.strokes.push_back(smooth ? smoothed(points) : points);
-        for (const Vec2& p : shape.strokes.back()) {
-            right = std::max(right, p.x);
-        }
+        shape.strokes.push_back(std::move(stroke));
     }
     if (!shape.strokes.empty()) {
         shape.width = right;
@@ -180,71 +168,27 @@ Shape shapeOf(char32_t code)
     return shape;
 }
 
-/// The characters of UTF-8; a broken byte is a character of its own.
+/// Lets the path go on along a quadratic B-spline.
+void curve(const Canvas& canvas, const std::vector<Vec2>& control)
+{
+    Vec2 from = control.front();
+    cairo_move_to(canvas.cairo(), from.x, from.y);
+    for (std::size_t i = 1; i + 1 < control.size(); ++i) {
+        const Vec2 to = i + 2 == control.size() ? control.back() : 0.5 * (control[i] + control[i + 1]);
+        const Vec2 first = (1.0 / 3.0) * (from + 2.0 * control[i]);
+        const Vec2 second = (1.0 / 3.0) * (to + 2.0 * control[i]);
+        cairo_curve_to(canvas.cairo(), first.x, first.y, second.x, second.y, to.x, to.y);
+        from = to;
+    }
+}
+
+/// The characters of UTF-8; of what is none, every byte.
 std::u32string characters(std::string_view text)
 {
-    std::u32string found;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xc0 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-        char32_t code = length == 1 ? lead : lead & (0x7fU >> length);
-        bool whole = length > 0 && i + length <= text.size();
-        for (std::size_t k = 1; whole && k < length; ++k) {
-            const auto next = static_cast<unsigned char>(text[i + k]);
-            whole = (next & 0xc0U) == 0x80U;
-            code = code << 6U | (next & 0x3fU);
-        }
-        found.push_back(whole ? code : U'?');
-        i += whole ? length : 1;
-    }
-    return found;
-}
-
-double away(Vec2 p, Vec2 a, Vec2 b)
-{
-    const Vec2 along = b - a;
-    const double squared = dot(along, along);
-    const double t = squared > 0.0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-    return length(p - a - t * along);
-}
-
-void drawStrokes(Picture& picture, const std::vector<Stroke>& strokes, const Pen& pen)
-{
-    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Vec2 high = -1.0 * low;
-    for (const Stroke& stroke : strokes) {
-        for (const Vec2& p : stroke) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-    }
-    const double reach = 0.5 * pen.width + 1.0;
-    const auto from = [&](double a) { return static_cast<int>(std::max(0.0, std::floor(a - reach))); };
-    const auto to = [&](double a, int last) {
-        return static_cast<int>(std::min<double>(last - 1, std::ceil(a + reach)));
-    };
-    if (strokes.empty() || !(high.x + reach > 0.0) || !(high.y + reach > 0.0)) {
-        return;
-    }
-    for (int y = from(low.y); y <= to(high.y, picture.height); ++y) {
-        for (int x = from(low.x); x <= to(high.x, picture.width); ++x) {
-            const Vec2 p{x + 0.5, y + 0.5};
-            double nearest = reach;
-            for (const Stroke& stroke : strokes) {
-                for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
-                    nearest = std::min(nearest, away(p, stroke[i], stroke[i + 1]));
-                }
-            }
-            const double cover = std::clamp(0.5 + 0.5 * pen.width - nearest, 0.0, 1.0);
-            if (cover > 0.0) {
-                std::uint8_t* pixel =
-                    picture.rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                              static_cast<std::size_t>(x));
-                for (std::size_t c = 0; c < 3; ++c) {
-                    pixel[c] = static_cast<std::uint8_t>(std::lrint((1.0 - cover) * pixel[c] + cover * pen.colour[c]));
-                }
-            }
-        }
+    try {
+        return decodeUtf8(text, "text");
+    } catch (const Error&) {
+        return {text.begin(), text.end()};
     }
 }
 
@@ -281,19 +225,31 @@ std::string fitted(std::string_view text, double size, double width)
     return textWidth(kept + kEllipsis, size) <= width ? kept + kEllipsis : std::string();
 }
 
-void drawText(Picture& picture, std::string_view text, Vec2 at, const Pen& pen)
+void drawText(const Canvas& canvas, std::string_view text, Vec2 at, const Pen& pen)
 {
     const double grid = pen.size / kCapital;
+    cairo_set_dash(canvas.cairo(), nullptr, 0, 0.0);
     for (const char32_t code : characters(text)) {
-        Shape shape = shapeOf(code);
-        for (Stroke& stroke : shape.strokes) {
-            for (Vec2& p : stroke) {
+        const Shape shape = shapeOf(code);
+        for (Stroke stroke : shape.strokes) {
+            for (Vec2& p : stroke.points) {
                 p = at + Vec2{grid * p.x, -grid * p.y};
             }
+            if (stroke.smooth) {
+                curve(canvas, stroke.points);
+            } else {
+                canvas.trace(stroke.points);
+            }
         }
-        drawStrokes(picture, shape.strokes, pen);
         at.x += grid * (shape.width + kGap);
     }
+    canvas.stroke(pen.colour, pen.width);
+}
+
+void drawText(Picture& picture, std::string_view text, Vec2 at, const Pen& pen)
+{
+    const Vec2 reach{pen.width + 1.0, 2.0 * pen.size + pen.width};
+    drawText(Canvas(picture, at - reach, at + reach + Vec2{textWidth(text, pen.size), 0.0}), text, at, pen);
 }
 
 }  // namespace droplet

@@ -11,7 +11,9 @@
 
 namespace droplet {
 
-// Letters are strokes of our own: no fonts to look for, no library to bring, and sharp at any size.
+class Canvas;
+
+// Letters are strokes of our own: a picture is the same whatever fonts are installed, or none.
 
 /// How words are drawn.
 struct Pen {
@@ -27,8 +29,9 @@ double textWidth(std::string_view text, double size);
 /// The text, or as much of it as fits into a width with an ellipsis [px].
 std::string fitted(std::string_view text, double size, double width);
 
-/// Draws a line of text, smooth at its edges; what lies beyond the picture is left out.
+/// Draws a line of text; what lies beyond the picture is left out.
 /// @param at  left end of the line the letters stand on [px], y down
 void drawText(Picture& picture, std::string_view text, Vec2 at, const Pen& pen);
+void drawText(const Canvas& canvas, std::string_view text, Vec2 at, const Pen& pen);
 
 }  // namespace droplet

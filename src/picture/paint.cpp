@@ -9,6 +9,7 @@
 #include "droplet/compare/compare.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -93,8 +94,8 @@ ColourScale divergingScale()
 void Paint::validate(std::size_t vertices) const
 {
     if (values.size() != vertices || (!share.empty() && share.size() != vertices)) {
-        refuse("values and share have " + std::to_string(values.size()) + " and " + std::to_string(share.size()) +
-               " entries; the surface has " + std::to_string(vertices) + " vertices");
+        refuse(fmt::format("values and share have {} and {} entries; the surface has {} vertices", values.size(),
+                           share.size(), vertices));
     }
     const auto all = [](const std::vector<double>& numbers, const auto& holds) {
         return std::all_of(numbers.begin(), numbers.end(), holds);
@@ -114,7 +115,7 @@ void Paint::validate(std::size_t vertices) const
         }
     }
     if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
-        refuse("low = " + std::to_string(low) + " must be below high = " + std::to_string(high));
+        refuse(fmt::format("low = {} must be below high = {}", numberText(low), numberText(high)));
     }
     if (!(unit > 0.0) || (line_spacing && !(*line_spacing > 0.0))) {
         refuse("unit and line_spacing must be above 0");

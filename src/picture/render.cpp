@@ -20,6 +20,7 @@
 #include "picture/optics.h"
 #include "picture/scene.h"
 #include "picture/studio.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -430,24 +431,11 @@ View viewNamed(std::string_view name)
 
 void RenderOptions::validate() const
 {
-    const auto size = [](const char* name, int value) {
-        if (value < 1 || value > kMostPixels) {
-            refuse(std::string(name) + " = " + std::to_string(value) + " must be from 1 to " +
-                   std::to_string(kMostPixels) + " pixels");
-        }
-    };
-    size("width", width);
-    size("height", height);
-    if (samples < kLeastSamples || samples > kMostSamples) {
-        refuse("samples = " + std::to_string(samples) + " must be from " + std::to_string(kLeastSamples) + " to " +
-               std::to_string(kMostSamples));
-    }
-    if (!std::isfinite(azimuth)) {
-        refuse("azimuth = " + std::to_string(azimuth) + " must be finite");
-    }
-    if (!(look.ior >= 1.0 && look.ior <= 4.0)) {
-        refuse("look.ior = " + std::to_string(look.ior) + " must be from 1 to 4");
-    }
+    requireWithin("options.width", width, 1, kMostPixels);
+    requireWithin("options.height", height, 1, kMostPixels);
+    requireWithin("options.samples", samples, kLeastSamples, kMostSamples);
+    require(std::isfinite(azimuth), "options.azimuth", azimuth, "finite");
+    require(look.ior >= 1.0 && look.ior <= 4.0, "options.look.ior", look.ior, "from 1 to 4");
     const auto within = [](double a) { return a >= 0.0 && std::isfinite(a); };
     if (!within(extent.x) || !within(extent.y)) {
         refuse("extent must be finite and not negative");

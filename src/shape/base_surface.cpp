@@ -14,13 +14,14 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
 
 std::string millimetres(double length)
 {
-    return std::to_string(length / kMillimetre) + " mm";
+    return numberText(length / kMillimetre) + " mm";
 }
 
 /// What a ground of one radius is.
@@ -41,10 +42,10 @@ void checkRadius(double radius, Body body)
 
 [[noreturn]] void throwBeyond(double radius, double distance, Body body)
 {
-    throw Error(ErrorCode::InvalidArgument, "radius " + millimetres(std::abs(radius)) + " of the ground's " +
-                                                nameOf(body) + " must exceed " + millimetres(distance) +
-                                                ", how far the footprint reaches from its " +
-                                                (body == Body::Sphere ? "top" : "line"));
+    throw Error(ErrorCode::InvalidArgument,
+                fmt::format("radius {} of the ground's {} must exceed {}, how far the footprint reaches from its {}",
+                            millimetres(std::abs(radius)), nameOf(body), millimetres(distance),
+                            body == Body::Sphere ? "top" : "line"));
 }
 
 /// A circle that touches the plane, at a distance from there.
@@ -168,7 +169,7 @@ BaseSurface BaseSurface::cylinder(double radius, double axis)
     checkRadius(radius, Body::Cylinder);
     if (!std::isfinite(axis)) {
         throw Error(ErrorCode::InvalidArgument,
-                    "axis " + std::to_string(axis / kDegree) + " degrees of the ground's cylinder must be finite");
+                    "axis " + numberText(axis / kDegree) + " degrees of the ground's cylinder must be finite");
     }
     const Vec2 across{-std::sin(axis), std::cos(axis)};
     return {[radius, across](Vec2 p) {

@@ -44,8 +44,8 @@ public:
     [[nodiscard]] virtual const char* method() const = 0;
 };
 
-/// By factorisation: SimplicialLLT or CHOLMOD where A itself is positive definite, else SimplicialLDLT.
-std::unique_ptr<ConstrainedSolver> directSolver(const PlanarMesh& mesh, Solver solver);
+/// By factorisation: SimplicialLLT where A itself is positive definite, else SimplicialLDLT.
+std::unique_ptr<ConstrainedSolver> directSolver(const PlanarMesh& mesh);
 
 /// By conjugate gradients among functions without volume, preconditioned by multigrid.
 std::unique_ptr<ConstrainedSolver> multigridSolver(const PlanarMesh& mesh);

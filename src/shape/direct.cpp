@@ -17,7 +17,6 @@
 #include <variant>
 #include <vector>
 
-#include "shape/cholmod_factor.h"
 #include "shape/constrained.h"
 
 namespace droplet {
@@ -161,7 +160,7 @@ Eigen::VectorXd loadOf(const PlanarMesh& mesh, const std::vector<std::uint8_t>& 
 
 class DirectSolver final : public ConstrainedSolver {
 public:
-    DirectSolver(const PlanarMesh& mesh, Solver solver) : mesh_(&mesh), solver_(solver), pattern_(mesh) {}
+    explicit DirectSolver(const PlanarMesh& mesh) : mesh_(&mesh), pattern_(mesh) {}
 
     void prepare(const Operator& op) override
     {
@@ -171,8 +170,6 @@ public:
         pattern_.fill(*mesh_, op);
         if (op.mass_weight < 0.0) {
             factorize<Ldlt>();
-        } else if (solver_ == Solver::Cholmod) {
-            factorize<CholmodFactor>();
         } else {
             factorize<Llt>();
         }
@@ -229,10 +226,7 @@ public:
 
     [[nodiscard]] const char* method() const override
     {
-        if (std::holds_alternative<Ldlt>(factor_)) {
-            return "simplicial-ldlt";
-        }
-        return solver_ == Solver::Cholmod ? "cholmod-supernodal" : "simplicial-llt";
+        return std::holds_alternative<Ldlt>(factor_) ? "simplicial-ldlt" : "simplicial-llt";
     }
 
 private:
@@ -268,9 +262,8 @@ private:
     }
 
     const PlanarMesh* mesh_;
-    Solver solver_;
     Pattern pattern_;
-    std::variant<std::monostate, Llt, Ldlt, CholmodFactor> factor_;
+    std::variant<std::monostate, Llt, Ldlt> factor_;
     std::vector<std::uint8_t> held_;
     Eigen::VectorXd load_;
     Eigen::VectorXd unit_;  ///< A⁻¹m
@@ -281,9 +274,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ConstrainedSolver> directSolver(const PlanarMesh& mesh, Solver solver)
+std::unique_ptr<ConstrainedSolver> directSolver(const PlanarMesh& mesh)
 {
-    return std::make_unique<DirectSolver>(mesh, solver);
+    return std::make_unique<DirectSolver>(mesh);
 }
 
 }  // namespace droplet

@@ -21,6 +21,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -210,7 +211,7 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
     throw Error(ErrorCode::NoSuchDroplet, fill.by == FillBy::Height
                                               ? "no volume gives a droplet of that height on this footprint"
                                               : "no volume gives a mean contact angle of " +
-                                                    std::to_string(fill.amount / kDegree) +
+                                                    numberText(fill.amount / kDegree) +
                                                     " degrees on this footprint; ask for a smaller angle");
 }
 

@@ -12,6 +12,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "number_text.h"
 #include "shape/gradient.h"
 
 namespace droplet {
@@ -105,9 +106,9 @@ Sums sumsOver(const PlanarMesh& mesh, const HeightField& field, std::size_t begi
 void Hysteresis::validate() const
 {
     if (!(receding >= 0.0 && receding <= advancing && advancing <= std::numbers::pi)) {
-        throw Error(ErrorCode::InvalidArgument, "receding " + std::to_string(receding / kDegree) + " and advancing " +
-                                                    std::to_string(advancing / kDegree) +
-                                                    " degrees must be from 0 to 180, the first not the larger");
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("receding {} and advancing {} degrees must be from 0 to 180, the first not the larger",
+                                numberText(receding / kDegree), numberText(advancing / kDegree)));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 
@@ -13,7 +14,7 @@ void Fill::validate() const
 {
     const auto fail = [this](const char* field, const char* unit, const char* constraint) {
         throw Error(ErrorCode::InvalidArgument,
-                    std::string(field) + " " + std::to_string(amount) + unit + " must be " + constraint);
+                    fmt::format("{} {}{} must be {}", field, numberText(amount), unit, constraint));
     };
     const bool positive = amount > 0.0 && std::isfinite(amount);
     switch (by) {

@@ -11,6 +11,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -44,8 +45,8 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
     options.validate();
     requireRefillable(options);
     if (meshes.empty() || meshes.size() != fields.size()) {
-        throw Error(ErrorCode::InvalidArgument, "fields must be as many as meshes: " + std::to_string(fields.size()) +
-                                                    " against " + std::to_string(meshes.size()));
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("fields must be as many as meshes: {} against {}", fields.size(), meshes.size()));
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (fields[k].height.size() != meshes[k].vertices.size()) {
@@ -59,8 +60,9 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
 void FillRange::validate() const
 {
     if (!(least >= 0.0 && least <= 1.0 && most >= 1.0 && least < most && std::isfinite(most))) {
-        throw Error(ErrorCode::InvalidArgument, "fill_range " + std::to_string(least) + " to " + std::to_string(most) +
-                                                    " must be from 0 … 1 to 1 or more, and not empty");
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("fill_range {} to {} must be from 0 … 1 to 1 or more, and not empty", numberText(least),
+                                numberText(most)));
     }
 }
 
@@ -90,13 +92,13 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
         total += volumes.back();
         if (!shared && !(volumes.back() > 0.0)) {
             throw Error(ErrorCode::NoSuchDroplet,
-                        "droplet " + std::to_string(k + 1) + " of " + std::to_string(meshes.size()) + " holds " +
-                            std::to_string(volumes.back()) + " m³; only a positive volume can be refilled");
+                        fmt::format("droplet {} of {} holds {} m³; only a positive volume can be refilled", k + 1,
+                                    meshes.size(), numberText(volumes.back())));
         }
     }
     if (!(total > 0.0)) {
         throw Error(ErrorCode::NoSuchDroplet,
-                    "the droplets hold " + std::to_string(total) + " m³; only a positive volume can be refilled");
+                    "the droplets hold " + numberText(total) + " m³; only a positive volume can be refilled");
     }
     // On the plane, level, what is there is a multiple of itself.
     const PlaneGravity gravity = planeGravity(options);
@@ -116,7 +118,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
     Solution solution = solve(meshes, level);
     if (!solution.report.usable()) {
         throw Error(ErrorCode::NoSuchDroplet, "the change with the volume could not be solved for (residual " +
-                                                  std::to_string(solution.report.residual) +
+                                                  numberText(solution.report.residual) +
                                                   "); try another number of triangles");
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {

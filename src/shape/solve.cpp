@@ -17,6 +17,7 @@
 
 #include "droplet/error.h"
 #include "mesh/lattice.h"
+#include "number_text.h"
 #include "shape/constrained.h"
 #include "shape/energy.h"
 #include "shape/equilibrium.h"
@@ -64,7 +65,7 @@ public:
             if (solution.converged) {
                 return solution;
             }
-            direct_ = directSolver(*mesh_, Solver::Cholmod);
+            direct_ = directSolver(*mesh_);
             direct_->prepare(*op_);
         }
         return direct_->solve(problem);
@@ -83,7 +84,7 @@ std::unique_ptr<ConstrainedSolver> solverFor(const PlanarMesh& mesh, Solver want
 {
     const Solver solver = wanted == Solver::Auto ? chooseSolver(mesh) : wanted;
     if (solver != Solver::Multigrid) {
-        return directSolver(mesh, solver);
+        return directSolver(mesh);
     }
     return wanted == Solver::Auto ? std::make_unique<SafeMultigrid>(mesh) : multigridSolver(mesh);
 }
@@ -138,13 +139,13 @@ void SolveOptions::validate() const
     liquid.validate();
     fill.validate();
     if (!std::isfinite(gravity)) {
-        throw Error(ErrorCode::InvalidArgument, "gravity " + std::to_string(gravity) + " m/s² must be finite");
+        throw Error(ErrorCode::InvalidArgument, "gravity " + numberText(gravity) + " m/s² must be finite");
     }
     if (!(tilt >= 0.0 && tilt <= std::numbers::pi)) {
-        throw Error(ErrorCode::InvalidArgument, "tilt " + std::to_string(tilt) + " must be from 0 to pi");
+        throw Error(ErrorCode::InvalidArgument, "tilt " + numberText(tilt) + " must be from 0 to pi");
     }
     if (!std::isfinite(tilt_direction)) {
-        throw Error(ErrorCode::InvalidArgument, "tilt_direction " + std::to_string(tilt_direction) + " must be finite");
+        throw Error(ErrorCode::InvalidArgument, "tilt_direction " + numberText(tilt_direction) + " must be finite");
     }
 }
 
@@ -157,8 +158,8 @@ void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
         return;
     }
     if (volumes.size() != meshes.size()) {
-        throw Error(ErrorCode::InvalidArgument, "volumes must be as many as meshes: " + std::to_string(volumes.size()) +
-                                                    " against " + std::to_string(meshes.size()));
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("volumes must be as many as meshes: {} against {}", volumes.size(), meshes.size()));
     }
     if (options.fill.sharing != FillSharing::Each) {
         throw Error(ErrorCode::InvalidArgument, "volumes of each droplet need fill.sharing each");
@@ -166,7 +167,7 @@ void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
     for (std::size_t k = 0; k < volumes.size(); ++k) {
         if (!(volumes[k] > 0.0 && std::isfinite(volumes[k]))) {
             throw Error(ErrorCode::InvalidArgument,
-                        "volumes[" + std::to_string(k) + "] " + std::to_string(volumes[k]) + " m³ must be positive");
+                        fmt::format("volumes[{}] {} m³ must be positive", k, numberText(volumes[k])));
         }
     }
 }

@@ -16,6 +16,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "number_text.h"
 #include "shape/recovered_gradients.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
@@ -260,7 +261,7 @@ void LoftOptions::validate() const
 {
     if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
         throw Error(ErrorCode::InvalidArgument,
-                    "extent " + std::to_string(extent.x) + " m × " + std::to_string(extent.y) + " m must be positive");
+                    "extent " + numberText(extent.x) + " m × " + numberText(extent.y) + " m must be positive");
     }
 }
 

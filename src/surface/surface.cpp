@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -279,8 +280,8 @@ void checkRefill(const Surface& surface)
     }
     if (!(refill.least >= 0.0 && refill.least <= 1.0 && refill.most >= 1.0 && refill.least < refill.most &&
           std::isfinite(refill.most))) {
-        throw Error(ErrorCode::InvalidArgument, "surface.refill from " + std::to_string(refill.least) + " to " +
-                                                    std::to_string(refill.most) + " must be a range around 1, from 0");
+        throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.least) + " to " +
+                                                    numberText(refill.most) + " must be a range around 1, from 0");
     }
     const std::size_t i = firstOf(count, [&](std::size_t v) {
         return !finite(refill.positions[v]) || !finite(refill.normals[v]) ||
@@ -312,7 +313,7 @@ void Surface::validate() const
     }
     if (!std::isfinite(mean_height) || mean_height < 0.0) {
         throw Error(ErrorCode::InvalidArgument,
-                    "surface.mean_height = " + std::to_string(mean_height) + " must be finite and not negative");
+                    "surface.mean_height = " + numberText(mean_height) + " must be finite and not negative");
     }
     const auto unit = [](Vec3 normal) { return std::abs(length(normal) - 1.0) <= kUnitTolerance; };
     const auto first_place = [&](std::size_t i) {
@@ -355,9 +356,9 @@ Surface refilled(const Surface& surface, double fill)
         throw Error(ErrorCode::InvalidArgument, "surface.refill is empty; there must be one");
     }
     if (!(fill >= surface.refill->least && fill <= surface.refill->most)) {
-        throw Error(ErrorCode::InvalidArgument, "fill " + std::to_string(fill) + " must be from " +
-                                                    std::to_string(surface.refill->least) + " to " +
-                                                    std::to_string(surface.refill->most));
+        throw Error(ErrorCode::InvalidArgument, "fill " + numberText(fill) + " must be from " +
+                                                    numberText(surface.refill->least) + " to " +
+                                                    numberText(surface.refill->most));
     }
     const double weight = fill - 1.0;
     Surface result = surface;

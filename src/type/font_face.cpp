@@ -21,12 +21,12 @@
 #include <cstdio>
 #include <exception>
 #include <initializer_list>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "droplet/error.h"
 #include "image/image_file.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -53,11 +53,12 @@ double fixed(FT_Fixed value)
 
 std::string rangesOf(const std::vector<FontAxis>& axes)
 {
-    std::ostringstream text;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        text << (i == 0 ? "" : ", ") << axes[i].tag << " from " << axes[i].least << " to " << axes[i].most;
+    std::string text;
+    for (const FontAxis& axis : axes) {
+        text += fmt::format("{}{} from {} to {}", text.empty() ? "" : ", ", axis.tag, numberText(axis.least),
+                            numberText(axis.most));
     }
-    return text.str();
+    return text;
 }
 
 /// Follows FreeType's walk along an outline.
@@ -200,8 +201,8 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
     }
     if (options.face_index >= faces) {
         throw Error(ErrorCode::InvalidArgument,
-                    "face index " + std::to_string(options.face_index) + " is too large: the file holds " +
-                        (faces == 1 ? "one font, 0" : "fonts 0 to " + std::to_string(faces - 1)));
+                    fmt::format("face index {} is too large: the file holds {}", options.face_index,
+                                faces == 1 ? "one font, 0" : "fonts 0 to " + std::to_string(faces - 1)));
     }
     if (!open(static_cast<FT_Long>(options.face_index))) {
         throw Error(ErrorCode::InvalidInput, "its font " + std::to_string(options.face_index) + " is broken");
@@ -263,10 +264,9 @@ void FontFace::setAxes(const std::vector<AxisSetting>& settings)
                         "axis '" + setting.tag + "': the font has no such axis, it has " + rangesOf(axes_));
         }
         if (!(setting.value >= axis->least && setting.value <= axis->most)) {
-            std::ostringstream value;
-            value << setting.value;
-            throw Error(ErrorCode::InvalidArgument, "axis '" + setting.tag + "': " + value.str() +
-                                                        " is out of range, the font has " + rangesOf(axes_));
+            throw Error(ErrorCode::InvalidArgument,
+                        fmt::format("axis '{}': {} is out of range, the font has {}", setting.tag,
+                                    numberText(setting.value), rangesOf(axes_)));
         }
         place[static_cast<std::size_t>(axis - axes_.begin())] = std::lround(setting.value * 65536.0);
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "number_text.h"
 #include "type/contour_union.h"
 #include "type/flatten.h"
 #include "type/font_face.h"
@@ -31,7 +32,7 @@ constexpr double kCornerTurn = 25.0 * std::numbers::pi / 180.0;
 void requirePositive(double value, const char* name)
 {
     if (!(value > 0.0 && std::isfinite(value))) {
-        throw Error(ErrorCode::InvalidArgument, std::string(name) + " is " + std::to_string(value) + ", must be > 0");
+        throw Error(ErrorCode::InvalidArgument, std::string(name) + " is " + numberText(value) + ", must be > 0");
     }
 }
 
@@ -149,7 +150,7 @@ void GlyphOptions::validate() const
         requirePositive(*tolerance, "tolerance");
     }
     if (!(speck_size >= 0.0 && std::isfinite(speck_size))) {
-        throw Error(ErrorCode::InvalidArgument, "speck_size is " + std::to_string(speck_size) + ", must be ≥ 0");
+        throw Error(ErrorCode::InvalidArgument, "speck_size is " + numberText(speck_size) + ", must be ≥ 0");
     }
 }
 

@@ -6,20 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "droplet/error.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
-
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        throw Error(ErrorCode::InvalidArgument, std::string(field) + " " + std::to_string(value) + " " + constraint);
-    }
-}
 
 /// A droplet of either kind as the maps have it.
 struct Drop {
@@ -44,11 +36,10 @@ std::uint16_t signedLevel(double value)
 
 void GlassMapOptions::validate() const
 {
-    require(width >= 16 && width <= 8192, "width", width, "must be from 16 to 8192");
+    requireWithin("width", width, 16, 8192);
     shape.validate();
-    require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness,
-            "must be positive");
-    require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "must be positive");
+    require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
+    require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");
 }
 
 GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
@@ -58,13 +49,11 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     const double pixel = glass.width() / width;
     const int height = std::max(static_cast<int>(std::lround(glass.height() / pixel)), 1);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    require(height <= 8192, "height", height, "of the maps must be at most 8192: ask for less width");
+    require(height <= 8192, "height", height, "at most 8192: ask for less width");
 
     std::vector<Drop> drops;
-    for (std::size_t cell = 0; cell < state.still.counts.size(); ++cell) {
-        for (const StillDroplet& still : state.still.droplets(cell)) {
-            drops.push_back({still.position, {1.0, 0.0}, {}, runningShape(still.volume, 0.0, options.shape), false});
-        }
+    for (const StillDroplet& still : state.still.all()) {
+        drops.push_back({still.position, {1.0, 0.0}, {}, runningShape(still.volume, 0.0, options.shape), false});
     }
     for (const RunningDroplet& running : state.droplets) {
         const double speed = length(running.velocity);

@@ -54,7 +54,7 @@ StillMap::StillMap(const MapWindow& window, double contact_angle)
 {
 }
 
-StillMap::Box StillMap::boxOf(const StillDroplets& still, std::size_t cell) const
+StillMap::Box StillMap::boxOf(const StillCells& still, std::size_t cell) const
 {
     const auto column = static_cast<double>(cell % still.columns);
     const std::size_t whole_rows = cell / still.columns;
@@ -69,7 +69,7 @@ StillMap::Box StillMap::boxOf(const StillDroplets& still, std::size_t cell) cons
             edge((row + 1.0) * still.cell, first_row_, rows_)};
 }
 
-bool StillMap::draw(const StillDroplets& still, std::size_t cell)
+bool StillMap::draw(const StillCells& still, std::size_t cell)
 {
     const Box box = boxOf(still, cell);
     const int width = box.right - box.left;
@@ -128,7 +128,7 @@ bool StillMap::draw(const StillDroplets& still, std::size_t cell)
     return changed;
 }
 
-std::uint8_t StillMap::reachOf(const StillDroplets& still, std::size_t cell) const
+std::uint8_t StillMap::reachOf(const StillCells& still, std::size_t cell) const
 {
     const double left = static_cast<double>(cell % still.columns) * still.cell;
     const std::size_t row = cell / still.columns;
@@ -148,7 +148,7 @@ std::uint8_t StillMap::reachOf(const StillDroplets& still, std::size_t cell) con
     return bits;
 }
 
-std::vector<std::size_t> StillMap::follow(const StillDroplets& still)
+std::vector<std::size_t> StillMap::follow(const StillCells& still)
 {
     const std::size_t count = std::size_t{still.columns} * still.rows;
     std::vector<std::uint8_t> stale(count, 0);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "droplet/vector.h"
-#include "droplet/windshield/windshield.h"
 #include "picture/optics.h"
+#include "windshield/still_droplets.h"
 
 namespace droplet {
 
@@ -54,7 +54,7 @@ public:
 
     /// Brings the map to the state of the droplets.
     /// @return the cells within which something changed, in order
-    std::vector<std::size_t> follow(const StillDroplets& still);
+    std::vector<std::size_t> follow(const StillCells& still);
 
     [[nodiscard]] std::size_t cellsDrawn() const { return drawn_; }
     [[nodiscard]] float perMetre() const { return per_metre_; }  ///< texels
@@ -84,10 +84,10 @@ private:
         int high = 0;  ///< beyond the last
     };
 
-    [[nodiscard]] Box boxOf(const StillDroplets& still, std::size_t cell) const;
-    bool draw(const StillDroplets& still, std::size_t cell);
+    [[nodiscard]] Box boxOf(const StillCells& still, std::size_t cell) const;
+    bool draw(const StillCells& still, std::size_t cell);
     /// Into which of the eight cells around it a cell's droplets reach, a bit each, row by row.
-    [[nodiscard]] std::uint8_t reachOf(const StillDroplets& still, std::size_t cell) const;
+    [[nodiscard]] std::uint8_t reachOf(const StillCells& still, std::size_t cell) const;
 
     double texel_;
     std::int64_t first_column_;  ///< of the window, counted from the glass's corner

@@ -13,20 +13,12 @@
 #include <sstream>
 
 #include "droplet/error.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        std::ostringstream message;
-        message << field << " is " << value << ", must be " << constraint;
-        throw Error(ErrorCode::InvalidArgument, message.str());
-    }
-}
 
 bool within(double value, double min, double max)
 {

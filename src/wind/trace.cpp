@@ -15,19 +15,11 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "require.h"
 #include "wind/root.h"
 
 namespace droplet {
 namespace {
-
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        std::ostringstream message;
-        message << field << " is " << value << ", must be " << constraint;
-        throw Error(ErrorCode::InvalidArgument, message.str());
-    }
-}
 
 bool isPositive(double value)
 {

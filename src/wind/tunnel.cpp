@@ -21,24 +21,18 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "require.h"
 #include "wind/root.h"
 
 namespace droplet {
 namespace {
-
-[[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
-{
-    std::ostringstream message;
-    message << field << " is " << value << ", must be " << constraint;
-    throw Error(ErrorCode::InvalidArgument, message.str());
-}
 
 template <typename Holds>
 void requireAll(const std::string& field, const std::vector<double>& values, const char* constraint, const Holds& holds)
 {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!holds(values[i])) {
-            refuse(field + "[" + std::to_string(i) + "]", values[i], constraint);
+            refuseValue(field + "[" + std::to_string(i) + "]", values[i], constraint);
         }
     }
 }

@@ -18,6 +18,7 @@
 #include "io/axes.h"
 #include "io/byte_stream.h"
 #include "io/gltf_model.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -448,10 +449,8 @@ struct DropletScene::Content {
 
 void DropletSceneOptions::validate() const
 {
-    if (!(frames_per_second > 0.0 && std::isfinite(frames_per_second))) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "frames_per_second " + std::to_string(frames_per_second) + " must be positive");
-    }
+    require(frames_per_second > 0.0 && std::isfinite(frames_per_second), "frames_per_second", frames_per_second,
+            "finite and more than 0");
     shape.validate();
 }
 

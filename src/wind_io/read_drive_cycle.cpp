@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "droplet/error.h"
 #include "file_bytes.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -135,10 +135,11 @@ public:
             const double at = numberOf(fields, time->index, "time", row) * time->unit;
             const double fast = numberOf(fields, speed->index, "speed", row) * speed->unit;
             if (!cycle.times.empty() && at <= cycle.times.back()) {
-                refuse(row, "time " + written(at) + " s does not come after " + written(cycle.times.back()) + " s");
+                refuse(row,
+                       "time " + numberText(at) + " s does not come after " + numberText(cycle.times.back()) + " s");
             }
             if (fast < 0.0) {
-                refuse(row, "speed is " + written(fast) + " m/s; it must be at least 0");
+                refuse(row, "speed is " + numberText(fast) + " m/s; it must be at least 0");
             }
             cycle.times.push_back(at);
             cycle.speeds.push_back(fast);
@@ -155,13 +156,6 @@ private:
     [[noreturn]] void refuse(std::size_t row, const std::string& what) const
     {
         throw Error(ErrorCode::InvalidInput, name_ + ": row " + std::to_string(row) + ": " + what);
-    }
-
-    static std::string written(double value)
-    {
-        std::ostringstream text;
-        text << value;
-        return text.str();
     }
 
     [[nodiscard]] double numberOf(const Fields& fields, std::size_t column, const char* what, std::size_t row) const
@@ -199,8 +193,8 @@ private:
         }
         for (std::size_t i = 0; i < intervals.size(); ++i) {
             if (intervals[i] >= 1.5 * usual) {
-                refuse(rows[i + 1], "comes " + written(intervals[i]) +
-                                        " s after the one before, where rows come every " + written(usual) +
+                refuse(rows[i + 1], "comes " + numberText(intervals[i]) +
+                                        " s after the one before, where rows come every " + numberText(usual) +
                                         " s: the drive cycle has a gap");
             }
         }

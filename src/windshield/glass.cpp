@@ -14,6 +14,7 @@
 
 #include "droplet/error.h"
 #include "droplet/surface/onto.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -183,19 +184,14 @@ struct Glass::Meshed final : Glass::Shape {
 
 Glass::Glass(const Cylinder& cylinder)
 {
-    const auto require = [](bool holds, const char* field, double value, const char* constraint) {
-        if (!holds) {
-            throw Error(ErrorCode::InvalidArgument,
-                        std::string("glass.") + field + " is " + std::to_string(value) + "; it must be " + constraint);
-        }
-    };
-    require(cylinder.radius > 0.0, "radius", cylinder.radius, "more than 0 m");
-    require(cylinder.width > 0.0 && std::isfinite(cylinder.width), "width", cylinder.width, "finite and more than 0 m");
-    require(cylinder.width <= std::numbers::pi * cylinder.radius, "width", cylinder.width,
-            "at most pi times the radius");
-    require(cylinder.height > 0.0 && std::isfinite(cylinder.height), "height", cylinder.height,
+    require(cylinder.radius > 0.0, "glass.radius", cylinder.radius, "more than 0 m");
+    require(cylinder.width > 0.0 && std::isfinite(cylinder.width), "glass.width", cylinder.width,
             "finite and more than 0 m");
-    require(cylinder.slope >= 0.0 && cylinder.slope <= 0.5 * std::numbers::pi, "slope", cylinder.slope,
+    require(cylinder.width <= std::numbers::pi * cylinder.radius, "glass.width", cylinder.width,
+            "at most pi times the radius");
+    require(cylinder.height > 0.0 && std::isfinite(cylinder.height), "glass.height", cylinder.height,
+            "finite and more than 0 m");
+    require(cylinder.slope >= 0.0 && cylinder.slope <= 0.5 * std::numbers::pi, "glass.slope", cylinder.slope,
             "from 0 to pi/2");
     width_ = cylinder.width;
     height_ = cylinder.height;

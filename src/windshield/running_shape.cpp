@@ -5,20 +5,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "droplet/error.h"
 #include "droplet/units.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
-
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        throw Error(ErrorCode::InvalidArgument, std::string(field) + " " + std::to_string(value) + " " + constraint);
-    }
-}
 
 /// Volume of a cap of contact radius 1: π (2 − 3 cos θ + cos³ θ)/(3 sin³ θ).
 double capVolume(double angle)
@@ -40,10 +32,10 @@ double segmentArea(double angle)
 void ShapeOptions::validate() const
 {
     require(contact_angle >= kDegree && contact_angle <= 179.0 * kDegree, "contact_angle", contact_angle,
-            "must be from 1 to 179 degrees");
-    require(largest_stretch >= 0.0 && largest_stretch <= 10.0, "largest_stretch", largest_stretch,
-            "must be from 0 to 10");
-    require(stretch_speed > 0.0 && std::isfinite(stretch_speed), "stretch_speed", stretch_speed, "must be positive");
+            "from 1 to 179 degrees");
+    require(largest_stretch >= 0.0 && largest_stretch <= 10.0, "largest_stretch", largest_stretch, "from 0 to 10");
+    require(stretch_speed > 0.0 && std::isfinite(stretch_speed), "stretch_speed", stretch_speed,
+            "finite and more than 0 m/s");
 }
 
 double RunningShape::volume() const
@@ -56,8 +48,8 @@ double RunningShape::volume() const
 RunningShape runningShape(double volume, double speed, const ShapeOptions& options)
 {
     options.validate();
-    require(volume > 0.0 && std::isfinite(volume), "volume", volume, "must be positive");
-    require(speed >= 0.0 && std::isfinite(speed), "speed", speed, "must not be negative");
+    require(volume > 0.0 && std::isfinite(volume), "volume", volume, "finite and more than 0 m3");
+    require(speed >= 0.0 && std::isfinite(speed), "speed", speed, "finite and at least 0 m/s");
     const double angle = options.contact_angle;
     const double stretch = options.largest_stretch * speed / (speed + options.stretch_speed);
     RunningShape shape;

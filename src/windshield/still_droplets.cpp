@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -16,8 +17,8 @@ StillDroplet joined(const StillDroplet& a, const StillDroplet& b)
     return {(1.0 / volume) * (a.volume * a.position + b.volume * b.position), volume};
 }
 
-/// Where in its cell, as StillDroplets::places has it.
-std::uint16_t placeOf(const StillDroplets& still, std::size_t cell, Vec2 position)
+/// Where in its cell, as StillCells::places has it.
+std::uint16_t placeOf(const StillCells& still, std::size_t cell, Vec2 position)
 {
     const auto part = [&](double v, std::size_t number) {
         const double places = kPlaces * (v / still.cell - static_cast<double>(number));
@@ -28,9 +29,9 @@ std::uint16_t placeOf(const StillDroplets& still, std::size_t cell, Vec2 positio
 }
 
 /// Closes the gaps that droplets without volume leave in a cell; the others keep their order.
-void closeGaps(StillDroplets& still, std::size_t cell)
+void closeGaps(StillCells& still, std::size_t cell)
 {
-    const std::size_t begin = cell * StillDroplets::kMost;
+    const std::size_t begin = cell * StillCells::kMost;
     const std::size_t end = begin + still.counts[cell];
     std::size_t kept = begin;
     for (std::size_t slot = begin; slot < end; ++slot) {
@@ -47,15 +48,14 @@ void closeGaps(StillDroplets& still, std::size_t cell)
     ++still.revisions[cell];
 }
 
-StillDroplet removed(StillDroplets& still, StillSlot place)
+StillDroplet removed(StillCells& still, StillSlot place)
 {
-    const StillDroplet gone = std::exchange(still.slots[place.cell * StillDroplets::kMost + place.slot], {});
+    const StillDroplet gone = std::exchange(still.slots[place.cell * StillCells::kMost + place.slot], {});
     closeGaps(still, place.cell);
     return gone;
 }
 
-std::optional<StillSlot> nearestTouched(const StillDroplets& still, const StillDroplet& droplet,
-                                        const StillRules& rules)
+std::optional<StillSlot> nearestTouched(const StillCells& still, const StillDroplet& droplet, const StillRules& rules)
 {
     const double reach = rules.reachOf(droplet.volume);
     const double most = reach + rules.greatestReach();
@@ -77,7 +77,7 @@ std::optional<StillSlot> nearestTouched(const StillDroplets& still, const StillD
     return found;
 }
 
-StillSlot nearestIn(const StillDroplets& still, std::size_t cell, Vec2 p)
+StillSlot nearestIn(const StillCells& still, std::size_t cell, Vec2 p)
 {
     const auto here = still.droplets(cell);
     const auto nearest = std::min_element(here.begin(), here.end(), [p](const StillDroplet& a, const StillDroplet& b) {
@@ -88,7 +88,7 @@ StillSlot nearestIn(const StillDroplets& still, std::size_t cell, Vec2 p)
 
 }  // namespace
 
-void StillDroplets::put(std::size_t number, const StillDroplet& droplet)
+void StillCells::put(std::size_t number, const StillDroplet& droplet)
 {
     const std::size_t slot = number * kMost + counts[number]++;
     slots[slot] = droplet;
@@ -96,23 +96,70 @@ void StillDroplets::put(std::size_t number, const StillDroplet& droplet)
     ++revisions[number];
 }
 
-std::size_t StillDroplets::count() const
-{
-    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-}
-
-StillDroplets noStillDroplets(Vec2 size)
+StillCells StillCells::over(Vec2 size)
 {
     const Cells cells = Cells::over(size, kStillCell);
-    StillDroplets still;
+    StillCells still;
     still.cell = cells.width;
     still.columns = cells.columns;
     still.rows = cells.rows;
-    still.slots.resize(cells.count() * StillDroplets::kMost);
+    still.slots.resize(cells.count() * kMost);
     still.places.resize(still.slots.size());
     still.counts.resize(cells.count());
     still.revisions.resize(cells.count());
     return still;
+}
+
+const StillCells& StillCells::of(const StillDroplets& still)
+{
+    static const StillCells none;
+    return still.cells_ ? *still.cells_ : none;
+}
+
+StillCells& StillCells::of(StillDroplets& still)
+{
+    if (!still.cells_) {
+        still.cells_ = std::make_unique<StillCells>();
+    }
+    return *still.cells_;
+}
+
+StillDroplets::StillDroplets() = default;
+StillDroplets::~StillDroplets() = default;
+StillDroplets::StillDroplets(StillDroplets&& other) noexcept = default;
+StillDroplets& StillDroplets::operator=(StillDroplets&& other) noexcept = default;
+
+StillDroplets::StillDroplets(const StillDroplets& other)
+    : cells_(other.cells_ ? std::make_unique<StillCells>(*other.cells_) : nullptr)
+{
+}
+
+StillDroplets& StillDroplets::operator=(const StillDroplets& other)
+{
+    return *this = StillDroplets(other);
+}
+
+std::size_t StillDroplets::count() const
+{
+    const std::vector<std::uint8_t>& counts = StillCells::of(*this).counts;
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
+std::vector<StillDroplet> StillDroplets::all() const
+{
+    const StillCells& still = StillCells::of(*this);
+    std::vector<StillDroplet> droplets;
+    droplets.reserve(count());
+    for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
+        const auto here = still.droplets(cell);
+        droplets.insert(droplets.end(), here.begin(), here.end());
+    }
+    return droplets;
+}
+
+bool operator==(const StillDroplets& a, const StillDroplets& b)
+{
+    return StillCells::of(a) == StillCells::of(b);
 }
 
 double StillRules::reachOf(double volume) const
@@ -120,12 +167,12 @@ double StillRules::reachOf(double volume) const
     return reach * std::cbrt(volume);
 }
 
-std::optional<StillDroplet> settle(StillDroplets& still, const StillDroplet& droplet, const StillRules& rules)
+std::optional<StillDroplet> settle(StillCells& still, const StillDroplet& droplet, const StillRules& rules)
 {
     std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
     if (!other) {
-        const std::size_t cell = cellsOf(still).number(droplet.position);
-        if (still.counts[cell] < StillDroplets::kMost) {
+        const std::size_t cell = still.grid().number(droplet.position);
+        if (still.counts[cell] < StillCells::kMost) {
             still.put(cell, droplet);
             return std::nullopt;
         }

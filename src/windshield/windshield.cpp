@@ -4,155 +4,41 @@
 // (3.1.4) and the Lotus effect (3.1.5); small droplets stand still (3.2.2). Departures:
 //
 // - Droplets merge whenever they touch, of whatever sizes: the thesis has a threshold on the difference of their
-// masses,
-//   which keeps equal ones apart. The larger one absorbs; water and momentum are kept.
+//   masses, which keeps equal ones apart. The larger one absorbs; water and momentum are kept.
 // - Still droplets are single droplets in cells, not the texels of a picture: what a running droplet wipes away it has
 //   afterwards, and rain renews them.
 // - Steps are exact for constant forces along a line, and friction is implicit, so that droplets at rest do not jitter.
 #include "droplet/windshield/windshield.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "blocks.h"
 #include "droplet/error.h"
+#include "require.h"
+#include "windshield/cap_scale.h"
+#include "windshield/motion.h"
 #include "windshield/random.h"
 #include "windshield/still_droplets.h"
-#include "windshield/wipers.h"
+#include "windshield/sweep.h"
+#include "windshield/swept.h"
+#include "windshield/tracks.h"
 
 namespace droplet {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// Of the cells that bring droplets and tracks together that may touch: few droplets in a cell, few cells to a track
-/// [m].
-constexpr double kContactCell = 8e-3;
-
-/// Droplets a thread takes at a time.
-constexpr std::size_t kShare = 128;
-
-/// Still droplets take 213 bytes for every 16 mm²: at most 1.33 GB.
-constexpr double kMostArea = 100.0;  // [m²]
-
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        throw Error(ErrorCode::InvalidArgument,
-                    std::string(field) + " is " + std::to_string(value) + "; it must be " + constraint);
-    }
-}
-
 double sphere(double diameter)
 {
-    return kPi / 6.0 * diameter * diameter * diameter;
-}
-
-/// Without the care for the ends of double's range, where nothing here comes, that std::hypot takes.
-double sizeOf(Vec2 a)
-{
-    return std::sqrt(dot(a, a));
-}
-
-/// Calls work(share, begin, end) for shares of [0, count), in parallel if there are several.
-template <class Work>
-void forShares(std::size_t count, const Work& work)
-{
-    const std::size_t shares = (count + kShare - 1) / kShare;
-    if (shares <= 1) {
-        work(std::size_t{0}, std::size_t{0}, count);
-        return;
-    }
-    tbb::parallel_for(std::size_t{0}, shares,
-                      [&](std::size_t k) { work(k, k * kShare, std::min(count, (k + 1) * kShare)); });
-}
-
-/// How all caps of one contact angle relate to the cap of 1 m³.
-class CapScale {
-public:
-    explicit CapScale(double contact_angle)
-        : unit_(capOf(1.0, contact_angle)), wide_(contact_angle > 0.5 * kPi), reach_(reach(unit_))
-    {
-    }
-
-    [[nodiscard]] CapSize cap(double volume) const
-    {
-        const double s = std::cbrt(volume);
-        return {volume, s * unit_.radius, s * unit_.contact_radius, s * unit_.height, s * s * unit_.frontal_area};
-    }
-    /// Half the width seen from above: caps of more than 90° bulge over their rims.
-    [[nodiscard]] double reach(const CapSize& cap) const { return wide_ ? cap.radius : cap.contact_radius; }
-    [[nodiscard]] double reach(double volume) const { return reach_ * std::cbrt(volume); }
-    [[nodiscard]] double reach() const { return reach_; }
-
-private:
-    CapSize unit_;
-    bool wide_ = false;
-    double reach_ = 0.0;
-};
-
-/// The pushes on one droplet [m/s²].
-Vec2 pushOn(std::uint64_t id, double time, const Fluctuation& fluctuation, std::uint64_t seed)
-{
-    if (fluctuation.acceleration == 0.0) {
-        return {};
-    }
-    const RandomStream chance(seed, Chance::Fluctuation, id);
-    const double since = time / fluctuation.interval + chance.uniform(0);
-    const double begun = std::floor(since);
-    const double passed = since - begun;
-    const auto number = static_cast<std::uint64_t>(begun);
-    const auto push = [&](std::uint64_t k) {
-        // Both components from one draw, of variance 1 each.
-        const std::uint64_t bits = chance.bits(k + 1);
-        const auto component = [](std::uint64_t half) {
-            return std::numbers::sqrt3 * (static_cast<double>(half) * 0x1p-31 - 1.0);
-        };
-        return Vec2{component(bits >> 32U), component(bits & 0xFFFFFFFFU)};
-    };
-    const double b = passed * passed * (3.0 - 2.0 * passed);
-    const double a = 1.0 - b;
-    return (fluctuation.acceleration / std::sqrt(a * a + b * b)) * (a * push(number) + b * push(number + 1));
-}
-
-struct Moved {
-    Vec2 way;
-    Vec2 velocity;
-};
-
-/// m dv/dt = F − F_k v/|v| − c v for dt with constant F: exact along a line, friction against the velocity at the end;
-/// what would turn around within dt stops, and starts again in the next step if friction does not hold it.
-Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
-{
-    const bool at_rest = velocity == Vec2{};
-    if (at_rest && sizeOf(driving) <= forces.retention) {
-        return {};
-    }
-    const double m = forces.mass;
-    const double x = forces.viscous * dt / m;
-    const double decay = std::exp(-x);
-    // ∫ e^(−x s) ds and ∫∫ of it over [0, 1].
-    const double once = x > 0.0 ? -std::expm1(-x) / x : 1.0;
-    const double twice =
-        x > 0.02 ? (1.0 - once) / x : 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0)));
-    const Vec2 free = decay * velocity + (once * dt / m) * driving;
-    const double speed = sizeOf(free);
-    const double loss = once * dt / m * forces.sliding_friction;
-    if (speed <= loss) {
-        // When it stops, as if its speed fell evenly.
-        const double begins = sizeOf(velocity);
-        const double share = begins > 0.0 ? begins / (begins + (loss - speed)) : 0.0;
-        return {(0.5 * share * dt) * velocity, {}};
-    }
-    const Vec2 net = driving - (forces.sliding_friction / speed) * free;
-    return {(once * dt) * velocity + (twice * dt * dt / m) * net, (1.0 - loss / speed) * free};
+    return std::numbers::pi / 6.0 * diameter * diameter * diameter;
 }
 
 /// One step of one state; its functions are called in their order.
@@ -160,12 +46,11 @@ class Step {
 public:
     Step(WindshieldState& state, const WindshieldParameters& parameters, double dt)
         : s_(state),
+          still_(StillCells::of(state.still)),
           p_(parameters),
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
-          rules_{caps_.reach(), sphere(parameters.still_diameter)},
-          most_still_reach_(rules_.greatestReach()),
-          most_push_(std::sqrt(12.0) * (1.0 + 1e-12) * parameters.fluctuation.acceleration)
+          rules_{caps_.reach(), sphere(parameters.still_diameter)}
     {
     }
 
@@ -173,9 +58,10 @@ public:
     {
         rain();
         move();
-        bringTogether();
-        drizzle();
-        merge();
+        // Raindrops that land beside a track touch it, too.
+        const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.greatestReach());
+        drizzle(cells);
+        merge(cells);
         sweep();
         shed();
         wipe();
@@ -184,17 +70,7 @@ public:
     }
 
 private:
-    /// A piece of a track and whose water it gathers.
-    struct Piece {
-        std::uint32_t owner = 0;
-        Vec2 from;
-        Vec2 to;
-        double reach = 0.0;
-    };
-    struct Hit {
-        std::uint32_t owner = 0;
-        StillSlot still;
-    };
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
     /// Raindrops of the time from now to dt later.
     void rain()
@@ -235,26 +111,27 @@ private:
     void move()
     {
         const std::size_t count = s_.droplets.size();
-        from_.resize(count);
-        to_.resize(count);
-        reach_.resize(count);
+        tracks_.resize(count);
         owner_.resize(count);
         std::iota(owner_.begin(), owner_.end(), 0U);
         grown_.assign(before_rain_, 0);
         grown_.resize(count, 1);  // raindrops may land on still droplets
         const double speed = p_.vehicle.speedAt(s_.time + 0.5 * dt_);
-        forShares(count, [&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                moveOne(i, speed);
-            }
-        });
+        forBlocks(
+            count,
+            [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    moveOne(i, speed);
+                }
+            },
+            kWorthAThread);
     }
 
     void moveOne(std::size_t i, double speed)
     {
         RunningDroplet& d = s_.droplets[i];
-        from_[i] = d.position;
-        reach_[i] = caps_.reach(d.volume);
+        tracks_.from[i] = d.position;
+        tracks_.reach[i] = caps_.reach(d.volume);
         if (const std::optional<GlassPlace> place = p_.glass.place(d.position)) {
             const DropletForces forces = forcesOn(p_.forces, caps_.cap(d.volume));
             Vec2 wind = windAlong(*place, speed, p_.wind);
@@ -268,41 +145,17 @@ private:
             d.position = d.position + result.way;
             d.velocity = result.velocity;
         }
-        to_[i] = d.position;
-    }
-
-    /// Which tracks come through which cells, tracks in their order.
-    void bringTogether()
-    {
-        const Cells cells = contactCells();
-        // Raindrops that land beside a track touch it, too.
-        const double more = most_still_reach_;
-        tracks_of_cell_.assign(cells.count() + 1, 0);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> comes;  // a cell and what comes through it
-        comes.reserve(2 * from_.size());
-        for (std::uint32_t i = 0; i < from_.size(); ++i) {
-            cells.visitAround(from_[i], to_[i], reach_[i] + more, [&](std::size_t first, std::size_t last) {
-                for (std::size_t cell = first; cell <= last; ++cell) {
-                    comes.emplace_back(static_cast<std::uint32_t>(cell), i);
-                    ++tracks_of_cell_[cell];
-                }
-            });
-        }
-        std::inclusive_scan(tracks_of_cell_.begin(), tracks_of_cell_.end(), tracks_of_cell_.begin());
-        tracks_.resize(comes.size());
-        // Filled from behind, each cell's end comes to be its beginning.
-        for (std::size_t k = comes.size(); k-- > 0;) {
-            tracks_[--tracks_of_cell_[comes[k].first]] = comes[k].second;
-        }
+        tracks_.to[i] = d.position;
     }
 
     /// Small raindrops, and what they make with still droplets, join the first track they touch.
-    void drizzle()
+    void drizzle(const TrackCells& cells)
     {
         for (StillDroplet drop : drizzle_) {
             bool stands = false;
             while (!stands && drop.volume < rules_.greatest) {
-                if (const std::optional<std::uint32_t> track = trackAt(drop)) {
+                if (const std::optional<std::uint32_t> track =
+                        cells.touchedBy(drop.position, rules_.reachOf(drop.volume))) {
                     take(*track, drop.volume);
                     stands = true;
                 } else {
@@ -315,24 +168,10 @@ private:
         }
     }
 
-    [[nodiscard]] std::optional<std::uint32_t> trackAt(const StillDroplet& drop) const
-    {
-        const double reach = rules_.reachOf(drop.volume);
-        const std::size_t cell = contactCells().number(drop.position);
-        for (std::uint32_t k = tracks_of_cell_[cell]; k < tracks_of_cell_[cell + 1]; ++k) {
-            const std::uint32_t i = tracks_[k];
-            const double touching = reach + reach_[i];
-            if (Way(from_[i], to_[i]).squaredDistance(drop.position) <= touching * touching) {
-                return i;
-            }
-        }
-        return std::nullopt;
-    }
-
     /// Puts it among the still ones; returns whether it is, joined with another, off the glass again.
     bool joinsStill(StillDroplet& drop)
     {
-        const std::optional<StillDroplet> more = settle(s_.still, drop, rules_);
+        const std::optional<StillDroplet> more = settle(still_, drop, rules_);
         drop = more.value_or(drop);
         return more.has_value();
     }
@@ -342,9 +181,7 @@ private:
     {
         owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
         s_.droplets.push_back({s_.next_id++, drop.position, {}, drop.volume, 0.0, 0});
-        from_.push_back(drop.position);
-        to_.push_back(drop.position);
-        reach_.push_back(caps_.reach(drop.volume));
+        tracks_.add(drop.position, drop.position, caps_.reach(drop.volume));
         grown_.push_back(1);
         ++s_.counts.grown;
     }
@@ -361,44 +198,27 @@ private:
 
     /// Droplets that come to touch within the step become one, however many there are: the largest, of equals the
     /// first.
-    void merge()
+    void merge(const TrackCells& cells)
     {
-        const std::size_t count = contactCells().count();
-        for (std::size_t cell = 0; cell < count; ++cell) {
-            for (std::uint32_t a = tracks_of_cell_[cell]; a + 1 < tracks_of_cell_[cell + 1]; ++a) {
-                for (std::uint32_t b = a + 1; b < tracks_of_cell_[cell + 1]; ++b) {
-                    if (meet(tracks_[a], tracks_[b])) {
-                        join(tracks_[a], tracks_[b]);
-                    }
-                }
-            }
+        const std::vector<Pair> meeting = cells.meeting();
+        for (const auto& [a, b] : meeting) {
+            const std::uint32_t root_a = rootOf(a);
+            const std::uint32_t root_b = rootOf(b);
+            owner_[std::max(root_a, root_b)] = std::min(root_a, root_b);
         }
-        if (joined_.empty()) {
-            return;
-        }
-        std::sort(joined_.begin(), joined_.end());
-        joined_.erase(std::unique(joined_.begin(), joined_.end()), joined_.end());
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> members;  // by the first of them
-        members.reserve(joined_.size());
-        for (const std::uint32_t i : joined_) {
-            members.emplace_back(rootOf(i), i);
+        std::vector<Pair> members;  // a set's first member, and each of its members
+        members.reserve(2 * meeting.size());
+        for (const auto& [a, b] : meeting) {
+            members.emplace_back(rootOf(a), a);
+            members.emplace_back(rootOf(b), b);
         }
         std::sort(members.begin(), members.end());
-        for (std::size_t begin = 0; begin < members.size();) {
-            std::size_t end = begin;
-            while (end < members.size() && members[end].first == members[begin].first) {
-                ++end;
-            }
-            absorb(members.data() + begin, members.data() + end);
+        members.erase(std::unique(members.begin(), members.end()), members.end());
+        for (auto begin = members.begin(); begin != members.end();) {
+            const auto end = std::find_if(begin, members.end(), [&](const Pair& m) { return m.first != begin->first; });
+            absorb({begin, end});
             begin = end;
         }
-    }
-
-    /// Whether the distance of two that move evenly from their beginnings to their ends falls to where they touch.
-    [[nodiscard]] bool meet(std::uint32_t a, std::uint32_t b) const
-    {
-        const double touching = reach_[a] + reach_[b];
-        return Way(from_[a] - from_[b], to_[a] - to_[b]).squaredDistance({}) <= touching * touching;
     }
 
     // R. E. Tarjan, J. van Leeuwen, "Worst-case analysis of set union algorithms" (1984): path halving; a set's name is
@@ -411,37 +231,26 @@ private:
         return i;
     }
 
-    void join(std::uint32_t a, std::uint32_t b)
+    void absorb(std::span<const Pair> members)
     {
-        joined_.push_back(a);
-        joined_.push_back(b);
-        a = rootOf(a);
-        b = rootOf(b);
-        owner_[std::max(a, b)] = std::min(a, b);
-    }
-
-    using Member = std::pair<std::uint32_t, std::uint32_t>;
-
-    void absorb(const Member* begin, const Member* end)
-    {
-        std::uint32_t largest = begin->second;
+        std::uint32_t largest = members.front().second;
         double volume = 0.0;
         Vec2 moment;
         Vec2 momentum;
-        for (const Member* m = begin; m != end; ++m) {
-            const RunningDroplet& d = s_.droplets[m->second];
+        for (const auto& [first, i] : members) {
+            const RunningDroplet& d = s_.droplets[i];
             volume += d.volume;
             moment = moment + d.volume * d.position;
             momentum = momentum + d.volume * d.velocity;
             if (d.volume > s_.droplets[largest].volume) {
-                largest = m->second;
+                largest = i;
             }
         }
-        for (const Member* m = begin; m != end; ++m) {
-            owner_[m->second] = largest;
-            if (m->second != largest) {
-                s_.merged.add(s_.droplets[m->second].volume);
-                s_.droplets[m->second].volume = 0.0;
+        for (const auto& [first, i] : members) {
+            owner_[i] = largest;
+            if (i != largest) {
+                s_.merged.add(s_.droplets[i].volume);
+                s_.droplets[i].volume = 0.0;
                 ++s_.counts.merged;
             }
         }
@@ -456,40 +265,34 @@ private:
     /// touch goes with it, too: at once, until there is nothing more, if it rests; in the next step, if it moves on.
     void sweep()
     {
-        std::vector<Piece> pieces;
+        std::vector<SweptPiece> pieces;
         for (std::uint32_t i = 0; i < s_.droplets.size(); ++i) {
             RunningDroplet& d = s_.droplets[i];
             if (d.volume > 0.0) {
                 if (grown_[i] != 0) {
-                    reach_[i] = caps_.reach(d.volume);
+                    tracks_.reach[i] = caps_.reach(d.volume);
                 }
-                to_[i] = d.position;
+                tracks_.to[i] = d.position;
             }
-            if (d.volume > 0.0 ? grown_[i] != 0 || from_[i] != to_[i] : from_[i] != to_[i]) {
-                pieces.push_back({owner_[i], from_[i], to_[i], reach_[i]});
+            if (tracks_.from[i] != tracks_.to[i] || (d.volume > 0.0 && grown_[i] != 0)) {
+                pieces.push_back({owner_[i], tracks_.from[i], tracks_.to[i], tracks_.reach[i]});
             }
         }
         gather(std::move(pieces));
     }
 
-    void gather(std::vector<Piece> pieces)
+    void gather(std::vector<SweptPiece> pieces)
     {
-        Taking taking(s_.still);
+        Taking taking(still_);
         while (!pieces.empty()) {
-            std::vector<std::vector<Hit>> hits((pieces.size() + kShare - 1) / kShare);
-            forShares(pieces.size(), [&](std::size_t share, std::size_t begin, std::size_t end) {
-                find({pieces.data() + begin, end - begin}, hits[share]);
-            });
             std::vector<std::uint32_t> grown;
-            for (const std::vector<Hit>& share : hits) {
-                for (const Hit& hit : share) {
-                    if (const double volume = taking.take(hit.still); volume > 0.0) {
-                        take(hit.owner, volume);
-                        s_.swept.add(volume);
-                        ++s_.counts.swept;
-                        if (s_.droplets[hit.owner].velocity == Vec2{}) {
-                            grown.push_back(hit.owner);
-                        }
+            for (const SweptDroplet& swept : sweptBy(pieces, still_, rules_)) {
+                if (const double volume = taking.take(swept.still); volume > 0.0) {
+                    take(swept.owner, volume);
+                    s_.swept.add(volume);
+                    ++s_.counts.swept;
+                    if (s_.droplets[swept.owner].velocity == Vec2{}) {
+                        grown.push_back(swept.owner);
                     }
                 }
             }
@@ -498,45 +301,11 @@ private:
             pieces.clear();
             for (const std::uint32_t i : grown) {
                 const RunningDroplet& d = s_.droplets[i];
-                reach_[i] = caps_.reach(d.volume);
-                pieces.push_back({i, d.position, d.position, reach_[i]});
+                tracks_.reach[i] = caps_.reach(d.volume);
+                pieces.push_back({i, d.position, d.position, tracks_.reach[i]});
             }
         }
         taking.close();
-    }
-
-    /// Still droplets that touch pieces of tracks.
-    void find(std::span<const Piece> pieces, std::vector<Hit>& hits) const
-    {
-        struct Candidate {
-            const Piece* piece = nullptr;
-            StillSlot slot;
-        };
-        // Memory is asked for all that may touch before the first is looked at: to wait for each would take most of
-        // the time.
-        std::vector<Candidate> candidates;
-        candidates.reserve(4 * pieces.size());
-        for (const Piece& piece : pieces) {
-            visitNear(s_.still, piece.from, piece.to, piece.reach + most_still_reach_, [&](StillSlot slot) {
-                __builtin_prefetch(&at(s_.still, slot));
-                candidates.push_back({&piece, slot});
-            });
-        }
-        for (const auto& [piece, slot] : candidates) {
-            const StillDroplet& d = at(s_.still, slot);
-            const double squared = Way(piece->from, piece->to).squaredDistance(d.position);
-            // The root, which costs most, only where it matters.
-            if (d.volume > 0.0 &&
-                (squared <= piece->reach * piece->reach || touches(squared, piece->reach, d.volume))) {
-                hits.push_back({piece->owner, slot});
-            }
-        }
-    }
-
-    [[nodiscard]] bool touches(double squared, double reach, double still_volume) const
-    {
-        const double touching = reach + rules_.reachOf(still_volume);
-        return squared <= touching * touching;
     }
 
     /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
@@ -547,21 +316,21 @@ private:
         }
         const std::size_t count = s_.droplets.size();
         for (std::size_t i = 0; i < count; ++i) {
-            if (s_.droplets[i].volume > 0.0 && from_[i] != to_[i]) {
+            if (s_.droplets[i].volume > 0.0 && tracks_.from[i] != tracks_.to[i]) {
                 shedOne(i);
             }
         }
-        std::vector<Piece> pieces;
+        std::vector<SweptPiece> pieces;
         for (std::size_t i = count; i < s_.droplets.size(); ++i) {
-            pieces.push_back({static_cast<std::uint32_t>(i), to_[i], to_[i], reach_[i]});
+            pieces.push_back({static_cast<std::uint32_t>(i), tracks_.to[i], tracks_.to[i], tracks_.reach[i]});
         }
         gather(std::move(pieces));
     }
 
     void shedOne(std::size_t i)
     {
-        const double way = sizeOf(to_[i] - from_[i]);
-        const Vec2 direction = (1.0 / way) * (to_[i] - from_[i]);
+        const double way = sizeOf(tracks_.to[i] - tracks_.from[i]);
+        const Vec2 direction = (1.0 / way) * (tracks_.to[i] - tracks_.from[i]);
         const RandomStream chance(p_.seed, Chance::Bead, s_.droplets[i].id);
         double at = -s_.droplets[i].since_bead;  // of the last bead, from the beginning of the way
         while (true) {
@@ -573,9 +342,9 @@ private:
             at += spacing;
             ++d.beads;
             // Never so much that the bead itself would run, nor that the droplet would no longer.
-            const double bead = std::min(p_.streaks.film * 2.0 * reach_[i] * spacing, 0.5 * rules_.greatest);
-            const double behind = 1.05 * (reach_[i] + rules_.reachOf(bead));  // where it is not touched at once
-            const Vec2 place = from_[i] + (at - behind) * direction;
+            const double bead = std::min(p_.streaks.film * 2.0 * tracks_.reach[i] * spacing, 0.5 * rules_.greatest);
+            const double behind = 1.05 * (tracks_.reach[i] + rules_.reachOf(bead));  // where it is not touched at once
+            const Vec2 place = tracks_.from[i] + (at - behind) * direction;
             if (d.volume - bead >= rules_.greatest && p_.glass.holds(place)) {
                 d.volume -= bead;
                 s_.shed.add(bead);
@@ -599,16 +368,16 @@ private:
             }
             for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
                 RunningDroplet& d = s_.droplets[i];
-                if (d.volume > 0.0 && blade->meets(from_[i], d.position)) {
+                if (d.volume > 0.0 && blade->meets(tracks_.from[i], d.position)) {
                     s_.wiped.add(d.volume);
                     ++s_.counts.wiped;
                     d.volume = 0.0;
                 }
             }
-            Taking taking(s_.still);
-            blade->visitCells(cellsOf(s_.still), [&](std::size_t first, std::size_t last) {
+            Taking taking(still_);
+            blade->visitCells(still_.grid(), [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell <= last; ++cell) {
-                    const auto here = s_.still.droplets(cell);
+                    const auto here = still_.droplets(cell);
                     for (std::size_t k = 0; k < here.size(); ++k) {
                         if (blade->covers(here[k].position)) {
                             s_.wiped.add(taking.take({cell, static_cast<std::uint8_t>(k)}));
@@ -627,8 +396,8 @@ private:
         std::size_t kept = 0;
         for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
             RunningDroplet& d = s_.droplets[i];
-            if (from_[i] != to_[i]) {
-                s_.tracks.push_back({d.id, from_[i], to_[i], reach_[i]});
+            if (tracks_.from[i] != tracks_.to[i]) {
+                s_.tracks.push_back({d.id, tracks_.from[i], tracks_.to[i], tracks_.reach[i]});
             }
             if (d.volume > 0.0 && !p_.glass.holds(d.position)) {
                 s_.left.add(d.volume);
@@ -642,85 +411,27 @@ private:
         s_.droplets.resize(kept);
     }
 
-    [[nodiscard]] Cells contactCells() const
-    {
-        return Cells::over({p_.glass.width(), p_.glass.height()}, kContactCell);
-    }
-
     WindshieldState& s_;
+    StillCells& still_;
     const WindshieldParameters& p_;
     double dt_;
     CapScale caps_;
     StillRules rules_;
-    double most_still_reach_ = 0.0;      // half the width of the largest still droplet [m]
-    double most_push_ = 0.0;             // √6 of the root mean square, in both directions [m/s²]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // how many running droplets there were
     // Of every running droplet, in their order:
-    std::vector<Vec2> from_;
-    std::vector<Vec2> to_;
-    std::vector<double> reach_;
+    Tracks tracks_;
     std::vector<std::uint32_t> owner_;  // who has its water
     std::vector<std::uint8_t> grown_;
-    std::vector<std::uint32_t> tracks_of_cell_;
-    std::vector<std::uint32_t> tracks_;
-    std::vector<std::uint32_t> joined_;
 };
 
 }  // namespace
-
-void CarriedSum::add(double term)
-{
-    const double total = sum + term;
-    carry += std::abs(sum) >= std::abs(term) ? (sum - total) + term : (term - total) + sum;
-    sum = total;
-}
-
-double WaterBalance::residual() const
-{
-    CarriedSum difference;
-    for (const double term : {rained, -on_glass_still, -on_glass_running, -left, -wiped}) {
-        difference.add(term);
-    }
-    return rained > 0.0 ? difference.value() / rained : 0.0;
-}
-
-void Fluctuation::validate() const
-{
-    require(acceleration >= 0.0 && std::isfinite(acceleration), "fluctuation.acceleration", acceleration,
-            "finite and at least 0 m/s2");
-    require(interval > 0.0 && std::isfinite(interval), "fluctuation.interval", interval, "finite and more than 0 s");
-}
-
-void Streaks::validate() const
-{
-    require(film >= 0.0 && std::isfinite(film), "streaks.film", film, "finite and at least 0 m");
-    require(spacing >= 1e-4 && std::isfinite(spacing), "streaks.spacing", spacing, "finite and at least 1e-4 m");
-}
-
-void WindshieldParameters::validate() const
-{
-    const double area = glass.width() * glass.height();
-    require(area <= kMostArea, "the glass's area", area, "at most 100 m2");
-    forces.validate();
-    vehicle.validate();
-    require(rainfall >= 0.0 && rainfall <= 1000.0 * kMillimetrePerHour, "rainfall", rainfall / kMillimetrePerHour,
-            "from 0 to 1000 mm/h");
-    raindrops.validate();
-    require(still_diameter > 0.0 && still_diameter <= 2e-3, "still_diameter", still_diameter,
-            "more than 0 and at most 0.002 m");
-    fluctuation.validate();
-    streaks.validate();
-    for (const Wiper& wiper : wipers) {
-        wiper.validate();
-    }
-}
 
 WindshieldState startWindshield(const WindshieldParameters& parameters)
 {
     parameters.validate();
     WindshieldState state;
-    state.still = noStillDroplets({parameters.glass.width(), parameters.glass.height()});
+    StillCells::of(state.still) = StillCells::over({parameters.glass.width(), parameters.glass.height()});
     return state;
 }
 
@@ -729,29 +440,14 @@ WindshieldState step(WindshieldState state, const WindshieldParameters& paramete
     parameters.validate();
     require(dt > 0.0 && std::isfinite(dt), "dt", dt, "finite and more than 0 s");
     const Cells cells = Cells::over({parameters.glass.width(), parameters.glass.height()}, kStillCell);
-    if (state.still.columns != cells.columns || state.still.rows != cells.rows || state.still.cell != cells.width) {
-        throw Error(ErrorCode::InvalidArgument, "state is of a glass of " + std::to_string(state.still.columns) +
-                                                    " x " + std::to_string(state.still.rows) + " cells; this one has " +
+    const Cells own = StillCells::of(state.still).grid();
+    if (own.columns != cells.columns || own.rows != cells.rows || own.width != cells.width) {
+        throw Error(ErrorCode::InvalidArgument, "state is of a glass of " + std::to_string(own.columns) + " x " +
+                                                    std::to_string(own.rows) + " cells; this one has " +
                                                     std::to_string(cells.columns) + " x " + std::to_string(cells.rows));
     }
     Step(state, parameters, dt).run();
     return state;
-}
-
-WaterBalance balanceOf(const WindshieldState& state)
-{
-    CarriedSum still;
-    for (std::size_t cell = 0; cell < state.still.counts.size(); ++cell) {
-        for (const StillDroplet& d : state.still.droplets(cell)) {
-            still.add(d.volume);
-        }
-    }
-    CarriedSum running;
-    for (const RunningDroplet& d : state.droplets) {
-        running.add(d.volume);
-    }
-    return {state.rained.value(), still.value(),        running.value(),     state.left.value(),
-            state.wiped.value(),  state.merged.value(), state.swept.value(), state.shed.value()};
 }
 
 }  // namespace droplet

@@ -198,7 +198,8 @@ TEST_F(UsageTest, AnglesOfARimThatMovesBelongTogether)
 TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
 {
     expectRefused({"--model", "quadratic"}, {"--model", "'quadratic'", "linear, exact"});
-    expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, cholmod, multigrid"});
+    expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, multigrid"});
+    expectRefused({"--solver", "cholmod"}, {"--solver", "'cholmod' is no longer built in", "llt"});
     expectRefused({"--channel", "red"}, {"--channel", "'red'", "auto, alpha, luma"});
     expectRefused({"--fill", "some"}, {"--fill", "'some'", "each, total"});
     expectRefused({"--liquid", "milk"}, {"--liquid", "'milk'", "water", "mercury"});
@@ -277,18 +278,25 @@ TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
     expectConfigRefused("q = true\n", {"unknown key 'q'"});
     expectConfigRefused("config = \"other.toml\"\n", {"unknown key 'config'"});
     expectConfigRefused("help = true\n", {"unknown key 'help'"});
-    expectConfigRefused("open\n", {"settings.toml:1", "'open' is not of the form 'key = value'"});
-    expectConfigRefused("width = 8cm\n", {"'8cm'", "width = \"8cm\""});
-    expectConfigRefused("width =\n", {"settings.toml:1", "'width'"});
-    expectConfigRefused("width = \"8cm\n", {"closing quote"});
-    expectConfigRefused("width = \"8cm\" 3\n", {"'3' stands after the value"});
+    expectConfigRefused("open\n", {"settings.toml:1", "'open' is not TOML", "expected '='", "'key = value'"});
+    expectConfigRefused("width = 8cm\n", {"'width = 8cm'", "quotes", "width = \"8cm\""});
+    expectConfigRefused("width =\n", {"settings.toml:1", "'width ='", "expected value"});
+    expectConfigRefused("width = \"8cm\n", {"settings.toml:1", "'width = \"8cm' is not TOML"});
+    expectConfigRefused("width = \"8cm\" 3\n", {"saw '3'"});
     expectConfigRefused("width = \"\\q\"\n", {"escape"});
     expectConfigRefused("[size]\nwidth = \"8cm\"\n", {"settings.toml:1", "tables"});
     expectConfigRefused("triangles = [1, 2]\n", {"settings.toml:1", "[1, 2]"});
-    expectConfigRefused("open = true\nopen = false\n", {"settings.toml:2", "'open' is given twice"});
+    expectConfigRefused("triangles = 20\nwidth = 1979-05-27\n", {"settings.toml:2", "1979-05-27", "quotes"});
+    expectConfigRefused("width = \"\"\"8cm\n", {"settings.toml:", "end"});
+    expectConfigRefused("z = 1\na = 1\n", {"settings.toml:1", "unknown key 'z'"});
+    expectConfigRefused("speck-size = inf\n", {"--speck-size (settings.toml:1)", "'inf'"});
+    expectConfigRefused("threshold = 1.50\n", {"--threshold (settings.toml:1)", "'1.5'"});
+    expectConfigRefused("triangles = 12345678901\n", {"--triangles (settings.toml:1)", "'12345678901'"});
+    expectConfigRefused("open = true\nopen = false\n", {"settings.toml:2", "cannot redefine", "'open'"});
     expectConfigRefused("open = \"yes\"\n", {"--open (settings.toml:1)", "true or false"});
     expectConfigRefused("open = 1\n", {"--open (settings.toml:1)", "true or false"});
     expectConfigRefused("\nvolume = \"30\"\n", {"--volume (settings.toml:2)", "no unit"});
+    expectConfigRefused("solver = \"cholmod\"\n", {"--solver (settings.toml:1)", "no longer built in"});
     expectConfigRefused("width = \"8cm\"\npixel-size = \"1um\"\n", {"--width and --pixel-size exclude each other"});
     expectRefused({"--config", "missing.toml"}, {"--config", "missing.toml", "No such file"});
     expectRefused({"--config", "."}, {"--config", "Is a directory"});

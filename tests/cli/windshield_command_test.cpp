@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -13,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "droplet/picture/evening_road.h"
 #include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -28,6 +28,12 @@ using ::testing::IsEmpty;
 using testing::readFile;
 using testing::runDroplet;
 using ::testing::SizeIs;
+
+Picture grey(int width, int height)
+{
+    const std::size_t levels = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {width, height, std::vector<std::uint8_t>(levels, 128)};
+}
 
 class WindshieldCommand : public ::testing::Test {
 protected:
@@ -209,7 +215,7 @@ TEST_F(WindshieldCommand, FilesThatAreNoneOfItsOwnStay)
     EXPECT_EQ(readFile(path("f/checkpoint.state")), "a letter");
     std::filesystem::remove(path("f/checkpoint.state"));
     std::ostringstream bytes;
-    writePng(eveningRoad({.width = 96, .height = 54}), bytes);
+    writePng(grey(96, 54), bytes);
     const std::string road = stored("f/4.png", bytes.str());
     const CommandResult behind = play(path("f/%d.png"), {"--background", road});
     EXPECT_EQ(behind.exit_code, 2);
@@ -272,7 +278,7 @@ TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
 TEST_F(WindshieldCommand, BackgroundsFillTheFrame)
 {
     std::ostringstream bytes;
-    writePng(eveningRoad({.width = 80, .height = 60}), bytes);
+    writePng(grey(80, 60), bytes);
     const std::string road = stored("road.png", bytes.str());
     const CommandResult own = play(path("own.png"), {"--background", road});
     ASSERT_EQ(own.exit_code, 0) << own.error;

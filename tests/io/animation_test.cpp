@@ -331,7 +331,7 @@ TEST(Animation, RefusesWhatCannotBePlayed)
 {
     EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames_per_second = 0.0, .frames = {}}); }),
                 HasSubstr("frames_per_second"));
-    EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames = 0}); }), HasSubstr("frames 0"));
+    EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames = 0}); }), HasSubstr("frames is 0"));
     EXPECT_THAT(refusal([] {
                     std::ostringstream out;
                     Animation(AnimationOptions{}).write(out);

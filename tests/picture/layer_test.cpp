@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "droplet/error.h"
-#include "droplet/picture/evening_road.h"
 #include "droplet/picture/picture.h"
 
 namespace droplet {
@@ -90,8 +89,11 @@ TEST(LayerOver, MixesByAlpha)
 
 TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
 {
-    const Picture road = eveningRoad({.width = 64, .height = 36});
-    EXPECT_EQ(covering(road, 64, 36), road);
+    Picture uneven{64, 36, {}};
+    for (int i = 0; i < 3 * 64 * 36; ++i) {
+        uneven.rgb.push_back(static_cast<std::uint8_t>(i * i % 251));
+    }
+    EXPECT_EQ(covering(uneven, 64, 36), uneven);
     // A plain colour stays itself, whatever the sizes.
     for (const auto& [w, h] : {std::pair(1, 1), std::pair(100, 3), std::pair(7, 90), std::pair(200, 150)}) {
         Picture plain{33, 21, {}};
@@ -118,8 +120,8 @@ TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i + 1)], 255);
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i)], 0);
     }
-    EXPECT_THROW(covering(road, 0, 5), Error);
-    EXPECT_THROW(covering(road, 5, 9000), Error);
+    EXPECT_THROW(covering(uneven, 0, 5), Error);
+    EXPECT_THROW(covering(uneven, 5, 9000), Error);
 }
 
 }  // namespace

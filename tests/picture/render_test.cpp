@@ -360,10 +360,10 @@ TEST(Render, RefusesWhatItCannotDo)
         }
     };
     constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-    refused([](RenderOptions& o) { o.width = 0; }, "options.width = 0");
-    refused([](RenderOptions& o) { o.height = 8193; }, "options.height = 8193");
-    refused([](RenderOptions& o) { o.samples = 3; }, "options.samples = 3");
-    refused([](RenderOptions& o) { o.samples = 257; }, "options.samples = 257");
+    refused([](RenderOptions& o) { o.width = 0; }, "options.width is 0");
+    refused([](RenderOptions& o) { o.height = 8193; }, "options.height is 8193");
+    refused([](RenderOptions& o) { o.samples = 3; }, "options.samples is 3");
+    refused([](RenderOptions& o) { o.samples = 257; }, "options.samples is 257");
     refused([](RenderOptions& o) { o.azimuth = kNoNumber; }, "options.azimuth");
     refused([](RenderOptions& o) { o.look.ior = 0.9; }, "options.look.ior");
     refused([](RenderOptions& o) { o.look.ior = kNoNumber; }, "options.look.ior");

@@ -129,12 +129,12 @@ TEST(BaseSurface, EndsWithTheSphereOrCylinder)
     const BaseSurface sphere = BaseSurface::sphere(-0.04);
     EXPECT_NO_THROW((void)sphere.at({0.0399, 0.0}));
     const std::string far = complaintOf([&] { (void)sphere.at({0.03, 0.04}); });
-    EXPECT_THAT(far, HasSubstr("radius 40.000000 mm"));
-    EXPECT_THAT(far, HasSubstr("50.000000 mm"));
+    EXPECT_THAT(far, HasSubstr("radius 40 mm"));
+    EXPECT_THAT(far, HasSubstr("50 mm"));
     EXPECT_THAT(complaintOf([&] { (void)sphere.at({0.04, 0.0}); }), HasSubstr("sphere"));
     const BaseSurface cylinder = BaseSurface::cylinder(0.033, 0.0);
     EXPECT_NO_THROW((void)cylinder.at({5.0, 0.0329}));
-    EXPECT_THAT(complaintOf([&] { (void)cylinder.at({0.0, -0.034}); }), HasSubstr("34.000000 mm"));
+    EXPECT_THAT(complaintOf([&] { (void)cylinder.at({0.0, -0.034}); }), HasSubstr("34 mm"));
     EXPECT_THAT(complaintOf([&] { (void)cylinder.at({0.0, kNan}); }), HasSubstr("nan"));
 }
 
@@ -260,9 +260,8 @@ TEST(BaseSurface, TellsOfThePointFarthestOut)
 {
     const std::vector<Vec2> points{{0.0, 0.0}, {2e-3, 1e-3}, {-3e-3, 2e-3}, {0.5e-3, -3.2e-3}};
     BaseSurface::sphere(3.7e-3).requireAt(points);
-    EXPECT_THAT(complaintOf([&] { BaseSurface::sphere(1e-3).requireAt(points); }), HasSubstr("exceed 3.605551 mm"));
-    EXPECT_THAT(complaintOf([&] { BaseSurface::cylinder(1e-3, 0.0).requireAt(points); }),
-                HasSubstr("exceed 3.200000 mm"));
+    EXPECT_THAT(complaintOf([&] { BaseSurface::sphere(1e-3).requireAt(points); }), HasSubstr("exceed 3.60555 mm"));
+    EXPECT_THAT(complaintOf([&] { BaseSurface::cylinder(1e-3, 0.0).requireAt(points); }), HasSubstr("exceed 3.2 mm"));
     const BaseSurface half([](Vec2 p) {
         if (p.x > 0.0) {
             throw Error(ErrorCode::InvalidArgument, "no ground at " + std::to_string(p.x));

@@ -93,10 +93,7 @@ struct NamedSolver {
 
 const std::vector<NamedSolver>& solvers()
 {
-    static const std::vector<NamedSolver> all{
-        {"simplicial-llt", [](const PlanarMesh& mesh) { return directSolver(mesh, Solver::Llt); }},
-        {"cholmod-supernodal", [](const PlanarMesh& mesh) { return directSolver(mesh, Solver::Cholmod); }},
-        {"multigrid-pcg", multigridSolver}};
+    static const std::vector<NamedSolver> all{{"simplicial-llt", directSolver}, {"multigrid-pcg", multigridSolver}};
     return all;
 }
 
@@ -139,7 +136,7 @@ TEST(ConstrainedSolver, SolvesOnTheZooAndAgrees)
                     SCOPED_TRACE(name + ", mass " + std::to_string(mass) + ", " + solvers()[s].name);
                     made[s]->prepare(op);
                     EXPECT_EQ(made[s]->method(),
-                              mass < 0.0 && s < 2 ? std::string("simplicial-ldlt") : solvers()[s].name);
+                              mass < 0.0 && s == 0 ? std::string("simplicial-ldlt") : solvers()[s].name);
                     for (std::size_t k = 0; k < problems.size(); ++k) {
                         const ConstrainedSolution solution = made[s]->solve(problems[k]);
                         expectSolves(*mesh, op, problems[k], solution);

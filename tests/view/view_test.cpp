@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/picture/evening_road.h"
 #include "droplet/view/glass_maps.h"
 #include "view/still_map.h"
 
@@ -26,6 +25,20 @@ Picture filled(int width, int height, std::array<std::uint8_t, 3> upper, std::ar
         for (int x = 0; x < width; ++x) {
             const auto& colour = 2 * y < height ? upper : lower;
             picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
+        }
+    }
+    return picture;
+}
+
+/// A picture in which all places look different.
+Picture slanted(int width, int height)
+{
+    Picture picture{width, height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (const int level : {255 * x / width, 255 * y / height, (7 * x + 3 * y) % 256}) {
+                picture.rgb.push_back(static_cast<std::uint8_t>(level));
+            }
         }
     }
     return picture;
@@ -117,10 +130,10 @@ TEST(View, DryGlassShowsThePictureThroughThePane)
     options.glass_colour = {1.0, 1.0, 1.0};
     const WindshieldParameters parameters = heavyRain();
     DriversView view(parameters.glass, options);
-    const Picture road = eveningRoad({.width = 160, .height = 90});
-    view.lookAt(road);
+    const Picture behind = slanted(160, 90);
+    view.lookAt(behind);
     view.show(startWindshield(parameters));
-    EXPECT_EQ(view.frame(), road);
+    EXPECT_EQ(view.frame(), behind);
     const Layer layer = view.layer();
     EXPECT_TRUE(std::all_of(layer.rgba.begin(), layer.rgba.end(), [](std::uint8_t level) { return level == 0; }));
 }
@@ -199,7 +212,7 @@ TEST(View, LayerOverTheBarePictureIsTheFrame)
         ViewOptions options = small();
         options.samples = samples;
         DriversView view(parameters.glass, options);
-        view.lookAt(eveningRoad({.width = 160, .height = 90}));
+        view.lookAt(slanted(160, 90));
         view.show(rained(parameters, 60));
         EXPECT_NE(view.frame(), view.bare());
         EXPECT_EQ(over(view.layer(), view.bare()), view.frame());
@@ -209,9 +222,9 @@ TEST(View, LayerOverTheBarePictureIsTheFrame)
 TEST(View, ManyStepsLeadWhereOneLookDoes)
 {
     const WindshieldParameters parameters = heavyRain();
-    const Picture road = eveningRoad({.width = 160, .height = 90});
+    const Picture behind = slanted(160, 90);
     DriversView followed(parameters.glass, small());
-    followed.lookAt(road);
+    followed.lookAt(behind);
     WindshieldState state = startWindshield(parameters);
     for (int k = 0; k < 90; ++k) {
         state = step(std::move(state), parameters, 1.0 / 60.0);
@@ -221,7 +234,7 @@ TEST(View, ManyStepsLeadWhereOneLookDoes)
     EXPECT_GT(state.counts.wiped, 0U);
     DriversView anew(parameters.glass, small());
     anew.show(state);
-    anew.lookAt(road);
+    anew.lookAt(behind);
     EXPECT_EQ(followed.layer(), anew.layer());
     // Nothing is drawn again where nothing has changed.
     const std::size_t drawn = followed.cellsDrawn();
@@ -238,12 +251,12 @@ TEST(StillMapOf, ManyUpdatesAreWhatTheMapFromScratchIs)
     for (int k = 0; k < 80; ++k) {
         state = step(std::move(state), parameters, 1.0 / 60.0);
         if (k % 3 == 0) {
-            followed.follow(state.still);
+            followed.follow(StillCells::of(state.still));
         }
     }
-    followed.follow(state.still);
+    followed.follow(StillCells::of(state.still));
     StillMap scratch(window, 1.7);
-    scratch.follow(state.still);
+    scratch.follow(StillCells::of(state.still));
     EXPECT_EQ(followed.texels(), scratch.texels());
     EXPECT_TRUE(std::any_of(scratch.texels().begin(), scratch.texels().end(), [](Texel t) { return !t.empty(); }));
 }
@@ -253,15 +266,15 @@ TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
     WindshieldParameters parameters;
     parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.1});
     WindshieldState state = startWindshield(parameters);
-    const auto cell = static_cast<std::size_t>(0.05 / state.still.cell);
-    const std::size_t number = cell * state.still.columns + cell;
+    StillCells& still = StillCells::of(state.still);
+    const auto cell = static_cast<std::size_t>(0.05 / still.cell);
     const double volume = 0.4e-9;
-    state.still.put(number, {{0.0501, 0.0503}, volume});
+    still.put(cell * still.columns + cell, {{0.0501, 0.0503}, volume});
     // Midpoints, and a rim in which coverage goes with the distance: first order at least.
     double coarse_error = 0.0;
     for (const auto& [texel, angle] : {std::pair(4e-5, 90.0), {2e-5, 90.0}, {2e-5, 140.0}, {2e-5, 60.0}}) {
         StillMap map({{0.04, 0.04}, {0.06, 0.06}, texel}, angle * kDegree);
-        map.follow(state.still);
+        map.follow(still);
         double sum = 0.0;
         for (const Texel& one : map.texels()) {
             sum += one.thickness() * texel * texel * one.cover() / 255.0;
@@ -282,7 +295,7 @@ TEST(View, SameBytesAtAnyNumberOfThreads)
     const auto seen = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         DriversView view(parameters.glass, small());
-        view.lookAt(eveningRoad({.width = 160, .height = 90, .travelled = 31.0}));
+        view.lookAt(slanted(160, 90));
         view.show(state);
         const GlassMaps maps = glassMaps(parameters.glass, state, {.width = 200});
         return std::tuple(view.frame(), view.layer(), maps.normal, maps.thickness, maps.velocity);
@@ -397,14 +410,15 @@ TEST(GlassMapsOf, TellWhereADropletIsAndWhereItGoes)
     EXPECT_THROW(glassMaps(parameters.glass, state, {.full_speed = 0.0}), Error);
 }
 
-TEST(EveningRoad, GoesByAndNothingElse)
+TEST(View, ItsDefaultBackgroundGoesByAndNothingElse)
 {
-    const Picture here = eveningRoad({.width = 96, .height = 54});
-    EXPECT_EQ(here, eveningRoad({.width = 96, .height = 54}));
-    EXPECT_NE(here, eveningRoad({.width = 96, .height = 54, .travelled = 3.0}));
-    EXPECT_THROW(eveningRoad({.width = 0}), Error);
-    EXPECT_THROW(eveningRoad({.travelled = std::nan("")}), Error);
-    EXPECT_THROW(eveningRoad({.spread = 1.0}), Error);
+    const Picture here = defaultBackground(small());
+    EXPECT_EQ(here.width, small().width);
+    EXPECT_EQ(here.height, small().height);
+    EXPECT_EQ(here, defaultBackground(small()));
+    EXPECT_NE(here, defaultBackground(small(), 3.0));
+    EXPECT_THROW(defaultBackground({.width = 0}), Error);
+    EXPECT_THROW(defaultBackground(small(), std::nan("")), Error);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <random>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "windshield/windshields.h"
 
@@ -20,10 +22,10 @@ using testing::uniform;
 constexpr Vec2 kSize{0.103, 0.058};  // no whole number of cells
 
 /// Droplets as rain and tracks leave them: settled, joined, and some taken away again.
-StillDroplets weathered(std::mt19937_64& bits)
+StillCells weathered(std::mt19937_64& bits)
 {
     const StillRules rules{1.2, 1e-10};
-    StillDroplets still = noStillDroplets(kSize);
+    StillCells still = StillCells::over(kSize);
     for (int k = 0; k < 1500; ++k) {
         const Vec2 place{uniform(bits, 0.0, kSize.x), uniform(bits, 0.0, kSize.y)};
         std::optional<StillDroplet> drop = StillDroplet{place, uniform(bits, 1e-12, 1e-11)};
@@ -45,12 +47,14 @@ StillDroplets weathered(std::mt19937_64& bits)
 TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
 {
     std::mt19937_64 bits(7);
-    const StillDroplets still = weathered(bits);
-    ASSERT_GT(still.count(), 200U);
+    const StillCells still = weathered(bits);
+    StillDroplets value;
+    StillCells::of(value) = still;
+    ASSERT_GT(value.count(), 200U);
     const double part = still.cell / kPlaces;
     for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
-        for (std::size_t k = 0; k < StillDroplets::kMost; ++k) {
-            const std::size_t slot = cell * StillDroplets::kMost + k;
+        for (std::size_t k = 0; k < StillCells::kMost; ++k) {
+            const std::size_t slot = cell * StillCells::kMost + k;
             const StillDroplet& d = still.slots[slot];
             if (k >= still.counts[cell]) {
                 EXPECT_EQ(d, StillDroplet{});
@@ -65,10 +69,33 @@ TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
     }
 }
 
+TEST(StillDroplets, AreAValue)
+{
+    std::mt19937_64 bits(3);
+    StillDroplets still;
+    EXPECT_EQ(still.count(), 0U);
+    EXPECT_EQ(still, StillDroplets());
+    StillCells::of(still) = weathered(bits);
+    const std::vector<StillDroplet> all = still.all();
+    EXPECT_EQ(all.size(), still.count());
+    StillDroplets copy = still;
+    EXPECT_EQ(copy, still);
+    StillCells& cells = StillCells::of(copy);
+    Taking taking(cells);
+    const auto first = std::find_if(cells.counts.begin(), cells.counts.end(), [](std::uint8_t n) { return n > 0; });
+    EXPECT_EQ(taking.take({static_cast<std::size_t>(first - cells.counts.begin()), 0}), all.front().volume);
+    taking.close();
+    EXPECT_NE(copy, still);
+    EXPECT_EQ(copy.all(), std::vector<StillDroplet>(all.begin() + 1, all.end()));
+    EXPECT_EQ(still.all(), all) << "copies share nothing";
+    still = std::move(copy);
+    EXPECT_EQ(still.count() + 1, all.size());
+}
+
 TEST(StillDroplets, NearAWayAreAllVisitedOnceAndFewOthers)
 {
     std::mt19937_64 bits(11);
-    const StillDroplets still = weathered(bits);
+    const StillCells still = weathered(bits);
     std::size_t visited = 0;
     std::size_t near = 0;
     for (int k = 0; k < 400; ++k) {

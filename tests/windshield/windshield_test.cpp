@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/windshield/presets.h"
+#include "droplet/windshield/state_bytes.h"
 #include "windshield/windshields.h"
 
 namespace droplet {
@@ -40,8 +42,9 @@ double reachOf(const WindshieldParameters& p, double volume)
 template <class Visit>
 void visitStill(const WindshieldState& state, const Visit& visit)
 {
-    for (std::size_t cell = 0; cell < state.still.counts.size(); ++cell) {
-        for (const StillDroplet& d : state.still.droplets(cell)) {
+    const StillCells& still = StillCells::of(state.still);
+    for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
+        for (const StillDroplet& d : still.droplets(cell)) {
             visit(cell, d);
         }
     }
@@ -390,12 +393,14 @@ TEST(Windshield, RaisesTheRevisionsOfCellsThatChange)
     WindshieldState state = after(startWindshield(p), p, kDt, 60);
     for (int k = 0; k < 30; ++k) {
         const WindshieldState later = step(state, p, kDt);
+        const StillCells& before = StillCells::of(state.still);
+        const StillCells& now = StillCells::of(later.still);
         std::size_t changed = 0;
-        for (std::size_t cell = 0; cell < state.still.counts.size(); ++cell) {
-            const auto a = state.still.droplets(cell);
-            const auto b = later.still.droplets(cell);
+        for (std::size_t cell = 0; cell < before.counts.size(); ++cell) {
+            const auto a = before.droplets(cell);
+            const auto b = now.droplets(cell);
             if (!std::equal(a.begin(), a.end(), b.begin(), b.end())) {
-                EXPECT_GT(later.still.revisions[cell], state.still.revisions[cell]);
+                EXPECT_GT(now.revisions[cell], before.revisions[cell]);
                 ++changed;
             }
         }
@@ -433,10 +438,11 @@ TEST_P(StillAmong, KeepApartAndInTheirCells)
     for (int k = 0; k < 8; ++k) {
         state = after(std::move(state), p, kDt, 15);
         std::vector<StillDroplet> all;
+        const StillCells& still = StillCells::of(state.still);
         visitStill(state, [&](std::size_t cell, const StillDroplet& d) {
-            const auto column = static_cast<std::size_t>(d.position.x / state.still.cell);
-            const auto row = static_cast<std::size_t>(d.position.y / state.still.cell);
-            EXPECT_EQ(cell, row * state.still.columns + column);
+            const auto column = static_cast<std::size_t>(d.position.x / still.cell);
+            const auto row = static_cast<std::size_t>(d.position.y / still.cell);
+            EXPECT_EQ(cell, row * still.columns + column);
             EXPECT_GT(d.volume, 0.0);
             EXPECT_LT(d.volume, limit);
             all.push_back(d);
@@ -636,7 +642,7 @@ TEST(Windshield, GoesOnForLong)
     EXPECT_GT(balance.left, 0.3 * balance.rained);
     EXPECT_GT(balance.wiped, 0.01 * balance.rained);
     EXPECT_GT(state.counts.raindrops, 50'000U);
-    EXPECT_EQ(state.still.slots.size(), startWindshield(p).still.slots.size());
+    EXPECT_EQ(StillCells::of(state.still).slots.size(), StillCells::of(startWindshield(p).still).slots.size());
 }
 
 TEST(Windshield, CountsWhatLeavesOverEachEdge)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "droplet/windshield/windshield.h"
+#include "windshield/still_droplets.h"
 
 namespace droplet::testing {
 
@@ -48,7 +49,7 @@ inline void addRunning(WindshieldState& state, Vec2 position, double volume, Vec
 
 inline void addStill(WindshieldState& state, Vec2 position, double volume)
 {
-    StillDroplets& still = state.still;
+    StillCells& still = StillCells::of(state.still);
     const auto column = static_cast<std::size_t>(position.x / still.cell);
     const auto row = static_cast<std::size_t>(position.y / still.cell);
     const std::size_t cell = row * still.columns + column;

@@ -58,9 +58,9 @@ Drawing beside(const std::vector<Drawing>& drawings);
 /// Guarantees: the same drawing gives the same bytes; the stream is left failed if it did not take everything.
 void writeSvg(const Drawing& drawing, std::ostream& out);
 
-/// Paints a drawing, smooth at edges, with letters of our own, which need no fonts.
+/// Paints a drawing with Cairo, and with letters of our own, which need no fonts.
 /// @param scale   pixels per unit, > 0
-/// @throws Error  InvalidArgument: no picture, or one of over kMostPicturePixels
+/// @throws Error  InvalidArgument: no picture, one of over kMostPicturePixels, or of a side over 32767
 Picture pictureOf(const Drawing& drawing, double scale);
 
 }  // namespace droplet

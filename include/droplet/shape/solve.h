@@ -38,9 +38,8 @@ enum class Model {
 
 /// How the linear systems are solved.
 enum class Solver {
-    Auto,       ///< whichever is fastest for each droplet; if the iteration does not converge, Cholmod
+    Auto,       ///< whichever is fastest for each droplet; if the iteration does not converge, Llt
     Llt,        ///< Eigen's simplicial Cholesky factorisation
-    Cholmod,    ///< CHOLMOD's supernodal Cholesky factorisation
     Multigrid,  ///< conjugate gradients preconditioned by multigrid on the mesh's lattice
 };
 
@@ -54,10 +53,10 @@ enum class Termination {
 
 /// How solving went: numbers, not words, except `method`.
 struct SolveReport {
-    std::string method;          ///< "simplicial-llt", "simplicial-ldlt", "cholmod-supernodal", "multigrid-pcg"; where
-                                 ///< droplets differ, the one with most unknowns
-    std::size_t unknowns = 0;    ///< interior vertices of all droplets
-    std::size_t iterations = 0;  ///< most of any linear system; 1 for a factorisation
+    std::string method;            ///< "simplicial-llt", "simplicial-ldlt", "multigrid-pcg"; where droplets differ, the
+                                   ///< one with most unknowns
+    std::size_t unknowns = 0;      ///< interior vertices of all droplets
+    std::size_t iterations = 0;    ///< most of any linear system; 1 for a factorisation
     std::size_t newton_steps = 0;  ///< most of any droplet; 1 for the linear model
     double residual = 0.0;  ///< largest relative residual of any droplet: ‖Ax − b‖/‖b‖, or of the exact model's
                             ///< equations
@@ -111,8 +110,8 @@ PlaneGravity planeGravity(const SolveOptions& options);
 /// the volume kept at every step. With no_penetration either becomes a complementarity problem.
 ///
 /// Guarantees: a prescribed volume is met to 1e-10 relative; u ≥ h with no_penetration, and without it on level flat
-/// ground up to round-off; the same input gives the same bits at any number of threads (with Solver::Cholmod as far as
-/// the installed BLAS does so); heights of different solvers agree to 1e-8 of the largest.
+/// ground up to round-off; the same input gives the same bits at any number of threads; heights of different solvers
+/// agree to 1e-8 of the largest.
 /// @param meshes    valid, at least one
 /// @param options   liquid, gravity, ground, model, fill, solver
 /// @param progress  told of Stage::Assemble and Stage::Solve; may be empty

@@ -29,6 +29,14 @@ struct ViewOptions {
     void validate() const;
 };
 
+/// What is behind the glass where nobody brings a picture: a made-up road on a wet evening, out of focus. What stands
+/// still comes nearer as the car travels.
+///
+/// Guarantees: the same bytes from the same arguments, at any number of threads; as large as the frame.
+/// @param travelled  how far the car has come [m], finite
+/// @throws Error     InvalidArgument
+Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
+
 /// What the driver sees: an eye behind the glass that looks straight ahead, and a picture so far away that only the
 /// direction of a ray tells what is seen of it.
 ///

@@ -36,9 +36,9 @@ enum class WindAlongGlass {
 /// droplets horizontally; air cannot pass through the glass, so here it runs along it: projected onto the tangent
 /// plane. The drag's size is that of its speed. By default this is the whole speed (Turned): a windshield turns the
 /// flow, which slows down at its foot and is faster than the vehicle at its upper edge, and the thesis's V is the
-/// wind's velocity "out of the boundary layer (relative to the solid plane)", eq. (3.4). With δ/C_D as measured
-/// (WIND.md's 6.8 mm) only so do figures 3.10 to 3.12 come out as the thesis tells them. Projected is what is left of
-/// the wind that has no obstacle but the plane itself: none on a glass across it.
+/// wind's velocity "out of the boundary layer (relative to the solid plane)", eq. (3.4). With δ/C_D = 6.8 mm, as the
+/// thesis's figure 3.3 measures it (Air::boundary_layer), only so do figures 3.10 to 3.12 come out as the thesis tells
+/// them. Projected is what is left of the wind that has no obstacle but the plane itself: none on a glass across it.
 class Glass {
 public:
     /// A part of a cylinder: bent across, straight up the glass, leaning back (thesis 3.2.3: 5 m, 45°).

@@ -5,12 +5,12 @@
 // layer thicker than any droplet is high, "thick" as figure 3.12 has it. Then a wind of 10.2 m/s neither lets droplets
 // down a slope of 45° nor drives them up, and
 //
-//     11.3 m/s   gravity is overcome by g sin 45° · 0.23; hysteresis 0.5 holds all below 8 mm across, 0.05 those below
-//     3 15 m/s     by g sin 45° · 1.2: hysteresis 0.5 holds those below 4 mm
-#include <cstddef>
+//     11.3 m/s   gravity is overcome by g sin 45° · 0.23: hysteresis 0.5 holds all below 8 mm across, 0.05 those
+//                below 3 mm
+//     15 m/s     by g sin 45° · 1.2: hysteresis 0.5 holds those below 4 mm
+#include "droplet/windshield/presets.h"
 
 #include "droplet/error.h"
-#include "droplet/windshield/windshield.h"
 
 namespace droplet {
 namespace {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the thesis says of figures 3.10 to 3.12 in section 3.2.3.
+#include "droplet/windshield/presets.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

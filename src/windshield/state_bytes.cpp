@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
+#include "droplet/windshield/state_bytes.h"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/windshield/windshield.h"
+#include "windshield/still_droplets.h"
 
 namespace droplet {
 namespace {
@@ -141,11 +142,12 @@ std::string bytesOf(const WindshieldState& state)
     for (const TrackPiece& t : state.tracks) {
         out.all(t.id, t.from, t.to, t.radius);
     }
-    out.all(state.still.cell, std::uint64_t{state.still.columns}, std::uint64_t{state.still.rows});
+    const StillCells& still = StillCells::of(state.still);
+    out.all(still.cell, std::uint64_t{still.columns}, std::uint64_t{still.rows});
     // A cell that was never touched is one number; the others are told apart by it.
-    for (std::size_t cell = 0; cell < state.still.counts.size(); ++cell) {
-        out.put(std::uint64_t{state.still.revisions[cell]} << 8U | state.still.counts[cell]);
-        for (const StillDroplet& d : state.still.droplets(cell)) {
+    for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
+        out.put(std::uint64_t{still.revisions[cell]} << 8U | still.counts[cell]);
+        for (const StillDroplet& d : still.droplets(cell)) {
             out.all(d.position, d.volume);
         }
     }
@@ -171,7 +173,7 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     }
     std::uint64_t columns = 0;
     std::uint64_t rows = 0;
-    StillDroplets& still = state.still;
+    StillCells& still = StillCells::of(state.still);
     in.all(still.cell, columns, rows);
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     in.require(still.cell > 0.0 && columns <= kMost && rows <= kMost && columns * rows <= bytes.size() / 8);
@@ -180,12 +182,12 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     const auto cells = static_cast<std::size_t>(columns * rows);
     still.counts.resize(cells);
     still.revisions.resize(cells);
-    still.slots.resize(cells * StillDroplets::kMost);
+    still.slots.resize(cells * StillCells::kMost);
     still.places.resize(still.slots.size());
     for (std::size_t cell = 0; cell < cells; ++cell) {
         std::uint64_t both = 0;
         in.get(both);
-        in.require((both & 0xFFU) <= StillDroplets::kMost && both >> 8U <= kMost);
+        in.require((both & 0xFFU) <= StillCells::kMost && both >> 8U <= kMost);
         for (std::uint64_t k = 0; k < (both & 0xFFU); ++k) {
             StillDroplet d;
             in.all(d.position, d.volume);

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
-#include "droplet/windshield/windshield.h"
+#include "droplet/vector.h"
+#include "droplet/windshield/wipers.h"
 #include "windshield/cells.h"
 
 namespace droplet {

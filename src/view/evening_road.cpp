@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene to look at through water, so that the windshield has one when nobody brings a picture. Its sizes are a
 // country road's; its colours are chosen by eye.
-#include "droplet/picture/evening_road.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
-#include <string>
 #include <vector>
 
-#include "droplet/error.h"
+#include "droplet/view/view.h"
 #include "picture/optics.h"
 #include "picture/tone.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -25,6 +22,7 @@ constexpr float kLane = 3.5F;        // width [m]
 constexpr float kLineWidth = 0.15F;  // of paint [m]
 constexpr float kDash = 6.0F;        // length of paint, and twice that of gap [m]
 constexpr float kFarthest = 420.0F;  // at which a light is still one [m]
+constexpr double kSpread = 0.009;    // radius of a light out of focus, over the picture's width
 
 /// Place in the picture: tangents of the angles to the right and up from straight ahead.
 struct Tangents {
@@ -61,9 +59,9 @@ float scattered(std::uint32_t n)
 
 class Road {
 public:
-    explicit Road(const RoadOptions& options)
-        : travelled_(std::fmod(static_cast<float>(std::fmod(options.travelled, 1e5)), 1e5F)),
-          spread_(static_cast<float>(2.0 * options.spread * std::tan(0.5 * options.field_of_view)))
+    Road(double field_of_view, double travelled)
+        : travelled_(std::fmod(static_cast<float>(std::fmod(travelled, 1e5)), 1e5F)),
+          spread_(static_cast<float>(2.0 * kSpread * std::tan(0.5 * field_of_view)))
     {
         light();
     }
@@ -232,30 +230,13 @@ private:
     std::vector<Streak> streaks_;
 };
 
-void require(bool holds, const char* field, double value, const char* constraint)
-{
-    if (!holds) {
-        throw Error(ErrorCode::InvalidArgument, std::string(field) + " " + std::to_string(value) + " " + constraint);
-    }
-}
-
 }  // namespace
 
-void RoadOptions::validate() const
-{
-    constexpr int kMostSide = 8192;
-    require(width >= 1 && width <= kMostSide, "width", width, "must be from 1 to 8192");
-    require(height >= 1 && height <= kMostSide, "height", height, "must be from 1 to 8192");
-    require(field_of_view > 0.0 && field_of_view < std::numbers::pi, "field_of_view", field_of_view,
-            "must be between 0 and pi");
-    require(std::isfinite(travelled), "travelled", travelled, "must be finite");
-    require(spread >= 0.001 && spread <= 0.1, "spread", spread, "must be from 0.001 to 0.1");
-}
-
-Picture eveningRoad(const RoadOptions& options)
+Picture defaultBackground(const ViewOptions& options, double travelled)
 {
     options.validate();
-    const Road road(options);
+    require(std::isfinite(travelled), "travelled", travelled, "finite");
+    const Road road(options.field_of_view, travelled);
     Picture picture{options.width, options.height, {}};
     const auto width = static_cast<std::size_t>(options.width);
     picture.rgb.resize(3 * width * static_cast<std::size_t>(options.height));

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common_options.h"
+
+#include "droplet/version.h"
+#include "option_values.h"
+
+namespace cli {
+
+void declareCommon(CommandLine& line, const char* group, const std::string& example)
+{
+    line.add(group, "-j,--threads", "N", "use at most N threads [all cores]");
+    line.addFlag(group, "-q,--quiet", "say nothing but errors");
+    line.add(group, "--config", "FILE",
+             "take options from lines such as " + example + ";\nthe command line goes before them");
+    line.addFlag(group, "-h,--help", "print this help");
+    line.addFlag(group, "--version", "print the version");
+}
+
+std::optional<std::string> textAskedFor(const CommandLine& line)
+{
+    if (line.flag("--help")) {
+        return line.help();
+    }
+    if (line.flag("--version")) {
+        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> readThreads(const CommandLine& line)
+{
+    constexpr std::size_t kMostThreads = 1024;  // more than any machine this runs on
+    const auto threads = line.value("--threads");
+    return threads ? std::optional(count(*threads, kMostThreads, "1024")) : std::nullopt;
+}
+
+}  // namespace cli

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield_frames.h"
+
+#include <array>
+#include <ostream>
+#include <utility>
+
+#include "droplet/io/output.h"
+#include "droplet/view/glass_maps.h"
+#include "option_values.h"
+#include "windshield_files.h"
+#include "windshield_plan.h"
+
+namespace cli {
+namespace {
+
+/// The encoder of a video; refuses one that ffmpeg does not have.
+std::string videoCodec(const WindshieldOptions& options)
+{
+    if (!options.is_video) {
+        return {};
+    }
+    std::string codec = options.codec.value_or(codecFor(options.output));
+    checkCodec(codec, options.output);
+    return codec;
+}
+
+BackgroundOptions backgroundOf(const WindshieldOptions& options)
+{
+    BackgroundOptions behind;
+    behind.path = options.background;
+    if (options.sized) {
+        behind.width = options.view.width;
+        behind.height = options.view.height;
+    }
+    behind.fit = options.fit;
+    behind.field_of_view = options.view.field_of_view;
+    return behind;
+}
+
+}  // namespace
+
+WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::Glass& glass)
+    : options_(options),
+      glass_(glass),
+      codec_(videoCodec(options)),
+      background_(backgroundOf(options)),
+      view_options_(options.view)
+{
+    view_options_.width = background_.width();
+    view_options_.height = background_.height();
+    if (options_.is_video && (view_options_.width % 2 != 0 || view_options_.height % 2 != 0)) {
+        refuse("--size: a video's frame must have even sides, not " + std::to_string(view_options_.width) + "x" +
+               std::to_string(view_options_.height));
+    }
+    forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
+}
+
+void WindshieldFrames::begin()
+{
+    if (options_.is_video) {
+        const VideoWriterOptions video{options_.output, codec_, view_options_.width, view_options_.height,
+                                       options_.frames_per_second};
+        tryVideo(video);
+        video_ = std::make_unique<VideoWriter>(video);
+    }
+}
+
+void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, double travelled)
+{
+    const bool is_shown = options_.files || options_.is_video || is_last;
+    if (is_shown) {
+        if (auto behind = background_.next(travelled)) {
+            view_->lookAt(*behind);
+        }
+        view_->show(state);
+    } else {
+        background_.skip(1);
+    }
+    if (options_.is_video) {
+        video_->add(view_->frame());
+    } else if (is_shown) {
+        layer_ = options_.layer ? view_->layer() : droplet::Layer();
+        picture_ = options_.layer ? droplet::Picture() : view_->frame();
+    }
+    if (options_.files) {
+        saving_.wait();
+        saving_.run(
+            [layer = std::move(layer_), picture = std::move(picture_), path = options_.files->at(number), this] {
+                droplet::writeWhole(
+                    path, [&](std::ostream& out) { writePicture(out, layer, picture, droplet::PngEffort::Fast); },
+                    options_.output_options);
+            });
+    }
+    if (options_.maps) {
+        writeMaps(state, number);
+    }
+}
+
+void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& layer, const droplet::Picture& picture,
+                                    droplet::PngEffort effort) const
+{
+    if (options_.layer) {
+        writePng(layer, out, effort);
+    } else {
+        writePng(picture, out, effort);
+    }
+}
+
+void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
+{
+    const droplet::GlassMaps maps = glassMaps(glass_, state, options_.map);
+    const std::array<const droplet::DeepPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness, &maps.velocity};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        droplet::writeWhole(
+            mapPath(*options_.maps, number, kMapNames[k]),
+            [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); }, options_.output_options);
+    }
+}
+
+void WindshieldFrames::write(std::ostream& out)
+{
+    if (options_.is_video) {
+        video_->finish(out);
+    } else {
+        writePicture(out, layer_, picture_, droplet::PngEffort::Small);
+    }
+}
+
+}  // namespace cli

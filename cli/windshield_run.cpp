@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checkpoint.h"
+#include "droplet/wind_io/droplet_scene.h"
+#include "droplet/wind_io/droplet_table.h"
+#include "droplet_report.h"
+#include "files.h"
+#include "option_values.h"
+#include "stage_clock.h"
+#include "terminal.h"
+#include "windshield_files.h"
+#include "windshield_frames.h"
+#include "windshield_plan.h"
+
+namespace cli {
+namespace {
+
+class WindshieldRun {
+public:
+    explicit WindshieldRun(const WindshieldOptions& options);
+
+    droplet::WindshieldReport play();
+
+private:
+    /// Everything before the first frame, or where an interrupted run stood.
+    void begin();
+    /// Goes on where an interrupted run stood, as far as it may.
+    /// @return whether it was the checkpoint's state to go on from; otherwise it begins anew
+    bool resume();
+    void advance();
+    void noteBalance();
+    void travel();
+    /// Plays and draws all frames that are left.
+    void run();
+    void finish();
+    void showProgress() const;
+
+    const WindshieldOptions& options_;
+    StageClock clock_;
+    WindshieldPlan plan_;
+    WindshieldFrames frames_;
+    std::string fingerprint_;
+    std::optional<droplet::DropletTable> table_;
+    std::optional<droplet::DropletScene> scene_;
+    droplet::WindshieldState state_;
+    std::size_t played_ = 0;        ///< frames
+    std::size_t drawn_before_ = 0;  ///< frames that an interrupted run left
+    std::size_t travelled_frames_ = 0;
+    double travelled_ = 0.0;  ///< since the first frame [m]
+    droplet::WindshieldReport report_;
+};
+
+WindshieldRun::WindshieldRun(const WindshieldOptions& options)
+    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters.glass)
+{
+    checkFrameFiles(options_, plan_.frames);
+    if (options_.files) {
+        fingerprint_ = fingerprintOf(options_);
+    }
+    report_.preset = options_.preset;
+    report_.drive_cycle = options_.drive_cycle;
+    report_.surface = options_.surface;
+    report_.background = options_.background;
+    report_.output = options_.output;
+    report_.parameters = plan_.parameters;
+    report_.view = frames_.view();
+    report_.frames_per_second = options_.frames_per_second;
+    report_.warm_up = options_.warm_up;
+    report_.step = plan_.step;
+    report_.frames = plan_.frames;
+    report_.warnings = plan_.warnings;
+}
+
+droplet::WindshieldReport WindshieldRun::play()
+{
+    begin();
+    std::vector<OutputFile> files;
+    if (options_.droplets) {
+        files.push_back({*options_.droplets, {}});
+    }
+    if (!options_.files) {
+        files.push_back({options_.output, {}});
+    }
+    if (options_.droplets) {
+        // Rows are written as they come: the table is open for the whole run.
+        files.front().write = [&](std::ostream& out) {
+            const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
+            table_.emplace(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, report_.view.shape);
+            run();
+            table_->finish();
+        };
+    } else {
+        run();
+    }
+    if (!options_.files) {
+        files.back().write = [&](std::ostream& out) { frames_.write(out); };
+    }
+    if (options_.model) {
+        files.push_back({*options_.model, [&](std::ostream& out) { scene_->write(out); }});
+    }
+    if (options_.json) {
+        files.push_back({*options_.json, [&](std::ostream& out) {
+                             finish();
+                             writeWindshieldReport(out, report_);
+                         }});
+    }
+    writeTogether(files, options_.output_options);
+    if (options_.files) {
+        std::error_code ignored;
+        std::filesystem::remove(checkpointPath(*options_.files), ignored);
+    }
+    finish();
+    return std::move(report_);
+}
+
+void WindshieldRun::begin()
+{
+    state_ = startWindshield(plan_.parameters);
+    if (options_.model) {
+        droplet::DropletSceneOptions scene;
+        scene.frames_per_second = options_.frames_per_second;
+        scene.shape = report_.view.shape;
+        scene_.emplace(plan_.parameters.glass, scene);
+    }
+    frames_.begin();
+    if (options_.files && resume()) {
+        return;
+    }
+    const auto steps = static_cast<std::size_t>(std::llround(options_.warm_up / plan_.step));
+    for (std::size_t k = 0; k < steps; ++k) {
+        advance();
+    }
+}
+
+bool WindshieldRun::resume()
+{
+    const std::string path = checkpointPath(*options_.files);
+    const auto checkpoint = options_.resume ? readCheckpoint(path) : std::optional<Checkpoint>();
+    if (!checkpoint) {
+        // Another run's must not be taken for this one's.
+        removeCheckpoint(path, options_.output_options);
+        return false;
+    }
+    if (checkpoint->fingerprint != fingerprint_) {
+        refuse("--resume: " + path + " is of a run with other options or files");
+    }
+    if (checkpoint->frames > plan_.frames) {
+        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames stand already, and --time asks for " +
+               std::to_string(plan_.frames));
+    }
+    drawn_before_ = checkpoint->frames;
+    bool is_whole = true;
+    for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
+        is_whole = hasFrame(options_, number);
+    }
+    // What is told of every frame has to be played again, as has what is missing.
+    if (options_.droplets || options_.model || !is_whole) {
+        return false;
+    }
+    state_ = checkpoint->state;
+    report_.balance = checkpoint->balance;
+    played_ = checkpoint->frames;
+    for (std::size_t k = 1; k < played_; ++k) {
+        travel();
+    }
+    frames_.skip(played_);
+    return true;
+}
+
+void WindshieldRun::advance()
+{
+    // Steps add up to seconds but for rounding.
+    const auto second = [&] { return std::floor(state_.time + 1e-6); };
+    const double before = second();
+    state_ = droplet::step(std::move(state_), plan_.parameters, plan_.step);
+    if (second() > before) {
+        noteBalance();
+    }
+}
+
+void WindshieldRun::noteBalance()
+{
+    report_.balance.push_back(balanceRow(state_, plan_.parameters.vehicle.speedAt(state_.time)));
+}
+
+void WindshieldRun::travel()
+{
+    ++travelled_frames_;
+    const double time = options_.warm_up + static_cast<double>(travelled_frames_) / options_.frames_per_second;
+    travelled_ += plan_.parameters.vehicle.speedAt(time) / options_.frames_per_second;
+}
+
+void WindshieldRun::run()
+{
+    const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
+    for (; played_ < plan_.frames; ++played_) {
+        if (played_ > 0) {
+            for (std::size_t k = 0; k < plan_.steps; ++k) {
+                advance();
+            }
+            travel();
+        }
+        if (table_) {
+            table_->add(played_ + 1, state_);
+        }
+        if (scene_) {
+            scene_->add(state_);
+        }
+        if (played_ >= drawn_before_ || !hasFrame(options_, played_ + 1)) {
+            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames, travelled_);
+        } else {
+            frames_.skip(1);
+        }
+        if (options_.files && played_ + 1 > drawn_before_ && (played_ + 1) % second == 0) {
+            frames_.wait();
+            writeCheckpoint(checkpointPath(*options_.files), {fingerprint_, played_ + 1, report_.balance, state_});
+        }
+        showProgress();
+    }
+    frames_.wait();
+    if (report_.balance.empty() || report_.balance.back().time != state_.time) {
+        noteBalance();
+    }
+    report_.counts = state_.counts;
+}
+
+void WindshieldRun::finish()
+{
+    report_.time_total = clock_.total();
+    report_.peak_memory = peakMemory();
+}
+
+void WindshieldRun::showProgress() const
+{
+    if (!options_.quiet && errorIsTerminal()) {
+        std::cerr << "\rframe " << played_ + 1 << " of " << plan_.frames << (played_ + 1 == plan_.frames ? "\n" : "")
+                  << std::flush;
+    }
+}
+
+}  // namespace
+
+droplet::WindshieldReport playWindshield(const WindshieldOptions& options)
+{
+    return WindshieldRun(options).play();
+}
+
+}  // namespace cli

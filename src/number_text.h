@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/core.h>
+
+#include <string>
+
+namespace droplet {
+
+/// How a number stands in a message: in its shortest form, rounded to that many significant digits, and never as −0.
+inline std::string numberText(double value, int digits = 6)
+{
+    return fmt::format("{:.{}g}", value + 0.0, digits);
+}
+
+}  // namespace droplet

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <sstream>
+#include <string>
+
+#include "droplet/error.h"
+
+namespace droplet {
+
+/// Refuses a field's value: "field is value, must be constraint".
+/// @param field       of any type that a stream takes, with its owner: "wiper.stroke"
+/// @param constraint  what the value must be, with its unit: "finite and more than 0 s"
+template <typename Field, typename Value, typename Constraint>
+[[noreturn]] void refuseValue(const Field& field, const Value& value, const Constraint& constraint)
+{
+    std::ostringstream message;
+    message << field << " is " << value << ", must be " << constraint;
+    throw Error(ErrorCode::InvalidArgument, message.str());
+}
+
+/// Refuses the value unless the condition holds. See refuseValue.
+template <typename Value>
+void require(bool holds, const char* field, const Value& value, const char* constraint)
+{
+    if (!holds) {
+        refuseValue(field, value, constraint);
+    }
+}
+
+/// Refuses a number that is not from `least` to `greatest`.
+inline void requireWithin(const char* field, int value, int least, int greatest)
+{
+    if (value < least || value > greatest) {
+        refuseValue(field, value, "from " + std::to_string(least) + " to " + std::to_string(greatest));
+    }
+}
+
+}  // namespace droplet

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "droplet/vector.h"
+#include "droplet/view/view.h"
+#include "picture/optics.h"
+#include "view/glass_frame.h"
+
+namespace droplet {
+
+/// The driver's eye: the rays of its pixels, and where they meet the glass.
+class Eye {
+public:
+    /// @param options  valid
+    /// @throws Error   InvalidArgument: it looks beside the glass
+    Eye(const Glass& glass, const ViewOptions& options);
+
+    [[nodiscard]] int width() const { return width_; }    ///< [px]
+    [[nodiscard]] int height() const { return height_; }  ///< [px]
+    /// Tangent of half the field of view.
+    [[nodiscard]] float halfWidth() const { return half_width_; }
+    /// Tangent across a pixel.
+    [[nodiscard]] float tangent() const { return tangent_; }
+    [[nodiscard]] Vec3 position() const { return position_; }
+
+    /// Direction of a pixel's ray, unit: x right, y ahead, z up.
+    [[nodiscard]] Vec3f ray(int x, int y) const
+    {
+        return unit({tangent_ * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(width_)), 1.0F,
+                     tangent_ * (0.5F * static_cast<float>(height_) - static_cast<float>(y) - 0.5F)});
+    }
+    /// A pixel's number, row by row.
+    [[nodiscard]] std::size_t at(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+    /// Where on the glass a pixel's middle is seen [m]; NaN beside it.
+    [[nodiscard]] Vec2f place(int x, int y) const { return places_[at(x, y)]; }
+
+private:
+    class Net;
+
+    int width_;
+    int height_;
+    float half_width_;
+    float tangent_;
+    Vec3 position_;
+    std::vector<Vec2f> places_;  ///< of each pixel
+};
+
+}  // namespace droplet

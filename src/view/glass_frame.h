@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "droplet/windshield/glass.h"
+#include "picture/optics.h"
+
+namespace droplet {
+
+struct Vec2f {
+    float x = 0.0F;
+    float y = 0.0F;
+};
+
+/// The glass at a place.
+struct Frame {
+    Vec3f across;
+    Vec3f up;
+    Vec3f normal;
+};
+
+inline Frame frameOf(const GlassPlace& place)
+{
+    return {toFloats(place.across), toFloats(place.up), toFloats(place.normal)};
+}
+
+inline Vec3f toFrame(const Frame& frame, Vec3f v)
+{
+    return {dot(v, frame.across), dot(v, frame.up), dot(v, frame.normal)};
+}
+
+inline Vec3f fromFrame(const Frame& frame, Vec3f v)
+{
+    return v.x * frame.across + v.y * frame.up + v.z * frame.normal;
+}
+
+}  // namespace droplet

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "view/running_rays.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "view/water_optics.h"
+
+namespace droplet {
+
+/// A droplet about to be traced.
+struct RunningRays::Traced {
+    Vec2f position;
+    Vec2f along;  ///< unit, of its motion
+    Frame frame;  ///< x along the motion
+    Capsule capsule;
+    float wide = 0.0F;            ///< radius of what is seen of the ends [m]
+    std::uint8_t level = 0;       ///< of the backdrop
+    std::uint8_t calm_level = 0;  ///< where there is one ray a pixel
+    int left = 0;                 ///< pixels it may reach
+    int right = -1;
+    int top = 0;
+    int bottom = -1;
+};
+
+void RunningRays::follow(const std::vector<RunningDroplet>& droplets)
+{
+    std::vector<Drawn> next(droplets.size());
+    // What rests where it was is as it was; both are in the order of their ids.
+    auto before = drawn_.begin();
+    for (std::size_t k = 0; k < droplets.size(); ++k) {
+        const RunningDroplet& droplet = droplets[k];
+        before = std::find_if(before, drawn_.end(), [&](const Drawn& one) { return one.droplet.id >= droplet.id; });
+        if (before != drawn_.end() && before->droplet.id == droplet.id &&
+            before->droplet.position == droplet.position && before->droplet.velocity == droplet.velocity &&
+            before->droplet.volume == droplet.volume) {
+            next[k] = std::move(*before);
+        }
+    }
+    constexpr std::size_t kWorthAThread = 32;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, droplets.size(), kWorthAThread), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) {
+            if (next[k].droplet.volume == 0.0) {
+                next[k].droplet = droplets[k];
+                next[k].parts = trace(prepared(droplets[k]));
+            }
+        }
+    });
+    drawn_ = std::move(next);
+    for (std::vector<const std::vector<Ray>*>& rays : in_tiles_) {
+        rays.clear();
+    }
+    for (const Drawn& one : drawn_) {
+        for (const Part& part : one.parts) {
+            in_tiles_[part.tile].push_back(&part.rays);
+        }
+    }
+}
+
+RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
+{
+    const ViewOptions& options = sight_.options;
+    const float tangent = sight_.eye.tangent();
+    Traced one;
+    const auto place = sight_.glass.place(droplet.position);
+    if (!place) {
+        return one;
+    }
+    const double speed = length(droplet.velocity);
+    const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
+    const RunningShape shape = runningShape(droplet.volume, speed, options.shape);
+    const Vec3 right = along.x * place->across + along.y * place->up;
+    const Vec3 left = along.x * place->up - along.y * place->across;
+    one.position = {static_cast<float>(droplet.position.x), static_cast<float>(droplet.position.y)};
+    one.along = {static_cast<float>(along.x), static_cast<float>(along.y)};
+    one.frame = {toFloats(right), toFloats(left), toFloats(place->normal)};
+    one.capsule = {static_cast<float>(shape.half_length), static_cast<float>(shape.radius),
+                   static_cast<float>(shape.centre_height)};
+    one.wide = static_cast<float>(shape.silhouette());
+    const double reach = shape.half_length + shape.silhouette();
+    float left_most = 1e9F;
+    float right_most = -1e9F;
+    float top = 1e9F;
+    float bottom = -1e9F;
+    for (const double x : {-reach, reach}) {
+        for (const double y : {-shape.silhouette(), shape.silhouette()}) {
+            const Vec3 corner = place->point + x * right + y * left - sight_.eye.position();
+            if (corner.y < 1e-3) {
+                return one;
+            }
+            const auto px =
+                static_cast<float>(corner.x / corner.y) / tangent + 0.5F * static_cast<float>(options.width);
+            const auto py =
+                0.5F * static_cast<float>(options.height) - static_cast<float>(corner.z / corner.y) / tangent;
+            left_most = std::min(left_most, px);
+            right_most = std::max(right_most, px);
+            top = std::min(top, py);
+            bottom = std::max(bottom, py);
+        }
+    }
+    constexpr float kRim = 2.0F;  // [px] of soft edge, and of the glass's bend
+    const auto w = static_cast<float>(options.width);
+    const auto h = static_cast<float>(options.height);
+    if (right_most < -kRim || left_most > w + kRim || bottom < -kRim || top > h + kRim) {
+        return one;
+    }
+    one.left = static_cast<int>(std::max(left_most - kRim, 0.0F));
+    one.right = static_cast<int>(std::min(right_most + kRim, w - 1.0F));
+    one.top = static_cast<int>(std::max(top - kRim, 0.0F));
+    one.bottom = static_cast<int>(std::min(bottom + kRim, h - 1.0F));
+    const Tiles& tiles = sight_.tiles;
+    const Tile& tile = tiles[tiles.number((one.left + one.right) / 2 / kTile, (one.top + one.bottom) / 2 / kTile)];
+    const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : right_most - left_most;
+    one.level = sight_.levelFor(diameter);
+    one.calm_level = sight_.levelFor(diameter / static_cast<float>(options.samples));
+    return one;
+}
+
+std::vector<RunningRays::Part> RunningRays::trace(const Traced& one) const
+{
+    std::vector<Part> parts;
+    for (int r = one.top / kTile; r <= one.bottom / kTile && one.bottom >= 0; ++r) {
+        for (int c = one.left / kTile; c <= one.right / kTile && one.right >= 0; ++c) {
+            const auto number = static_cast<std::uint32_t>(sight_.tiles.number(c, r));
+            Part part{number, {}};
+            trace(one, c, r, part.rays);
+            if (!part.rays.empty()) {
+                parts.push_back(std::move(part));
+            }
+        }
+    }
+    return parts;
+}
+
+void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const
+{
+    const ViewOptions& options = sight_.options;
+    const Tile& tile = sight_.tiles[sight_.tiles.number(column, row)];
+    const auto ior = static_cast<float>(options.ior);
+    const int n = options.samples;
+    const float soft = tile.pixel / static_cast<float>(n);
+    // In its middle a droplet is smooth: a ray a pixel does.
+    const float calm = 0.6F * one.wide - tile.pixel;
+    const auto beyond_line = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
+    for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
+        for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1); ++x) {
+            const Vec2f middle = sight_.eye.place(x, y);
+            if (std::isnan(middle.x)) {
+                continue;
+            }
+            const float dx = middle.x - one.position.x;
+            const float dy = middle.y - one.position.y;
+            const float past = beyond_line(one.along.x * dx + one.along.y * dy);
+            const float aside = one.along.x * dy - one.along.y * dx;
+            const float far2 = past * past + aside * aside;
+            const float out = one.wide + 2.0F * tile.pixel;
+            if (far2 > out * out) {
+                continue;
+            }
+            const Vec3f inside = intoWater(toFrame(one.frame, sight_.eye.ray(x, y)), ior);
+            // A ray so far from the pixel's middle.
+            const auto add = [&](float u, float v, bool is_whole) {
+                const float ex = dx + u * tile.right.x + v * tile.down.x;
+                const float ey = dy + u * tile.right.y + v * tile.down.y;
+                const float a = one.along.x * ex + one.along.y * ey;
+                const float b = one.along.x * ey - one.along.y * ex;
+                const float end = beyond_line(a);
+                const float cover = std::min((one.wide - std::sqrt(end * end + b * b)) / soft + 0.5F, 1.0F);
+                if (cover <= 0.0F) {
+                    return;
+                }
+                const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
+                Ray found;
+                found.pixel = pixelInTile(x, y);
+                found.cover = level8(cover);
+                found.is_whole = is_whole;
+                if (met.reflected < 1.0F) {
+                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted));
+                    found.level = is_whole ? one.calm_level : one.level;
+                    found.light = level8(1.0F - met.reflected);
+                }
+                rays.push_back(found);
+            };
+            if (far2 < calm * std::abs(calm)) {
+                add(0.0F, 0.0F, true);
+            } else {
+                for (int j = 0; j < n; ++j) {
+                    for (int i = 0; i < n; ++i) {
+                        add(sight_.offset(i), sight_.offset(j), false);
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace droplet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "droplet/windshield/droplets.h"
+#include "view/sight.h"
+
+namespace droplet {
+
+/// What a ray through a droplet that may run shows.
+struct Ray {
+    PlaceInPicture place;
+    std::uint8_t pixel = 0;  ///< of the tile
+    std::uint8_t level = 0;  ///< of the backdrop
+    std::uint8_t light = 0;  ///< share of it that gets through, in 255ths
+    std::uint8_t cover = 0;  ///< of a ray's share of the pixel, in 255ths
+    bool is_whole = false;   ///< it stands for the whole pixel
+};
+
+/// Rays through droplets that may run, kept as long as a droplet rests.
+class RunningRays {
+public:
+    /// @param sight  must outlive this
+    explicit RunningRays(const Sight& sight) : sight_(sight), in_tiles_(sight.tiles.count()) {}
+
+    /// Brings the rays to the state of the droplets.
+    /// @param droplets  in the order of their ids
+    void follow(const std::vector<RunningDroplet>& droplets);
+
+    /// Those of each droplet that reaches into a tile, in the droplets' order.
+    [[nodiscard]] const std::vector<const std::vector<Ray>*>& inTile(std::size_t tile) const { return in_tiles_[tile]; }
+
+private:
+    struct Traced;
+    /// A droplet's rays in a tile, those of a pixel one after another.
+    struct Part {
+        std::uint32_t tile = 0;
+        std::vector<Ray> rays;
+    };
+    /// A droplet as it is drawn.
+    struct Drawn {
+        RunningDroplet droplet;
+        std::vector<Part> parts;
+    };
+
+    [[nodiscard]] Traced prepared(const RunningDroplet& droplet) const;
+    [[nodiscard]] std::vector<Part> trace(const Traced& one) const;
+    void trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const;
+
+    const Sight& sight_;
+    std::vector<Drawn> drawn_;
+    std::vector<std::vector<const std::vector<Ray>*>> in_tiles_;
+};
+
+}  // namespace droplet

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "wind_io/plot.h"
+
+namespace droplet {
+namespace {
+
+constexpr Colour kDown{62, 124, 177};
+constexpr Colour kUp{66, 153, 118};
+
+/// Volumes in µL: 1, 2, 5, 10 …, or powers of ten where those would crowd.
+std::vector<Tick> volumeTicks(const Scale& scale)
+{
+    std::vector<Tick> ticks;
+    const bool is_long = scale.high / scale.low > 3e3;
+    const auto last = static_cast<int>(std::floor(std::log10(scale.high / kMicrolitre)));
+    for (int decade = static_cast<int>(std::floor(std::log10(scale.low / kMicrolitre))); decade <= last; ++decade) {
+        for (const double first : {1.0, 2.0, 5.0}) {
+            const double value = first * std::pow(10.0, decade);
+            const double volume = value * kMicrolitre;
+            const bool is_inside = volume >= scale.low * (1.0 - 1e-9) && volume <= scale.high * (1.0 + 1e-9);
+            if (is_inside && (first == 1.0 || !is_long)) {
+                ticks.push_back({volume, written(value, 10)});
+            }
+        }
+    }
+    return ticks;
+}
+
+/// What the map shows of one volume, on the page.
+struct Level {
+    double y = 0.0;
+    double lower = 0.0;  ///< U₋
+    double upper = 0.0;  ///< U₊
+    double shedding = 0.0;
+    bool has_lower = false;
+    bool has_upper = false;
+    bool has_shedding = false;
+};
+
+std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& x, const Scale& y)
+{
+    constexpr int kLevels = 240;
+    std::vector<double> volumes;
+    for (int k = 0; k <= kLevels; ++k) {
+        volumes.push_back(y.low * std::pow(y.high / y.low, static_cast<double>(k) / kLevels));
+    }
+    // Corners: where edges meet the page's, and where they bend at the boundary layer's edge.
+    for (const double wind : {x.low, x.high}) {
+        for (const RegimeChange& change : regimeChanges(model, {slope, wind}, {y.low, y.high})) {
+            // A root's last digit may lie on either side.
+            volumes.push_back(change.volume * (1.0 - 1e-9));
+            volumes.push_back(change.volume * (1.0 + 1e-9));
+        }
+    }
+    const double scale = model.air.boundary_layer / capOf(1.0, model.wetting.contact_angle).height;
+    if (const double bend = scale * scale * scale; bend > y.low && bend < y.high) {
+        volumes.push_back(bend);
+    }
+    std::sort(volumes.begin(), volumes.end());
+    std::vector<Level> levels;
+    for (const double volume : volumes) {
+        const CapSize cap = capOf(volume, model.wetting.contact_angle);
+        const Thresholds found = thresholdsOf(forcesOn(model, cap), slope);
+        const auto shedding = sheddingWind(model, cap);
+        const auto inside = [&](const std::optional<double>& wind) {
+            const double rounding = 1e-6 * (x.high - x.low);
+            return wind && *wind >= x.low - rounding && *wind <= x.high + rounding;
+        };
+        const auto at = [&](double wind) { return x.at(std::clamp(wind, x.low, x.high)); };
+        levels.push_back({y.at(volume), at(found.lower.value_or(0.0)), at(found.upper.value_or(x.high)),
+                          at(shedding.value_or(x.high)), inside(found.lower), inside(found.upper), inside(shedding)});
+    }
+    return levels;
+}
+
+/// What is between two edges, and what it is called.
+struct Region {
+    const char* name;
+    Colour colour;
+    std::function<double(const Level&)> from;
+    std::function<double(const Level&)> to;
+};
+
+void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
+{
+    std::vector<Vec2> outline;
+    outline.reserve(2 * levels.size());
+    for (const Level& level : levels) {
+        outline.push_back({region.to(level), level.y});
+    }
+    std::transform(levels.rbegin(), levels.rend(), std::back_inserter(outline), [&](const Level& level) {
+        return Vec2{region.from(level), level.y};
+    });
+    plot.area(std::move(outline), region.colour, 0.3);
+}
+
+/// Its name, near the middle of where it is widest, clear of upright lines and of the one of shedding.
+void name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights)
+{
+    constexpr double kHalfWord = 47.0;
+    constexpr double kHalfLine = 10.0;
+    const auto width = [&](const Level& level) { return region.to(level) - region.from(level); };
+    double widest = 0.0;
+    for (const Level& level : levels) {
+        widest = std::max(widest, width(level));
+    }
+    if (widest < 2.0 * kHalfWord) {
+        return;
+    }
+    // Half the heights at which it is nearly as wide lie above the middle.
+    std::vector<double> heights;
+    for (const Level& level : levels) {
+        if (width(level) > 0.75 * widest) {
+            heights.push_back(level.y);
+        }
+    }
+    const double middle = heights[heights.size() / 2];
+    std::optional<Vec2> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Level& level : levels) {
+        const double first = region.from(level) + kHalfWord;
+        const double last = region.to(level) - kHalfWord;
+        for (int k = 0; first + 6.0 * k <= last; ++k) {
+            const double x = first + 6.0 * k;
+            const bool fits = level.y > plot.top() + 46.0 && level.y < plot.bottom() - 14.0;
+            const auto clear = [&](double line) { return std::abs(line - x) > kHalfWord; };
+            const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&
+                                  std::all_of(levels.begin(), levels.end(), [&](const Level& other) {
+                                      return std::abs(other.y - level.y) > kHalfLine ||
+                                             ((!other.has_shedding || clear(other.shedding)) &&
+                                              x - kHalfWord > region.from(other) && x + kHalfWord < region.to(other));
+                                  });
+            const double off = std::hypot(x - 0.5 * (region.from(level) + region.to(level)), level.y - middle);
+            if (fits && is_clear && off < least) {
+                least = off;
+                best = Vec2{x, level.y};
+            }
+        }
+    }
+    if (best) {
+        Colour deep{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            deep[c] = static_cast<std::uint8_t>(region.colour[c] * 0.62);
+        }
+        plot.text({region.name, *best + Vec2{0.0, 5.0}, 10.5, deep, Anchor::Middle, true});
+    }
+}
+
+/// The wind that would tear droplets off, as far as it is on the map.
+void drawShedding(Plot& plot, const std::vector<Level>& levels, bool is_below)
+{
+    std::vector<Vec2> line;
+    for (const Level& level : levels) {
+        if (level.has_shedding) {
+            line.push_back({level.shedding, level.y});
+        }
+    }
+    if (line.size() > 1) {
+        plot.line(line, kSoft, 1.2, 3.5);
+        // Beside its upper end, above the regimes' names and below that of the measured band.
+        constexpr double kName = 100.0;
+        constexpr double kRow = 16.0;
+        const double y = plot.top() + 13.0 + (is_below ? kRow : 0.0);
+        const auto at = std::min_element(line.begin(), line.end(), [&](const Vec2& a, const Vec2& b) {
+            return std::abs(a.y - y) < std::abs(b.y - y);
+        });
+        const bool is_right = at->x + kName > plot.right();
+        plot.text({"torn off, We 7.5",
+                   {at->x + (is_right ? -10.0 : 10.0), at->y},
+                   kSmallLetters,
+                   kSoft,
+                   is_right ? Anchor::End : Anchor::Start});
+    }
+}
+
+VolumeRange volumesOf(const TunnelSweep& swept, const TunnelCase& of)
+{
+    // To twice the largest, and down to droplets too small to run, over two decades at least and four at most.
+    const auto [least, most] = std::minmax_element(swept.volumes.begin(), swept.volumes.end());
+    const double high = 2.0 * *most;
+    double low = std::min(0.5 * *least, 1e-2 * high);
+    if (of.critical_volume) {
+        low = std::min(low, std::max(0.3 * *of.critical_volume, 1e-4 * high));
+    }
+    return {low, high};
+}
+
+}  // namespace
+
+Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options)
+{
+    Drawing drawing;
+    const std::vector<Panel> panels = panelsOf(swept, tunnel, drawing);
+    title(drawing, swept, options);
+    const WindBand winds = windsOf(swept);
+    for (const Panel& panel : panels) {
+        const TunnelCase& first = *panel.cases.front();
+        ForceModel model = swept.model;
+        if (!model.wetting.falling_angle) {
+            model.wetting.hysteresis = first.hysteresis;
+        }
+        Plot plot(drawing, panel, 20.0);
+        const VolumeRange volumes = volumesOf(swept, first);
+        const Scale x = plot.across(winds.from, winds.to);
+        const Scale y = plot.up(volumes.from, volumes.to, true);
+        const auto x_ticks = ticksOf(x, 8.0);
+        const auto y_ticks = volumeTicks(y);
+        const std::vector<Level> levels = levelsOf(model, first.slope, x, y);
+        const auto left = [&](const Level&) { return plot.left(); };
+        const auto right = [&](const Level&) { return plot.right(); };
+        const auto lower = [](const Level& level) { return level.lower; };
+        const auto upper = [](const Level& level) { return level.upper; };
+        const std::array<Region, 3> regions{
+            {{"runs down", kDown, left, lower}, {"still", kStill, lower, upper}, {"climbs", kUp, upper, right}}};
+        for (const Region& region : regions) {
+            fill(plot, levels, region);
+        }
+        plot.rulers(x, x_ticks, y, y_ticks, {255, 255, 255});
+        const auto draw_edge = [&](double Level::*edge, bool Level::*has) {
+            std::vector<Vec2> line;
+            for (const Level& level : levels) {
+                if (level.*has) {
+                    line.push_back({level.*edge, level.y});
+                }
+            }
+            if (line.size() > 1) {
+                plot.line(line, kInk, 1.8);
+            }
+        };
+        draw_edge(&Level::lower, &Level::has_lower);
+        draw_edge(&Level::upper, &Level::has_upper);
+        drawShedding(plot, levels, options.measured.has_value());
+        std::vector<double> uprights;
+        if (options.measured) {
+            plot.measured(x, *options.measured);
+            uprights = {x.at(options.measured->from), x.at(options.measured->to)};
+        }
+        for (const Region& region : regions) {
+            name(plot, levels, region, uprights);
+        }
+        plot.axes(x, x_ticks, y, y_ticks);
+        plot.heads(captionOf(swept, first), "volume, µL");
+    }
+    return drawing;
+}
+
+}  // namespace droplet

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "droplet/wind/forces.h"
+
+namespace droplet {
+
+/// How all caps of one contact angle relate to the cap of 1 m³.
+class CapScale {
+public:
+    explicit CapScale(double contact_angle)
+        : unit_(capOf(1.0, contact_angle)), wide_(contact_angle > 0.5 * std::numbers::pi), reach_(reach(unit_))
+    {
+    }
+
+    [[nodiscard]] CapSize cap(double volume) const
+    {
+        const double s = std::cbrt(volume);
+        return {volume, s * unit_.radius, s * unit_.contact_radius, s * unit_.height, s * s * unit_.frontal_area};
+    }
+    /// Half the width seen from above: caps of more than 90° bulge over their rims.
+    [[nodiscard]] double reach(const CapSize& cap) const { return wide_ ? cap.radius : cap.contact_radius; }
+    [[nodiscard]] double reach(double volume) const { return reach_ * std::cbrt(volume); }
+    [[nodiscard]] double reach() const { return reach_; }
+
+private:
+    CapSize unit_;
+    bool wide_ = false;
+    double reach_ = 0.0;
+};
+
+}  // namespace droplet

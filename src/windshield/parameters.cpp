@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/windshield/parameters.h"
+
+#include <cmath>
+
+#include "require.h"
+
+namespace droplet {
+namespace {
+
+/// Still droplets take 213 bytes for every 16 mm²: at most 1.33 GB.
+constexpr double kMostArea = 100.0;  // [m²]
+
+}  // namespace
+
+void Fluctuation::validate() const
+{
+    require(acceleration >= 0.0 && std::isfinite(acceleration), "fluctuation.acceleration", acceleration,
+            "finite and at least 0 m/s2");
+    require(interval > 0.0 && std::isfinite(interval), "fluctuation.interval", interval, "finite and more than 0 s");
+}
+
+void Streaks::validate() const
+{
+    require(film >= 0.0 && std::isfinite(film), "streaks.film", film, "finite and at least 0 m");
+    require(spacing >= 1e-4 && std::isfinite(spacing), "streaks.spacing", spacing, "finite and at least 1e-4 m");
+}
+
+void WindshieldParameters::validate() const
+{
+    const double area = glass.width() * glass.height();
+    require(area <= kMostArea, "the glass's area", area, "at most 100 m2");
+    forces.validate();
+    vehicle.validate();
+    require(rainfall >= 0.0 && rainfall <= 1000.0 * kMillimetrePerHour, "rainfall", rainfall / kMillimetrePerHour,
+            "from 0 to 1000 mm/h");
+    raindrops.validate();
+    require(still_diameter > 0.0 && still_diameter <= 2e-3, "still_diameter", still_diameter,
+            "more than 0 and at most 0.002 m");
+    fluctuation.validate();
+    streaks.validate();
+    for (const Wiper& wiper : wipers) {
+        wiper.validate();
+    }
+}
+
+}  // namespace droplet
