@@ -161,8 +161,9 @@ void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFil
 
 bool isPicture(const std::string& path)
 {
-    constexpr std::array<std::string_view, 13> kExtensions{".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
-                                                           ".pbm", ".pgm", ".ppm",  ".pnm", ".svg", ".svgz"};
+    constexpr std::array<std::string_view, 16> kExtensions{".png",  ".jpg", ".jpeg", ".bmp", ".tif", ".tiff",
+                                                           ".webp", ".pbm", ".pgm",  ".ppm", ".pnm", ".svg",
+                                                           ".svgz", ".jp2", ".exr",  ".hdr"};
     std::string extension = fs::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

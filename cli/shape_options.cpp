@@ -44,8 +44,9 @@ const CommandText& commandText()
 void declareShape(CommandLine& line)
 {
     line.addArgument("INPUT",
-                     "picture of the footprint: PNG, JPEG, BMP, TIFF, WebP,\n"
-                     "PBM, PGM, PPM or SVG; - is standard input");
+                     "picture of the footprint: PNG, JPEG, SVG, TIFF, WebP,\n"
+                     "BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or HDR;\n"
+                     "- is standard input");
     line.addArgument("OUTPUT",
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");

@@ -22,6 +22,7 @@
 #include "droplet/error.h"
 #include "number_text.h"
 #include "rays/nearest.h"
+#include "surface/half_edges.h"
 
 namespace droplet {
 namespace {
@@ -344,7 +345,7 @@ SurfaceMeasures measured(const Surface& surface, const Box& box)
         result.area += 0.5 * length(cross(surface.positions[b] - origin, surface.positions[c] - origin));
     }
     result.volume = enclosedVolume(surface);
-    result.topology = topology(surface);
+    result.topology = topology(halfEdges(surface));
     result.contact_angle = contactAngles(surface);
     return result;
 }

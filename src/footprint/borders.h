@@ -33,12 +33,12 @@ struct Crossing {
 /// Crossings in order around a component or hole, liquid on the left of one who faces along.
 using Border = std::vector<Crossing>;
 
-/// The borders of everything liquid in a mask. Each begins at the first end, in reading order, of a run of liquid that
-/// it passes, and they come in reading order of those: a component begins to the west of its first pixel, a hole to the
-/// west of its own. Liquid is 8-connected, dry 4-connected; outside the mask all is dry. Beyond what it returns, takes
-/// time linear in the number of pixels and memory linear in that of crossings.
+/// The borders of everything liquid in a mask, as OpenCV's findContours finds them. They come in reading order of where
+/// they begin: a component's to the west of its first pixel, a hole's to the west of its own. Liquid is 8-connected, dry
+/// 4-connected; outside the mask all is dry.
 /// @param mask   valid
 /// @param level  coverage from which a pixel is liquid
+/// @throws Error InvalidInput: a mask of 2^31 pixels or more
 std::vector<Border> followBorders(const Mask& mask, std::uint16_t level);
 
 }  // namespace droplet

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "image/image.h"
+#include "footprint/mask_from_image.h"
 #include "number_text.h"
 
 namespace droplet {

@@ -2,7 +2,7 @@
 #include <new>
 
 #include "droplet/footprint/mask.h"
-#include "image/image.h"
+#include "footprint/mask_from_image.h"
 #include "image/image_file.h"
 
 namespace droplet {

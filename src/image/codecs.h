@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "image/image.h"
@@ -13,25 +14,24 @@ namespace droplet {
 // as stored (not yet upright), and throws Error InvalidInput for one that is damaged, cut short, of another
 // size than its header said, or of a kind not read. None prints; none keeps state.
 //
-// The codecs' own libraries are used rather than cv::imdecode, which (OpenCV 4.6) writes to stderr whatever a
-// broken file provokes, accepts JPEGs cut in half, drops the alpha of grey TIFFs and of BMPs, ignores a TIFF
-// palette that is missing, needs the whole image as BGRA, and brings 120 shared libraries (GDAL) to every start.
+// PNG and JPEG, which nearly all masks are, are read with the codecs' own libraries: cv::imdecode (OpenCV 4.6) accepts
+// JPEGs cut in half, needs the whole image as BGRA, and brings 139 shared libraries.
 
 Image decodePng(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header);
-Image decodeBmp(std::span<const std::byte> encoded, const ImageHeader& header);
-Image decodeTiff(std::span<const std::byte> encoded, const ImageHeader& header);
-Image decodeWebp(std::span<const std::byte> encoded, const ImageHeader& header);
-Image decodePnm(std::span<const std::byte> encoded, const ImageHeader& header);
 
 /// Draws a vector image, which has no pixels of its own. Nothing it refers to is read.
 /// @throws Error InvalidInput: damaged, a page without area, more than librsvg or its stack can take
 Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options);
 
-/// Whether the samples of a TIFF are floating-point numbers, and one a pixel.
-bool isFloatTiff(std::span<const std::byte> encoded);
+/// Decodes a TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or Radiance HDR, upright, by OpenCV. Its size is
+/// checked before memory for its pixels is taken. Floating-point samples are levels of 0 to 1, what lies beyond is cut
+/// off.
+/// @throws Error InvalidInput: too large, damaged, of a kind not read; OpenCV is not installed
+Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, const DecodeOptions& options);
 
-/// Of one sample a pixel, of 16, 32 or 64 bits; otherwise as decodeTiff.
-FloatImage decodeFloatTiff(std::span<const std::byte> encoded, const ImageHeader& header);
+/// The same of floating-point samples as they are, colours by their luma; none if they are integers.
+std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> encoded, ImageFormat format,
+                                                 std::size_t max_pixels);
 
 }  // namespace droplet

@@ -143,26 +143,6 @@ void turnPlane(std::vector<Sample>& plane, const Turn& turn, int width, int heig
     plane = std::move(turned);
 }
 
-Image decodeAsStored(std::span<const std::byte> encoded, const ImageHeader& header)
-{
-    switch (header.format) {
-        case ImageFormat::Png:
-            return decodePng(encoded, header);
-        case ImageFormat::Jpeg:
-            return decodeJpeg(encoded, header);
-        case ImageFormat::Bmp:
-            return decodeBmp(encoded, header);
-        case ImageFormat::Tiff:
-            return decodeTiff(encoded, header);
-        case ImageFormat::Webp:
-            return decodeWebp(encoded, header);
-        case ImageFormat::Pnm:
-        case ImageFormat::Svg:  // has no header, and does not come here
-            break;
-    }
-    return decodePnm(encoded, header);
-}
-
 }  // namespace
 
 Image blankImage(const ImageHeader& header, bool with_alpha)
@@ -231,32 +211,28 @@ std::vector<std::uint16_t> lumaOverBlack(Image image)
 
 Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& options)
 {
-    if (imageFormat(encoded) == ImageFormat::Svg) {
+    const ImageFormat format = knownFormat(encoded);
+    if (format == ImageFormat::Svg) {
         return decodeSvg(encoded, options);
     }
-    ImageHeader header = readImageHeader(encoded, options.max_pixels);
+    if (format != ImageFormat::Png && format != ImageFormat::Jpeg) {
+        return decodeWithOpenCv(encoded, format, options);
+    }
+    ImageHeader header = readImageHeader(encoded, format, options.max_pixels);
     header.keeps_colour = options.keeps_colour;
-    return upright(decodeAsStored(encoded, header), header.orientation);
+    return upright(format == ImageFormat::Png ? decodePng(encoded, header) : decodeJpeg(encoded, header),
+                   header.orientation);
 }
 
 std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels)
 {
-    if (imageFormat(encoded) == ImageFormat::Svg) {
-        return std::nullopt;
-    }
-    const ImageHeader header = readImageHeader(encoded, max_pixels);
-    if (header.format != ImageFormat::Tiff || !isFloatTiff(encoded)) {
-        return std::nullopt;
-    }
-    FloatImage image = decodeFloatTiff(encoded, header);
-    if (header.orientation > 1) {
-        const Turn turn = turnOf(header.orientation, image.width, image.height);
-        if (turn.swaps_sides) {
-            std::swap(image.width, image.height);
-        }
-        turnPlane(image.samples, turn, image.width, image.height);
-    }
-    return image;
+    constexpr std::uint16_t kTagSampleFormat = 339;
+    constexpr std::uint64_t kUnsigned = 1;
+    const ImageFormat format = knownFormat(encoded);
+    const bool holds_floats =
+        format == ImageFormat::OpenExr || format == ImageFormat::RadianceHdr ||
+        (format == ImageFormat::Tiff && tiffField(encoded, kTagSampleFormat).value_or(kUnsigned) != kUnsigned);
+    return holds_floats ? decodeFloatsWithOpenCv(encoded, format, max_pixels) : std::nullopt;
 }
 
 }  // namespace droplet

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
 #include "image/image_header.h"
 
 namespace droplet {
@@ -71,9 +70,5 @@ struct FloatImage {
 /// checked first.
 /// @throws Error InvalidInput
 std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels);
-
-/// Decides which levels are liquid, and turns one plane of the image into coverage in place.
-/// @throws Error InvalidInput: no alpha where alpha was asked
-Mask maskFromImage(Image image, const MaskOptions& options);
 
 }  // namespace droplet

@@ -14,9 +14,10 @@ namespace droplet {
 
 /// The one message for an image that breaks its format's rules or ends before its pixels do.
 /// Control characters in `detail`, which may quote the file, become `?`.
-[[noreturn]] inline void throwDamaged(ImageFormat format, std::string_view detail)
+[[noreturn]] inline void throwDamaged(ImageFormat format, std::string_view detail,
+                                      std::string_view judgement = "truncated or damaged")
 {
-    std::string message = std::string("truncated or damaged ") + name(format) + " image: ";
+    std::string message = std::string(judgement) + " " + name(format) + " image: ";
     for (const char c : detail) {
         message += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     }
@@ -56,7 +57,6 @@ public:
         return std::to_integer<std::uint32_t>(bytes_[offset]);
     }
     [[nodiscard]] std::uint32_t le16(std::size_t offset) const { return u8(offset) | u8(offset + 1) << 8; }
-    [[nodiscard]] std::uint32_t le24(std::size_t offset) const { return le16(offset) | u8(offset + 2) << 16; }
     [[nodiscard]] std::uint32_t le32(std::size_t offset) const { return le16(offset) | le16(offset + 2) << 16; }
     [[nodiscard]] std::uint32_t be16(std::size_t offset) const { return u8(offset) << 8 | u8(offset + 1); }
     [[nodiscard]] std::uint32_t be32(std::size_t offset) const { return be16(offset) << 16 | be16(offset + 2); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // After: Portable Network Graphics (W3C), 11.2.2 and 11.3 (eXIf); ITU-T T.81, B.1 and B.2.2; TIFF 6.0, section 2
-// and BigTIFF; EXIF 2.32, 4.5.4 and 4.7.2; WebP container specification; RFC 6386, 9.1; the Netpbm manual pages
-// pbm(5), pgm(5), ppm(5); the BITMAPCOREHEADER and BITMAPINFOHEADER structures.
+// and BigTIFF; EXIF 2.32, 4.5.4 and 4.7.2; WebP container specification.
 #include "image/image_header.h"
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace droplet {
 
 namespace {
 
-constexpr std::uint16_t kTagWidth = 256;
-constexpr std::uint16_t kTagHeight = 257;
 constexpr std::uint16_t kTagOrientation = 274;
 
 struct Size {
@@ -98,106 +95,9 @@ Size jpegSize(std::span<const std::byte> encoded)
     }
 }
 
-Size bmpSize(std::span<const std::byte> encoded)
-{
-    const ByteView view(encoded, ImageFormat::Bmp);
-    if (view.le32(14) == 12) {
-        return {view.le16(18), view.le16(20)};
-    }
-    // Both are signed; a negative height means rows from the top down, a negative width nothing.
-    const std::uint32_t width = view.le32(18);
-    const std::uint32_t height = view.le32(22);
-    constexpr std::uint32_t kSign = 0x80000000U;
-    return {width < kSign ? width : 0U, height < kSign ? height : ~height + 1U};
-}
-
-Size tiffSize(std::span<const std::byte> encoded)
-{
-    const auto width = tiffField(encoded, kTagWidth);
-    const auto height = tiffField(encoded, kTagHeight);
-    if (!width || !height) {
-        throwDamaged(ImageFormat::Tiff, "its directory names no width and height");
-    }
-    return {*width, *height, orientationIn(encoded)};
-}
-
-Size webpSize(std::span<const std::byte> encoded)
-{
-    constexpr std::size_t kChunk = 12;
-    constexpr std::size_t kData = kChunk + 8;
-    const ByteView view(encoded, ImageFormat::Webp);
-    if (view.startsWith("VP8 ", kChunk)) {
-        constexpr std::uint32_t kWithoutScale = 0x3fff;
-        return {view.le16(kData + 6) & kWithoutScale, view.le16(kData + 8) & kWithoutScale};
-    }
-    if (view.startsWith("VP8L", kChunk)) {
-        const std::uint32_t bits = view.le32(kData + 1);
-        return {(bits & 0x3fffU) + 1, (bits >> 14 & 0x3fffU) + 1};
-    }
-    if (!view.startsWith("VP8X", kChunk)) {
-        throwDamaged(ImageFormat::Webp, "it begins with no known chunk");
-    }
-    Size size{std::uint64_t{view.le24(kData + 4)} + 1, std::uint64_t{view.le24(kData + 7)} + 1};
-    for (std::size_t chunk = kChunk; view.has(chunk, 8);) {
-        const std::size_t length = view.le32(chunk + 4);
-        if (!view.has(chunk + 8, length)) {
-            break;
-        }
-        if (view.startsWith("EXIF", chunk)) {
-            size.orientation = exifOrientation(encoded.subspan(chunk + 8, length));
-        }
-        chunk += 8 + length + length % 2;
-    }
-    return size;
-}
-
-Size sizeIn(ImageFormat format, std::span<const std::byte> encoded)
-{
-    switch (format) {
-        case ImageFormat::Png:
-            return pngSize(encoded);
-        case ImageFormat::Jpeg:
-            return jpegSize(encoded);
-        case ImageFormat::Bmp:
-            return bmpSize(encoded);
-        case ImageFormat::Tiff:
-            return tiffSize(encoded);
-        case ImageFormat::Webp:
-            return webpSize(encoded);
-        case ImageFormat::Pnm:
-        case ImageFormat::Svg:
-            break;
-    }
-    const PnmHeader header = readPnmHeader(encoded);
-    return {header.width, header.height};
-}
-
 bool isSpace(std::uint32_t c)
 {
     return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
-/// The number at `at`, after white space and comments; `at` ends up behind its last digit.
-std::uint64_t pnmNumber(const ByteView& view, std::size_t& at)
-{
-    while (isSpace(view.u8(at)) || view.u8(at) == '#') {
-        if (view.u8(at) == '#') {
-            while (view.u8(at) != '\n' && view.u8(at) != '\r') {
-                ++at;
-            }
-        }
-        ++at;
-    }
-    constexpr std::uint64_t kEnough = std::uint64_t{1} << 40;  // any size above fails, and nothing overflows
-    const std::size_t first = at;
-    std::uint64_t value = 0;
-    for (; view.has(at, 1) && view.u8(at) >= '0' && view.u8(at) <= '9'; ++at) {
-        value = value < kEnough ? 10 * value + (view.u8(at) - '0') : value;
-    }
-    if (at == first) {
-        throwDamaged(ImageFormat::Pnm, "its header holds something other than numbers");
-    }
-    return value;
 }
 
 /// Whether a file begins as markup and soon comes to an svg element, or is markup in UTF-16.
@@ -233,9 +133,15 @@ const char* name(ImageFormat format)
         case ImageFormat::Svg:
             return "SVG";
         case ImageFormat::Pnm:
+            return "PBM/PGM/PPM";
+        case ImageFormat::Jpeg2000:
+            return "JPEG 2000";
+        case ImageFormat::OpenExr:
+            return "OpenEXR";
+        case ImageFormat::RadianceHdr:
             break;
     }
-    return "PBM/PGM/PPM";
+    return "Radiance HDR";
 }
 
 std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
@@ -263,31 +169,88 @@ std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
         (isSpace(view.u8(2)) || view.u8(2) == '#')) {
         return ImageFormat::Pnm;
     }
+    if (view.startsWith("\0\0\0\x0cjP  \r\n\x87\n"sv) || view.startsWith("\xff\x4f\xff\x51"sv)) {
+        return ImageFormat::Jpeg2000;
+    }
+    if (view.startsWith("\x76\x2f\x31\x01"sv)) {
+        return ImageFormat::OpenExr;
+    }
+    if (view.startsWith("#?RADIANCE"sv) || view.startsWith("#?RGBE"sv)) {
+        return ImageFormat::RadianceHdr;
+    }
     if (view.startsWith("\x1f\x8b"sv) || beginsLikeSvg(encoded)) {
         return ImageFormat::Svg;
     }
     return std::nullopt;
 }
 
-ImageHeader readImageHeader(std::span<const std::byte> encoded, std::size_t max_pixels)
+ImageFormat knownFormat(std::span<const std::byte> encoded)
 {
     const auto format = imageFormat(encoded);
     if (!format) {
         throw Error(ErrorCode::InvalidInput,
                     encoded.empty() ? "empty, not an image"
-                                    : "not an image this program reads (PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM, SVG)");
+                                    : "not an image this program reads (PNG, JPEG, SVG, BMP, TIFF, WebP, PBM/PGM/PPM, "
+                                      "JPEG 2000, OpenEXR, Radiance HDR)");
     }
-    const Size size = sizeIn(*format, encoded);
+    return *format;
+}
+
+ImageHeader readImageHeader(std::span<const std::byte> encoded, ImageFormat format, std::size_t max_pixels)
+{
+    const Size size = format == ImageFormat::Png ? pngSize(encoded) : jpegSize(encoded);
     if (size.width == 0 || size.height == 0) {
-        throwDamaged(*format, "its header claims a width or height of zero");
+        throwDamaged(format, "its header claims a width or height of zero");
     }
+    checkSize(format, size.width, size.height, max_pixels);
+    return {format, static_cast<int>(size.width), static_cast<int>(size.height), size.orientation};
+}
+
+void checkSize(ImageFormat format, std::uint64_t width, std::uint64_t height, std::size_t max_pixels)
+{
     constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-    if (size.width > kLongest || size.height > kLongest || size.width > max_pixels / size.height) {
-        throw Error(ErrorCode::InvalidInput, std::string(name(*format)) + " image of " + std::to_string(size.width) +
-                                                 " x " + std::to_string(size.height) +
-                                                 " pixels, more than the limit of " + std::to_string(max_pixels));
+    if (width > kLongest || height > kLongest || width > max_pixels / height) {
+        throw Error(ErrorCode::InvalidInput, std::string(name(format)) + " image of " + std::to_string(width) + " x " +
+                                                 std::to_string(height) + " pixels, more than the limit of " +
+                                                 std::to_string(max_pixels));
     }
-    return {*format, static_cast<int>(size.width), static_cast<int>(size.height), size.orientation};
+}
+
+int webpOrientation(std::span<const std::byte> encoded)
+{
+    const ByteView view(encoded, ImageFormat::Webp);
+    for (std::size_t chunk = 12; view.has(chunk, 8);) {
+        const std::size_t length = view.le32(chunk + 4);
+        if (!view.has(chunk + 8, length)) {
+            break;
+        }
+        if (view.startsWith("EXIF", chunk)) {
+            return exifOrientation(encoded.subspan(chunk + 8, length));
+        }
+        chunk += 8 + length + length % 2;
+    }
+    return 1;
+}
+
+std::optional<std::uint64_t> pnmWhite(std::span<const std::byte> encoded)
+{
+    const ByteView view(encoded, ImageFormat::Pnm);
+    if (view.u8(1) == '1' || view.u8(1) == '4') {
+        return 255;
+    }
+    std::uint64_t value = 0;
+    std::size_t at = 2;
+    for (int numbers = 0; numbers < 3; ++numbers) {
+        bool comment = false;
+        for (; view.has(at, 1) && (comment || isSpace(view.u8(at)) || view.u8(at) == '#'); ++at) {
+            comment = view.u8(at) == '#' || (comment && view.u8(at) != '\n' && view.u8(at) != '\r');
+        }
+        value = 0;
+        for (; view.has(at, 1) && view.u8(at) >= '0' && view.u8(at) <= '9' && value < 65536; ++at) {
+            value = 10 * value + (view.u8(at) - '0');
+        }
+    }
+    return value > 0 ? std::optional(value) : std::nullopt;
 }
 
 std::optional<std::uint64_t> tiffField(std::span<const std::byte> tiff, std::uint16_t tag)
@@ -325,45 +288,25 @@ std::optional<std::uint64_t> tiffField(std::span<const std::byte> tiff, std::uin
     std::uint64_t entry = directory + static_cast<std::uint64_t>(count_bytes);
     for (std::uint64_t i = 0; i < entries && fits(entry, entry_size); ++i) {
         if (number(entry, 2) == tag) {
-            const std::uint64_t value_at = entry + 4 + static_cast<std::uint64_t>(wide);
-            switch (number(entry + 2, 2)) {
-                case 1:  // BYTE
-                    return number(value_at, 1);
-                case 3:  // SHORT
-                    return number(value_at, 2);
-                case 4:  // LONG
-                    return number(value_at, 4);
-                case 16:  // LONG8
-                    return big ? std::optional(number(value_at, 8)) : std::nullopt;
-                default:
-                    return std::nullopt;
-            }
+            constexpr std::uint64_t kByte = 1;
+            constexpr std::uint64_t kShort = 3;
+            constexpr std::uint64_t kLong = 4;
+            constexpr std::uint64_t kLong8 = 16;
+            const std::uint64_t type = number(entry + 2, 2);
+            const int bytes = type == kByte           ? 1
+                              : type == kShort        ? 2
+                              : type == kLong         ? 4
+                              : type == kLong8 && big ? 8
+                                                      : 0;
+            const std::uint64_t inside = entry + 4 + static_cast<std::uint64_t>(wide);
+            const bool fits_inside =
+                number(entry + 4, wide) * static_cast<std::uint64_t>(bytes) <= static_cast<std::uint64_t>(wide);
+            const std::uint64_t value_at = fits_inside ? inside : number(inside, wide);
+            return bytes > 0 && fits(value_at, bytes) ? std::optional(number(value_at, bytes)) : std::nullopt;
         }
         entry += static_cast<std::uint64_t>(entry_size);
     }
     return std::nullopt;
-}
-
-PnmHeader readPnmHeader(std::span<const std::byte> encoded)
-{
-    const ByteView view(encoded, ImageFormat::Pnm);
-    PnmHeader header;
-    header.kind = static_cast<int>(view.u8(1) - '0');
-    std::size_t at = 2;
-    header.width = pnmNumber(view, at);
-    header.height = pnmNumber(view, at);
-    if (header.kind != 1 && header.kind != 4) {
-        const std::uint64_t maximum = pnmNumber(view, at);
-        if (maximum < 1 || maximum > 65535) {
-            throwDamaged(ImageFormat::Pnm, "its level of white is " + std::to_string(maximum) + ", not 1 to 65535");
-        }
-        header.maximum = static_cast<std::uint32_t>(maximum);
-    }
-    if (!isSpace(view.u8(at))) {
-        throwDamaged(ImageFormat::Pnm, "no white space after its header");
-    }
-    header.payload = at + 1;
-    return header;
 }
 
 }  // namespace droplet

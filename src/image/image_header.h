@@ -8,7 +8,7 @@
 
 namespace droplet {
 
-enum class ImageFormat { Png, Jpeg, Bmp, Tiff, Webp, Pnm, Svg };
+enum class ImageFormat { Png, Jpeg, Svg, Bmp, Tiff, Webp, Pnm, Jpeg2000, OpenExr, RadianceHdr };
 
 /// The name a format has in messages.
 const char* name(ImageFormat format);
@@ -26,24 +26,25 @@ struct ImageHeader {
 /// and then takes up to 64 KiB. Compressed data count as SVG.
 std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded);
 
-/// Of any format but SVG, whose size is known to librsvg alone.
-/// @throws Error InvalidInput: unknown format, header cut short, no size or more than max_pixels
-ImageHeader readImageHeader(std::span<const std::byte> encoded, std::size_t max_pixels);
+/// The same, of what must be an image.
+/// @throws Error InvalidInput: unknown format
+ImageFormat knownFormat(std::span<const std::byte> encoded);
 
-/// First value of a field in the first directory of a TIFF file (or EXIF block), classic or BigTIFF.
-/// Of a field with several values only the presence means something.
+/// Of a PNG or JPEG.
+/// @throws Error InvalidInput: header cut short, no size or more than max_pixels
+ImageHeader readImageHeader(std::span<const std::byte> encoded, ImageFormat format, std::size_t max_pixels);
+
+/// @throws Error InvalidInput: more pixels than that
+void checkSize(ImageFormat format, std::uint64_t width, std::uint64_t height, std::size_t max_pixels);
+
+/// 1 … 8, from the EXIF block of a WebP.
+int webpOrientation(std::span<const std::byte> encoded);
+
+/// Level of white of a PBM (255, as it is decoded), PGM or PPM; none where its header is damaged.
+std::optional<std::uint64_t> pnmWhite(std::span<const std::byte> encoded);
+
+/// First value of a field in the first directory of a TIFF file (or EXIF block), classic or BigTIFF; none of a field of
+/// other than unsigned integers.
 std::optional<std::uint64_t> tiffField(std::span<const std::byte> tiff, std::uint16_t tag);
-
-/// The header of a PBM, PGM or PPM.
-struct PnmHeader {
-    int kind = 1;  ///< the digit after P: 1 … 6
-    std::uint64_t width = 0;
-    std::uint64_t height = 0;
-    std::uint32_t maximum = 1;  ///< level of white, 1 … 65535
-    std::size_t payload = 0;    ///< where the pixels begin
-};
-
-/// @throws Error InvalidInput
-PnmHeader readPnmHeader(std::span<const std::byte> encoded);
 
 }  // namespace droplet

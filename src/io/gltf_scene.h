@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct SceneMesh {
     std::vector<Vec2> uvs;              ///< as they stand; 0 where a mesh has none
     std::vector<float> contact_angles;  ///< [rad]; 0 where a mesh has none
     std::vector<Triangle> triangles;    ///< none whose vertices repeat; at least one
+    std::vector<std::uint32_t> weld;    ///< the first vertex at the same place
     bool moves = false;                 ///< it has animations, skins or morph targets, which were passed over
 };
 

@@ -2,9 +2,15 @@
 // Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; G. Turk, "The PLY Polygon File Format"
 // (1994); 3D Systems, "StereoLithography Interface Specification" (1989).
 //
-// OpenMesh and CGAL read these, too, but not all that is compared: OpenMesh drops triangles that its half-edges cannot
-// hold, and prints about them; CGAL drops normals, and with them the crisp rims.
+// CGAL reads STL. OBJ and PLY are read here, for what is lost or let through elsewhere: CGAL (5.5) drops the normals of
+// both, and with them crisp rims and, of PLY, contact angles; it takes an OBJ's index one too large, and spends 4 GB on
+// a PLY of 200 bytes that claims a face of 10⁹ corners. OpenMesh (9.0) takes files of all three kinds that are cut
+// short, leaves out broken vertices, so that later ones have their numbers, drops triangles that its half-edges cannot
+// hold, opens material files that an OBJ names, and prints.
 #include "droplet/io/read_surface.h"
+
+#include <CGAL/IO/STL.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
@@ -15,11 +21,12 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <map>
+#include <locale>
 #include <optional>
-#include <span>
+#include <sstream>
 #include <string_view>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 
 #include "droplet/io/output.h"
@@ -99,6 +106,7 @@ struct Content {
     std::vector<Vec3> normals;
     std::vector<float> contact_angles;  ///< [rad]
     std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> weld;  ///< of a Surface, where it is known
 
     void addTriangle(std::uint64_t a, std::uint64_t b, std::uint64_t c)
     {
@@ -190,7 +198,7 @@ private:
     Content content_;
     std::vector<Vec3> places_;
     std::vector<Vec3> directions_;
-    std::map<std::uint64_t, std::uint32_t> vertices_;
+    std::unordered_map<std::uint64_t, std::uint32_t> vertices_;
 };
 
 // -------------------------------------------------------------------------------------------------------- PLY
@@ -447,59 +455,45 @@ Content readPly(std::string_view text)
 
 // -------------------------------------------------------------------------------------------------------- STL
 
-/// Normals are the facets', whatever the file says of them.
-void addFacet(Content& content, const std::array<Vec3, 3>& facet)
-{
-    const Vec3 normal = cross(facet[1] - facet[0], facet[2] - facet[0]);
-    for (const Vec3 p : facet) {
-        content.positions.push_back(p);
-        content.normals.push_back(normal);
-    }
-    const std::size_t count = content.positions.size();
-    content.addTriangle(count - 3, count - 2, count - 1);
-}
-
+/// Normals are the facets', whatever the file says of them. CGAL does not mind what follows the last facet, and takes a
+/// file that ends in the first for an empty one.
 Content readStl(std::string_view text)
 {
     constexpr std::size_t kHeader = 84;
     constexpr std::size_t kFacet = 50;
-    Content content;
-    std::array<Vec3, 3> facet;
     const bool has_header = text.size() >= kHeader;
     const double count = has_header ? littleEndian<std::uint32_t>(text.substr(kHeader - 4)) : 0.0;
     const bool whole = has_header && static_cast<double>(text.size()) == kHeader + count * kFacet;
-    if (!whole && text.starts_with("solid")) {
-        Lines lines(text);
-        std::size_t corners = 0;
-        for (std::string_view line; lines.next(line);) {
-            if (nextWord(line) == "vertex") {
-                Vec3& p = facet[corners++ % 3];
-                for (double* const to : {&p.x, &p.y, &p.z}) {
-                    *to = number(nextWord(line), lines.where());
-                }
-                if (corners % 3 == 0) {
-                    addFacet(content, facet);
-                }
+    const bool as_text = text.starts_with("solid");
+    if (!whole && (as_text ? text.find("endsolid") == std::string_view::npos : !has_header)) {
+        throw Damage("it is cut short");
+    }
+    if (!whole && !as_text) {
+        throw Damage("it has " + std::to_string(text.size()) + " bytes, not those of as many triangles as it says");
+    }
+    std::istringstream in{std::string(text)};
+    in.imbue(std::locale::classic());
+    std::vector<CGAL::Simple_cartesian<double>::Point_3> places;
+    std::vector<std::array<std::size_t, 3>> facets;
+    if (!CGAL::IO::read_STL(in, places, facets)) {
+        throw Damage("its text is no STL");
+    }
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> first(places.size(), kNone);
+    Content content;
+    for (const std::array<std::size_t, 3>& facet : facets) {
+        const auto begin = static_cast<std::uint32_t>(content.positions.size());
+        for (const std::size_t place : facet) {
+            if (first[place] == kNone) {
+                first[place] = static_cast<std::uint32_t>(content.positions.size());
             }
+            content.weld.push_back(first[place]);
+            content.positions.push_back({places[place].x(), places[place].y(), places[place].z()});
         }
-        if (corners % 3 != 0 || text.find("endsolid") == std::string_view::npos) {
-            throw Damage("it is cut short");
-        }
-        return content;
-    }
-    if (!whole) {
-        throw Damage(text.size() < kHeader ? std::string("it is cut short")
-                                           : "it has " + std::to_string(text.size()) +
-                                                 " bytes, not those of as many triangles as it says");
-    }
-    for (std::size_t at = kHeader; at < text.size(); at += kFacet) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto coordinate = [&](std::size_t i) {
-                return littleEndian<float>(text.substr(at + 12 * (k + 1) + 4 * i));
-            };
-            facet[k] = {coordinate(0), coordinate(1), coordinate(2)};
-        }
-        addFacet(content, facet);
+        content.addTriangle(begin, begin + 1, begin + 2);
+        const Vec3 a = content.positions[begin];
+        const Vec3 normal = cross(content.positions[begin + 1] - a, content.positions[begin + 2] - a);
+        content.normals.insert(content.normals.end(), 3, normal);
     }
     return content;
 }
@@ -526,7 +520,8 @@ Surface surfaceOf(Content content, double unit)
             throw Damage("it holds numbers that are not finite");
         }
     }
-    fillNormals(surface.positions, surface.triangles, surface.normals);
+    surface.weld = content.weld.empty() ? firstAtPlace(surface.positions) : std::move(content.weld);
+    fillNormals(surface.positions, surface.triangles, surface.weld, surface.normals);
     surface.uvs.resize(surface.positions.size());
     const auto is_angle = [](float angle) { return angle != 0.0F; };
     if (std::any_of(content.contact_angles.begin(), content.contact_angles.end(), is_angle)) {
@@ -537,7 +532,6 @@ Surface surfaceOf(Content content, double unit)
             }
         }
     }
-    surface.weld = firstAtPlace(surface.positions);
     return surface;
 }
 
@@ -552,6 +546,7 @@ Surface readGltf(const std::filesystem::path& path, std::vector<std::string>& wa
     content.normals = std::move(scene.normals);
     content.triangles = std::move(scene.triangles);
     content.contact_angles = std::move(scene.contact_angles);
+    content.weld = std::move(scene.weld);
     Surface surface = surfaceOf(std::move(content), 1.0);
     surface.uvs = std::move(scene.uvs);
     return surface;

@@ -28,10 +28,10 @@ std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& positions)
     return first;
 }
 
-void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, std::vector<Vec3>& normals)
+void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                 const std::vector<std::uint32_t>& place, std::vector<Vec3>& normals)
 {
     const std::vector<Vec3>& p = positions;
-    const std::vector<std::uint32_t> place = firstAtPlace(positions);
     std::vector<Vec3> sums(p.size());
     for (const Triangle& t : triangles) {
         const Vec3 normal = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);

@@ -14,8 +14,9 @@ std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& positions);
 
 /// Brings normals to length 1; those of no length become those of the triangles around their place, weighted by their
 /// angles there, copies of a place counted as one.
+/// @param place    firstAtPlace(positions)
 /// @param normals  as many as positions
 void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-                 std::vector<Vec3>& normals);
+                 const std::vector<std::uint32_t>& place, std::vector<Vec3>& normals);
 
 }  // namespace droplet

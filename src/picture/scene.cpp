@@ -3,14 +3,15 @@
 // (2014).
 #include "picture/scene.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <array>
 #include <cstring>
 #include <limits>
 #include <new>
-#include <numeric>
+
+#include "rays/embree_device.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -21,23 +22,15 @@ constexpr float kNear = 2e-5F;
 /// For every triangle whether it belongs to the base.
 std::vector<bool> baseTriangles(const Surface& surface)
 {
-    std::vector<std::uint32_t> parent(surface.positions.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) {
-            parent[v] = parent[parent[v]];
-            v = parent[v];
-        }
-        return v;
-    };
+    UnionFind sheets(surface.positions.size());
     for (const Triangle& t : surface.triangles) {
-        parent[root(t[1])] = root(t[0]);
-        parent[root(t[2])] = root(t[0]);
+        sheets.join(t[0], t[1]);
+        sheets.join(t[0], t[2]);
     }
     std::vector<bool> copied(surface.positions.size());
     for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
         if (surface.weld[v] != v) {
-            copied[root(v)] = true;
+            copied[sheets.find(v)] = true;
         }
     }
     std::vector<bool> base(surface.triangles.size());
@@ -45,7 +38,7 @@ std::vector<bool> baseTriangles(const Surface& surface)
         const Triangle& triangle = surface.triangles[t];
         const bool in_plane = surface.positions[triangle[0]].z == 0.0 && surface.positions[triangle[1]].z == 0.0 &&
                               surface.positions[triangle[2]].z == 0.0;
-        base[t] = in_plane || copied[root(triangle[0])];
+        base[t] = in_plane || copied[sheets.find(triangle[0])];
     }
     return base;
 }
@@ -65,42 +58,23 @@ constexpr unsigned kStand = 2;
 }  // namespace
 
 struct Scene::Embree {
-    RTCDevice device = nullptr;
-    RTCScene air = nullptr;
-    RTCScene liquid = nullptr;
-    RTCScene dry = nullptr;
+    EmbreeDevice device;
+    EmbreeDevice::Scene air;
+    EmbreeDevice::Scene liquid;
+    EmbreeDevice::Scene dry;
     std::array<Buffers, 3> parts;
 
-    Embree()
-    {
-        device = rtcNewDevice(nullptr);
-        if (device == nullptr) {
-            throw std::bad_alloc();
-        }
-    }
-    Embree(const Embree&) = delete;
-    Embree& operator=(const Embree&) = delete;
-    ~Embree()
-    {
-        for (RTCScene scene : {air, liquid, dry}) {
-            if (scene != nullptr) {
-                rtcReleaseScene(scene);
-            }
-        }
-        rtcReleaseDevice(device);
-    }
-
     // One thread builds: the order of triangles in the tree, which decides on shared edges, must not depend on chance.
-    RTCScene build(std::initializer_list<unsigned> wanted)
+    EmbreeDevice::Scene build(std::initializer_list<unsigned> wanted)
     {
-        RTCScene scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        EmbreeDevice::Scene scene = device.newScene();
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
         for (const unsigned part : wanted) {
             Buffers& buffers = parts[part];
             if (buffers.triangles.empty()) {
                 continue;
             }
-            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
             auto* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                      sizeof(Vec3f), buffers.positions.size());
             auto* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
@@ -111,13 +85,11 @@ struct Scene::Embree {
             std::memcpy(vertices, buffers.positions.data(), sizeof(Vec3f) * buffers.positions.size());
             std::memcpy(indices, buffers.triangles.data(), sizeof(Triangle) * buffers.triangles.size());
             rtcCommitGeometry(geometry);
-            rtcAttachGeometryByID(scene, geometry, part);
+            rtcAttachGeometryByID(scene.get(), geometry, part);
             rtcReleaseGeometry(geometry);
         }
-        tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
-        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
-            throw std::bad_alloc();
-        }
+        tbb::task_arena(1).execute([&] { rtcCommitScene(scene.get()); });
+        device.check();
         return scene;
     }
 };
@@ -294,17 +266,17 @@ Meeting Scene::fromAir(const RayF& ray) const
     if (on_plane_ && passesBox(ray)) {
         return nearerOfPlane(ray, {});
     }
-    return nearerOfPlane(ray, meet(embree_->air, ray));
+    return nearerOfPlane(ray, meet(embree_->air.get(), ray));
 }
 
 Meeting Scene::fromLiquid(const RayF& ray) const
 {
-    return nearerOfPlane(ray, meet(embree_->liquid, ray));
+    return nearerOfPlane(ray, meet(embree_->liquid.get(), ray));
 }
 
 Meeting Scene::dry(const RayF& ray) const
 {
-    return nearerOfPlane(ray, on_plane_ ? Meeting{} : meet(embree_->dry, ray));
+    return nearerOfPlane(ray, on_plane_ ? Meeting{} : meet(embree_->dry.get(), ray));
 }
 
 }  // namespace droplet

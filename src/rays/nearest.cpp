@@ -7,13 +7,11 @@
 // AABB_tree takes 6 µs for the same answers, and hands over every triangle in reach, so that ties can be settled.
 #include "rays/nearest.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <limits>
-#include <new>
-#include <stdexcept>
 #include <utility>
+
+#include "rays/embree_device.h"
 
 namespace droplet {
 namespace {
@@ -69,21 +67,8 @@ Vec3 nearestPoint(Vec3 p, const Corners3& triangle)
 }
 
 struct NearestTriangles::Tree {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    Tree() = default;
-    Tree(const Tree&) = delete;
-    Tree& operator=(const Tree&) = delete;
-    ~Tree()
-    {
-        if (scene != nullptr) {
-            rtcReleaseScene(scene);
-        }
-        if (device != nullptr) {
-            rtcReleaseDevice(device);
-        }
-    }
+    EmbreeDevice device;
+    EmbreeDevice::Scene scene = device.newScene();
 };
 
 NearestTriangles::NearestTriangles(std::vector<Corners3> triangles)
@@ -93,12 +78,7 @@ NearestTriangles::NearestTriangles(std::vector<Corners3> triangles)
     for (const auto& [a, b, c] : triangles_) {
         facets_.push_back(cross(b - a, c - a));
     }
-    tree_->device = rtcNewDevice(nullptr);
-    if (tree_->device == nullptr) {
-        throw std::runtime_error("Embree does not start on this machine");
-    }
-    tree_->scene = rtcNewScene(tree_->device);
-    const RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_USER);
+    const RTCGeometry geometry = rtcNewGeometry(tree_->device.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles_.size()));
     rtcSetGeometryUserData(geometry, &triangles_);
     rtcSetGeometryBoundsFunction(
@@ -116,12 +96,10 @@ NearestTriangles::NearestTriangles(std::vector<Corners3> triangles)
         },
         nullptr);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree_->scene, geometry);
+    rtcAttachGeometry(tree_->scene.get(), geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(tree_->scene);
-    if (rtcGetDeviceError(tree_->device) != RTC_ERROR_NONE) {
-        throw std::bad_alloc();  // all else that can fail is a mistake of ours
-    }
+    rtcCommitScene(tree_->scene.get());
+    tree_->device.check();
 }
 
 NearestTriangles::~NearestTriangles() = default;
@@ -143,7 +121,7 @@ void NearestTriangles::visit(Vec3 p, double radius, Visit& visit) const
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(
-        tree_->scene, &query, &context,
+        tree_->scene.get(), &query, &context,
         [](RTCPointQueryFunctionArguments* arguments) {
             auto& here = *static_cast<Search*>(arguments->userPtr);
             const double next = here.visit(arguments->primID);

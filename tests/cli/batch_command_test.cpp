@@ -172,7 +172,7 @@ TEST_F(BatchTest, ThreadsChangeNothing)
             EXPECT_EQ(result.exit_code, 6);
             EXPECT_EQ(result.errorLines().front(),
                       "droplet-shape: masks/aa_broken.pgm: not an image this program reads (PNG, "
-                      "JPEG, BMP, TIFF, WebP, PBM/PGM/PPM, SVG)");
+                      "JPEG, SVG, BMP, TIFF, WebP, PBM/PGM/PPM, JPEG 2000, OpenEXR, Radiance HDR)");
             EXPECT_EQ(timeless(), rows) << threads;
             for (const auto& [name, content] : one) {
                 EXPECT_EQ(files("out")[name], content) << name;

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <opencv2/imgproc.hpp>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,8 +16,6 @@ namespace droplet {
 namespace {
 
 constexpr std::uint16_t kLevel = 32768;
-
-using Pixels = std::set<std::pair<int, int>>;
 
 /// Liquid at a share of the pixels; grey levels on either side of the level, some on it. The engine's numbers are the
 /// standard's, its distributions' are not.
@@ -55,40 +51,6 @@ std::vector<Mask> awkwardMasks()
         }
     }
     return masks;
-}
-
-TEST(Borders, AreThoseOpenCvFinds)
-{
-    for (const Mask& mask : awkwardMasks()) {
-        // OpenCV 4.6 takes the image's outermost pixels for dry: give it a frame.
-        cv::Mat image = cv::Mat::zeros(mask.height + 2, mask.width + 2, CV_8UC1);
-        for (int y = 0; y < mask.height; ++y) {
-            for (int x = 0; x < mask.width; ++x) {
-                image.at<std::uint8_t>(y + 1, x + 1) = isLiquid(mask, x, y) ? 255 : 0;
-            }
-        }
-        std::vector<std::vector<cv::Point>> contours;
-        std::vector<cv::Vec4i> hierarchy;
-        cv::findContours(image, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE, {-1, -1});
-        std::vector<std::pair<bool, Pixels>> expected;
-        for (std::size_t k = 0; k < contours.size(); ++k) {
-            auto& [is_hole, pixels] = expected.emplace_back(hierarchy[k][3] >= 0, Pixels{});
-            for (const cv::Point p : contours[k]) {
-                pixels.emplace(p.x, p.y);
-            }
-        }
-        std::vector<std::pair<bool, Pixels>> found;
-        for (const Border& border : followBorders(mask, kLevel)) {
-            // A component begins to the west of its first pixel, a hole to the west of its own.
-            auto& [is_hole, pixels] = found.emplace_back(border.front().direction == 0, Pixels{});
-            for (const Crossing& at : border) {
-                pixels.emplace(at.x, at.y);
-            }
-        }
-        std::sort(expected.begin(), expected.end());
-        std::sort(found.begin(), found.end());
-        EXPECT_EQ(found, expected) << mask.width << " x " << mask.height;
-    }
 }
 
 TEST(Borders, PassEveryCrossingOnce)

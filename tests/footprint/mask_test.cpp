@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What becomes liquid. The pictures are 16-bit PGMs and 32-bit BMPs made here; the codecs have their own tests.
+// What becomes liquid. The pictures are 16-bit PGMs and PNGs made here; the codecs have their own tests.
 #include "droplet/footprint/mask.h"
 
 #include <gmock/gmock.h>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "image/encoded_images.h"
 
 namespace droplet {
 namespace {
@@ -22,14 +23,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 using Bytes = std::vector<std::byte>;
-
-void append(Bytes& bytes, std::uint64_t value, int count)
-{
-    for (int i = 0; i < count; ++i) {
-        bytes.push_back(static_cast<std::byte>(value & 255U));
-        value >>= 8;
-    }
-}
 
 /// A grey picture of 16-bit levels.
 struct Grey {
@@ -73,22 +66,12 @@ struct Grey {
 /// A picture of 8-bit grey and alpha: 0xAAVV a pixel.
 Bytes greyAlpha(int width, int height, const std::vector<unsigned>& pixels)
 {
-    Bytes bytes{std::byte{'B'}, std::byte{'M'}};
-    append(bytes, 54 + 4 * pixels.size(), 4);
-    append(bytes, 0, 4);
-    append(bytes, 54, 4);
-    append(bytes, 40, 4);
-    append(bytes, static_cast<std::uint64_t>(width), 4);
-    append(bytes, static_cast<std::uint64_t>(-std::int64_t{height}), 4);  // rows from the top down
-    append(bytes, 1, 2);
-    append(bytes, 32, 2);
-    append(bytes, 0, 24);
+    encoded::Raster raster{width, height, 2, 8, {}};
     for (const unsigned pixel : pixels) {
-        const unsigned grey = pixel & 255U;
-        append(bytes, grey | grey << 8 | grey << 16, 3);
-        append(bytes, pixel >> 8, 1);
+        raster.samples.push_back(pixel & 255U);
+        raster.samples.push_back(pixel >> 8);
     }
-    return bytes;
+    return encodePng(raster, {PNG_COLOR_TYPE_GRAY_ALPHA, false, {}, {}, nullptr});
 }
 
 double ellipse(double x, double y)

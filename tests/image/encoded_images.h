@@ -406,6 +406,14 @@ inline Bytes bmpHeader(int width, int height, const BmpKind& kind)
     return bytes;
 }
 
+inline Bytes encodeMat(const cv::Mat& image, const std::string& extension, const std::vector<int>& parameters = {})
+{
+    std::vector<std::uint8_t> buffer;
+    EXPECT_TRUE(cv::imencode(extension, image, buffer, parameters));
+    const auto* first = reinterpret_cast<const std::byte*>(buffer.data());
+    return {first, first + buffer.size()};
+}
+
 inline Bytes encodeWithOpenCv(const Raster& raster, const std::string& extension,
                               const std::vector<int>& parameters = {})
 {
@@ -424,10 +432,7 @@ inline Bytes encodeWithOpenCv(const Raster& raster, const std::string& extension
             }
         }
     }
-    std::vector<std::uint8_t> buffer;
-    EXPECT_TRUE(cv::imencode(extension, image, buffer, parameters));
-    const auto* first = reinterpret_cast<const std::byte*>(buffer.data());
-    return {first, first + buffer.size()};
+    return encodeMat(image, extension, parameters);
 }
 
 /// OpenCV writes WebP without loss above quality 100. Pixels wholly transparent lose their colour there.

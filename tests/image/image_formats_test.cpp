@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "image/encoded_images.h"
 
@@ -59,6 +58,19 @@ void expectRaster(const Bytes& encoded, const Raster& raster)
     };
     const LevelAt alpha = [&](int x, int y) { return raster.level(x, y, raster.channels - 1); };
     expectLevels(encoded, raster.width, raster.height, bright, raster.channels % 2 == 0 ? alpha : nullptr);
+}
+
+/// Of colours that a decoder keeps with 8 bits: as near as that.
+void expectNearly(const Bytes& encoded, int width, int height, const LevelAt& luma)
+{
+    const Mask mask = decodeMask(encoded, only(Channel::Luma));
+    ASSERT_EQ(mask.width, width);
+    ASSERT_EQ(mask.height, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            ASSERT_NEAR(mask.at(x, y) / 65535.0, luma(x, y), 1.0 / 255) << x << ", " << y;
+        }
+    }
 }
 
 TEST(ReadPng, EveryDepthAndColourTypeInterlacedOrNot)
@@ -158,32 +170,20 @@ TEST(ReadPng, ADamagedTransparencyIsNotDropped)
     EXPECT_THAT(messageOf(png), AllOf(HasSubstr("damaged PNG"), HasSubstr("CRC")));
 }
 
-TEST(ReadTiff, EveryDepthChannelOrderAndCompression)
+TEST(ReadTiff, GreyAndColourOfEightAndSixteenBits)
 {
-    const std::map<int, std::uint16_t> compressions{{1, COMPRESSION_NONE},
-                                                    {2, COMPRESSION_ADOBE_DEFLATE},
-                                                    {4, COMPRESSION_PACKBITS},
-                                                    {8, COMPRESSION_LZW},
-                                                    {16, COMPRESSION_NONE}};
-    for (const int channels : {1, 2, 3, 4}) {
-        for (const int bits : {1, 2, 4, 8, 16}) {
-            for (const bool separate : {false, true}) {
-                for (const int tile : {0, 16}) {
-                    for (const char* mode : {"wl", "wb", "w8"}) {
-                        SCOPED_TRACE(testing::Message() << channels << " channels, " << bits << " bits, " << separate
-                                                        << ", tile " << tile << ", " << mode);
-                        const Raster raster = noise(channels, bits, 37, 19);
-                        TiffKind kind;
-                        kind.photometric = channels < 3 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB;
-                        if (channels % 2 == 0) {
-                            kind.extra_samples = {EXTRASAMPLE_UNASSALPHA};
-                        }
-                        kind.separate = separate;
-                        kind.tile = tile;
-                        kind.mode = mode;
-                        kind.compression = compressions.at(bits);
-                        expectRaster(encodeTiff(raster, kind), raster);
-                    }
+    for (const int channels : {1, 3, 4}) {
+        for (const int bits : {8, 16}) {
+            for (const int tile : {0, 16}) {
+                for (const char* mode : {"wl", "wb8"}) {
+                    SCOPED_TRACE(testing::Message() << channels << " " << bits << " " << tile << " " << mode);
+                    const Raster raster = noise(channels, bits, 37, 19);
+                    TiffKind kind;
+                    kind.photometric = channels == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB;
+                    kind.tile = tile;
+                    kind.mode = mode;
+                    kind.compression = COMPRESSION_LZW;
+                    expectRaster(encodeTiff(raster, kind), raster);
                 }
             }
         }
@@ -192,22 +192,22 @@ TEST(ReadTiff, EveryDepthChannelOrderAndCompression)
 
 TEST(ReadTiff, WhiteIsZeroAndFax)
 {
-    Raster raster = noise(1, 1, 37, 19);
-    for (const int compression : {COMPRESSION_NONE, COMPRESSION_CCITTFAX3, COMPRESSION_CCITTFAX4}) {
-        TiffKind kind;
-        kind.photometric = PHOTOMETRIC_MINISWHITE;
-        kind.compression = static_cast<std::uint16_t>(compression);
-        expectLevels(encodeTiff(raster, kind), 37, 19, [&](int x, int y) { return 1.0 - raster.level(x, y, 0); });
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_CCITTFAX4}) {
+        for (const int photometric : {PHOTOMETRIC_MINISWHITE, PHOTOMETRIC_MINISBLACK}) {
+            const Raster raster = noise(1, 1, 37, 19);
+            TiffKind kind;
+            kind.photometric = static_cast<std::uint16_t>(photometric);
+            kind.compression = static_cast<std::uint16_t>(compression);
+            const bool negative = photometric == PHOTOMETRIC_MINISWHITE;
+            expectLevels(encodeTiff(raster, kind), 37, 19,
+                         [&](int x, int y) { return negative ? 1.0 - raster.level(x, y, 0) : raster.level(x, y, 0); });
+        }
     }
-    raster = noise(1, 16);
-    TiffKind kind;
-    kind.photometric = PHOTOMETRIC_MINISWHITE;
-    expectLevels(encodeTiff(raster, kind), 13, 7, [&](int x, int y) { return 1.0 - raster.level(x, y, 0); });
 }
 
 TEST(ReadTiff, Palette)
 {
-    for (const int bits : {1, 2, 4, 8}) {
+    for (const int bits : {1, 8}) {
         const Raster indices = noise(1, bits);
         TiffKind kind;
         kind.photometric = PHOTOMETRIC_PALETTE;
@@ -215,139 +215,80 @@ TEST(ReadTiff, Palette)
         for (unsigned i = 0; i < 3 * size; ++i) {
             kind.palette.push_back(static_cast<std::uint16_t>(i * 20011 + 300));
         }
-        expectLevels(encodeTiff(indices, kind), 13, 7, [&](int x, int y) {
+        expectNearly(encodeTiff(indices, kind), 13, 7, [&](int x, int y) {
             const unsigned i = indices.at(x, y, 0);
             return luma(kind.palette[i], kind.palette[size + i], kind.palette[2 * size + i]) / 65535;
         });
     }
 }
 
-TEST(ReadTiff, PaletteOfEightBitColoursInEitherByte)
+TEST(ReadTiff, FourthSamplesAreAlphaOnlyIfTheFileSaysSo)
 {
-    const Raster indices = noise(1, 1);
-    TiffKind kind;
-    kind.photometric = PHOTOMETRIC_PALETTE;
-    for (const int shift : {0, 8}) {
-        kind.palette.clear();
-        for (const int level : {255, 10, 255, 20, 255, 30}) {  // two reds, two greens, two blues
-            kind.palette.push_back(static_cast<std::uint16_t>(level << shift));
-        }
-        expectLevels(encodeTiff(indices, kind), 13, 7,
-                     [&](int x, int y) { return indices.at(x, y, 0) == 0 ? 1.0 : luma(10, 20, 30) / 255; });
-    }
-}
+    for (const int bits : {8, 16}) {
+        const Raster raster = noise(4, bits);
+        const LevelAt colour = [&](int x, int y) {
+            return luma(raster.level(x, y, 0), raster.level(x, y, 1), raster.level(x, y, 2));
+        };
+        const LevelAt seen = [&](int x, int y) { return colour(x, y) * raster.level(x, y, 3); };
+        TiffKind kind;
+        kind.photometric = PHOTOMETRIC_RGB;
+        expectRaster(encodeTiff(raster, kind), raster);  // without a word, as OpenCV writes them
 
-TEST(ReadTiff, ExtraSamplesAreAlphaOnlyIfTheFileSaysSo)
-{
-    Raster raster = noise(4, 8);
-    TiffKind kind;
-    kind.photometric = PHOTOMETRIC_RGB;
-    kind.extra_samples = {EXTRASAMPLE_UNSPECIFIED};
-    const LevelAt opaque = [&](int x, int y) {
-        return luma(raster.level(x, y, 0), raster.level(x, y, 1), raster.level(x, y, 2));
-    };
-    expectLevels(encodeTiff(raster, kind), 13, 7, opaque);
+        kind.extra_samples = {EXTRASAMPLE_UNSPECIFIED};
+        expectLevels(encodeTiff(raster, kind), 13, 7, colour);
 
-    // Premultiplied: the luma stored is what is seen in front of black.
-    kind.extra_samples = {EXTRASAMPLE_ASSOCALPHA};
-    const Bytes encoded = encodeTiff(raster, kind);
-    const Mask alpha = decodeMask(encoded, only(Channel::Alpha));
-    const Mask bright = decodeMask(encoded, only(Channel::Luma));
-    for (int y = 0; y < 7; ++y) {
-        for (int x = 0; x < 13; ++x) {
-            EXPECT_EQ(alpha.at(x, y), raster.at(x, y, 3) * 257);
-            EXPECT_NEAR(bright.at(x, y), opaque(x, y) * 65535, 0.501);
-        }
-    }
-
-    raster = noise(5, 8);
-    kind.extra_samples = {EXTRASAMPLE_UNSPECIFIED, EXTRASAMPLE_UNASSALPHA};
-    expectLevels(encodeTiff(raster, kind), 13, 7, opaque, [&](int x, int y) { return raster.level(x, y, 4); });
-}
-
-TEST(ReadTiff, FourSamplesWithoutAWordAreRgbAndAlpha)
-{
-    // OpenCV writes them so.
-    const Raster raster = noise(4, 8);
-    cv::Mat image(raster.height, raster.width, CV_8UC4);
-    for (int y = 0; y < raster.height; ++y) {
-        for (int x = 0; x < raster.width; ++x) {
-            for (int c = 0; c < 4; ++c) {
-                image.at<cv::Vec4b>(y, x)[c == 3 ? 3 : 2 - c] = static_cast<std::uint8_t>(raster.at(x, y, c));
+        // Premultiplied: the luma stored is what is seen in front of black.
+        for (const int extra : {EXTRASAMPLE_ASSOCALPHA, EXTRASAMPLE_UNASSALPHA}) {
+            kind.extra_samples = {static_cast<std::uint16_t>(extra)};
+            const Bytes encoded = encodeTiff(raster, kind);
+            expectNearly(encoded, 13, 7, extra == EXTRASAMPLE_ASSOCALPHA ? colour : seen);
+            const Mask alpha = decodeMask(encoded, only(Channel::Alpha));
+            for (int y = 0; y < 7; ++y) {
+                for (int x = 0; x < 13; ++x) {
+                    EXPECT_EQ(alpha.at(x, y), std::lround(raster.level(x, y, 3) * 65535));
+                }
             }
         }
     }
-    std::vector<std::uint8_t> buffer;
-    ASSERT_TRUE(cv::imencode(".tif", image, buffer));
-    const auto* first = reinterpret_cast<const std::byte*>(buffer.data());
-    expectRaster(Bytes(first, first + buffer.size()), raster);
 }
 
 TEST(ReadTiff, Inks)
 {
-    for (const int bits : {8, 16}) {
-        const Raster raster = noise(4, bits);
-        TiffKind kind;
-        kind.photometric = PHOTOMETRIC_SEPARATED;
-        const Mask mask = decodeMask(encodeTiff(raster, kind), only(Channel::Luma));
-        for (int y = 0; y < 7; ++y) {
-            for (int x = 0; x < 13; ++x) {
-                const auto light = [&](int c) { return (1 - raster.level(x, y, c)) * (1 - raster.level(x, y, 3)); };
-                EXPECT_NEAR(mask.at(x, y) / 65535.0, luma(light(0), light(1), light(2)),
-                            0.51 / raster.white() + 0.51 / 65535);
-            }
-        }
-    }
+    const Raster raster = noise(4, 8);
+    TiffKind kind;
+    kind.photometric = PHOTOMETRIC_SEPARATED;
+    expectNearly(encodeTiff(raster, kind), 13, 7, [&](int x, int y) {
+        const auto light = [&](int c) { return (1 - raster.level(x, y, c)) * (1 - raster.level(x, y, 3)); };
+        return luma(light(0), light(1), light(2));
+    });
 }
 
-TEST(ReadTiff, YCbCrInsideJpegCompression)
-{
-    Raster raster{32, 32, 3, 8, {}};
-    for (int i = 0; i < 32 * 32; ++i) {
-        const bool left = i % 32 < 16;
-        raster.samples.insert(raster.samples.end(), {left ? 250U : 10U, left ? 20U : 60U, left ? 30U : 200U});
-    }
-    const Folder folder;
-    TIFF* tiff = TIFFOpen((folder / "image.tif").c_str(), "w");
-    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 32);
-    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 32);
-    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
-    TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_JPEG);
-    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_YCBCR);
-    TIFFSetField(tiff, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
-    TIFFSetField(tiff, TIFFTAG_JPEGQUALITY, 100);
-    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 32);
-    for (int y = 0; y < 32; ++y) {
-        auto row = packedRow(raster, y);
-        TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y), 0);
-    }
-    TIFFClose(tiff);
-    const Mask mask = readMask(folder / "image.tif", only(Channel::Luma));
-    EXPECT_NEAR(mask.at(3, 20) / 257.0, luma(250, 20, 30), 2);
-    EXPECT_NEAR(mask.at(28, 20) / 257.0, luma(10, 60, 200), 2);
-}
-
+// Most of these OpenCV 4.6 would read wrongly, and say nothing.
 TEST(ReadTiff, KindsNotReadAreNamed)
 {
-    TiffKind kind;
-    kind.sample_format = SAMPLEFORMAT_INT;
-    EXPECT_THAT(messageOf(encodeTiff(noise(1, 16), kind)), HasSubstr("not unsigned integers"));
-    kind.sample_format = SAMPLEFORMAT_IEEEFP;
-    EXPECT_THAT(messageOf(encodeTiff(noise(1, 16), kind)), HasSubstr("not unsigned integers"));
-    kind = {};
-    kind.photometric = PHOTOMETRIC_CIELAB;
-    EXPECT_THAT(messageOf(encodeTiff(noise(3, 8), kind)), HasSubstr("photometric interpretation 8"));
-    // libtiff may not know a compression at all.
-    kind = {};
-    Bytes tiff = encodeTiff(noise(1, 8), kind);
-    const Bytes field{std::byte{0x03}, std::byte{0x01}, std::byte{3}, std::byte{0}};
-    const auto compression = std::search(tiff.begin(), tiff.end(), field.begin(), field.end());
-    ASSERT_NE(compression, tiff.end());
-    *(compression + 8) = std::byte{0x77};
-    *(compression + 9) = std::byte{0x77};
-    EXPECT_THAT(messageOf(tiff), HasSubstr("compression 30583"));
+    const auto refusal = [](int channels, int bits, const std::function<void(TiffKind&)>& set) {
+        TiffKind kind;
+        kind.photometric = channels < 3 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB;
+        set(kind);
+        return messageOf(encodeTiff(noise(channels, bits), kind));
+    };
+    for (const int bits : {8, 16}) {
+        EXPECT_THAT(refusal(2, bits, [](TiffKind& kind) { kind.extra_samples = {EXTRASAMPLE_UNASSALPHA}; }),
+                    HasSubstr("grey with alpha"));
+        for (const int channels : {1, 3}) {
+            EXPECT_THAT(refusal(channels, bits, [](TiffKind& kind) { kind.sample_format = SAMPLEFORMAT_INT; }),
+                        HasSubstr("not unsigned integers"));
+        }
+    }
+    for (const int channels : {3, 4}) {
+        EXPECT_THAT(refusal(channels, 16, [](TiffKind& kind) { kind.separate = true; }), HasSubstr("plane of its own"));
+    }
+    EXPECT_THAT(refusal(1, 16, [](TiffKind& kind) { kind.photometric = PHOTOMETRIC_MINISWHITE; }),
+                HasSubstr("photometric interpretation 0"));
+    EXPECT_THAT(refusal(1, 4, [](TiffKind&) {}), HasSubstr("unsupported TIFF image: Invalid bitsperpixel value"));
+    EXPECT_THAT(refusal(1, 16, [](TiffKind& kind) { kind.sample_format = SAMPLEFORMAT_IEEEFP; }),
+                HasSubstr("unsupported TIFF image"));
+    EXPECT_THAT(refusal(5, 8, [](TiffKind& kind) { kind.extra_samples = {0, 2}; }), HasSubstr("channels"));
 }
 
 TEST(ReadJpeg, GreyAndColourBaselineAndProgressive)
@@ -419,156 +360,33 @@ TEST(ReadJpeg, ProgressiveFileOfVeryManyScansIsRefused)
               decodeMask(encodeJpeg(fields(1, 1, 1)), only(Channel::Luma)).at(3, 3));
 }
 
-TEST(ReadBmp, PalettesOfEveryDepth)
+TEST(ReadBmp, PalettesRunLengthsAndTrueColour)
 {
-    for (const int bits : {1, 2, 4, 8}) {
-        for (const int header : {12, 40}) {
-            for (const bool top_down : {false, true}) {
-                if (header == 12 && top_down) {
-                    continue;  // its height has no sign
-                }
-                SCOPED_TRACE(testing::Message() << bits << " bits, header of " << header << ", " << top_down);
-                const Raster indices = noise(1, bits);
-                BmpKind kind{header, static_cast<unsigned>(bits), 0, top_down, 0, {}};
-                const auto colour = [](unsigned i) { return std::array{i * 9 % 256, (255 - i) % 256, i * 77 % 256}; };
-                for (unsigned i = 0; i <= indices.white(); ++i) {
-                    for (int c = 2; c >= 0; --c) {
-                        kind.after_header.push_back(static_cast<std::byte>(colour(i)[static_cast<std::size_t>(c)]));
-                    }
-                    if (header > 12) {
-                        kind.after_header.push_back(std::byte{0});
-                    }
-                }
-                Bytes bmp = bmpHeader(13, 7, kind);
-                for (int stored = 0; stored < 7; ++stored) {
-                    auto row = packedRow(indices, top_down ? stored : 6 - stored);
-                    row.resize((row.size() + 3) / 4 * 4);
-                    for (const std::uint8_t byte : row) {
-                        bmp.push_back(std::byte{byte});
-                    }
-                }
-                expectLevels(bmp, 13, 7, [&](int x, int y) {
-                    const auto rgb = colour(indices.at(x, y, 0));
-                    return luma(rgb[0], rgb[1], rgb[2]) / 255;
-                });
-            }
-        }
-    }
-}
+    const Raster raster = noise(3, 8);
+    expectRaster(encodeWithOpenCv(raster, ".bmp"), raster);
+    expectRaster(encodeWithOpenCv(noise(1, 8), ".bmp"), noise(1, 8));
 
-TEST(ReadBmp, TrueColourWithAndWithoutAlpha)
-{
-    for (const int channels : {3, 4}) {
-        const Raster raster = noise(channels, 8);
-        Bytes bmp = bmpHeader(13, 7, {40, 8U * static_cast<unsigned>(channels), 0, false, 0, {}});
-        for (int y = 6; y >= 0; --y) {
-            for (int x = 0; x < 13; ++x) {
-                for (const int c : {2, 1, 0, 3}) {
-                    if (c < channels) {
-                        bmp.push_back(static_cast<std::byte>(raster.at(x, y, c)));
-                    }
-                }
-            }
-            if (channels == 3) {
-                bmp.push_back(std::byte{0});  // 39 bytes to 40
-            }
-        }
-        expectRaster(bmp, raster);
-    }
-}
-
-TEST(ReadBmp, FourthByteLeftAtZeroIsNotAlpha)
-{
-    Bytes bmp = bmpHeader(2, 1, {40, 32, 0, false, 0, {}});
-    appendLittle(bmp, 0x00ffffff, 4);
-    appendLittle(bmp, 0x00000000, 4);
-    expectLevels(bmp, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.0; });
-}
-
-TEST(ReadBmp, ColourMasks)
-{
-    struct Case {
-        int header;
-        unsigned bits;
-        std::vector<unsigned> masks;
-    };
-    for (const auto& [header, bits, masks] :
-         {Case{40, 16, {0xf800, 0x07e0, 0x001f}}, Case{40, 16, {0x7c00, 0x03e0, 0x001f}},
-          Case{108, 16, {0x0f00, 0x00f0, 0x000f, 0xf000}}, Case{124, 32, {0xff, 0xff00, 0xff0000, 0xff000000}},
-          Case{124, 32, {0x3ff00000, 0x000ffc00, 0x000003ff, 0xc0000000}}}) {
-        SCOPED_TRACE(testing::Message() << header << " " << bits << " " << masks.size());
-        BmpKind kind{header, bits, 3, false, 0, {}};
-        Bytes after;
-        for (const unsigned mask : masks) {
-            appendLittle(after, mask, 4);
-        }
-        if (header == 40) {
-            kind.after_header = after;
-        } else {
-            after.resize(static_cast<std::size_t>(header - 40));
-        }
-        Bytes bmp = bmpHeader(5, 1, kind);
-        if (header > 40) {
-            bmp.insert(bmp.end(), after.begin(), after.end());
-        }
-        const std::array<unsigned, 5> pixels{0, 0xffffffff, 0x12345678, 0x9abcdef1, 0x87654321};
-        for (const unsigned pixel : pixels) {
-            appendLittle(bmp, pixel, static_cast<int>(bits / 8));
-        }
-        bmp.resize((bmp.size() + 3) / 4 * 4 + 4);
-        const auto level = [&, m = masks](int x, std::size_t c) {
-            return (pixels[static_cast<std::size_t>(x)] & m[c]) / double(m[c]);
-        };
-        const Mask mask = decodeMask(bmp, only(Channel::Luma));
-        for (int x = 0; x < 5; ++x) {
-            const double alpha = masks.size() == 4 ? level(x, 3) : 1.0;
-            EXPECT_NEAR(mask.at(x, 0), luma(level(x, 0), level(x, 1), level(x, 2)) * alpha * 65535, 1.6);
-            if (masks.size() == 4) {
-                EXPECT_NEAR(decodeMask(bmp, only(Channel::Alpha)).at(x, 0), alpha * 65535, 0.501);
-            }
-        }
-    }
-}
-
-TEST(ReadBmp, RunLengths)
-{
-    BmpKind kind{40, 8, 1, false, 3, {}};
+    BmpKind kind{40, 8, 1, true, 3, {}};
     for (const unsigned grey : {0U, 100U, 255U}) {
         appendLittle(kind.after_header, grey | grey << 8 | grey << 16, 4);
     }
-    const auto decoded = [&](std::initializer_list<unsigned> runs) {
-        Bytes bmp = bmpHeader(5, 3, kind);
-        for (const unsigned byte : runs) {
-            bmp.push_back(static_cast<std::byte>(byte));
-        }
-        std::vector<int> levels;
-        for (const std::uint16_t level : decodeMask(bmp, only(Channel::Luma)).coverage) {
-            levels.push_back(level / 257);
-        }
-        return levels;
-    };
-    // A run, the end of the line; three as they are and their padding; a jump by (1, 1); the end.
-    EXPECT_THAT(decoded({4, 1, 0, 0, 0, 3, 2, 0, 2, 0, 0, 2, 1, 1, 1, 2, 0, 1}),
-                ElementsAre(0, 0, 0, 0, 255, 255, 0, 255, 0, 0, 100, 100, 100, 100, 0));
-    EXPECT_THAT(decoded({5, 1, 0, 0, 5, 2, 0, 0, 5, 1}),
-                ElementsAre(100, 100, 100, 100, 100, 255, 255, 255, 255, 255, 100, 100, 100, 100, 100))
-        << "without the mark of the end";
-    EXPECT_THAT(messageOf([&] { decoded({5, 1, 0, 0, 5, 2, 0, 0, 4, 1}); }), HasSubstr("too early"));
-    EXPECT_THAT(messageOf([&] { decoded({5, 3, 0, 1}); }), HasSubstr("colour 3 of a palette of 3"));
-    kind.bits = 4;
-    kind.compression = 2;
-    EXPECT_THAT(decoded({5, 0x12, 0, 0, 0, 5, 0x21, 0x02, 0x10, 0, 0, 0, 5, 0x22, 0, 1}),
-                ElementsAre(255, 255, 255, 255, 255, 255, 100, 0, 255, 100, 100, 255, 100, 255, 100));
+    Bytes runs = bmpHeader(5, 2, kind);
+    for (const unsigned byte : {5U, 1U, 0U, 0U, 3U, 2U, 2U, 0U, 0U, 1U}) {
+        runs.push_back(static_cast<std::byte>(byte));
+    }
+    EXPECT_THAT(decodeMask(runs, only(Channel::Luma)).coverage,
+                ElementsAre(25700, 25700, 25700, 25700, 25700, 65535, 65535, 65535, 0, 0));
 }
 
-TEST(ReadBmp, KindsNotReadAreNamed)
+TEST(ReadBmp, FourthByteIsRefusedIfItSaysAnything)
 {
-    for (const auto& [bits, compression] : std::vector<std::pair<unsigned, unsigned>>{
-             {24, 4}, {0, 5}, {24, 1}, {4, 1}, {8, 2}, {24, 3}, {3, 0}, {64, 0}}) {
-        Bytes bmp = bmpHeader(2, 2, {40, bits, compression, false, 0, {}});
-        bmp.resize(2000);
-        EXPECT_THAT(messageOf(bmp), AllOf(HasSubstr("compression " + std::to_string(compression)),
-                                          HasSubstr(std::to_string(bits) + " bits")));
+    for (const unsigned alpha : {0x00U, 0xffU}) {
+        Bytes bmp = bmpHeader(2, 1, {40, 32, 0, false, 0, {}});
+        appendLittle(bmp, 0x00ffffff | alpha << 24, 4);
+        appendLittle(bmp, 0x00000000 | alpha << 24, 4);
+        expectLevels(bmp, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.0; });
+        bmp.back() = std::byte{0x80};
+        EXPECT_THAT(messageOf(bmp), HasSubstr("32 bits per pixel with alpha"));
     }
 }
 
@@ -578,83 +396,59 @@ TEST(ReadWebp, WithoutLossToTheBit)
     expectRaster(encodeWebp(noise(4, 8)), noise(4, 8));
 }
 
-TEST(ReadWebp, WithLossNearly)
-{
-    for (const int channels : {3, 4}) {
-        Raster raster{32, 32, channels, 8, {}};
-        for (int i = 0; i < 32 * 32; ++i) {
-            raster.samples.insert(raster.samples.end(), 3, i % 32 < 16 ? 220 : 60);
-            if (channels == 4) {
-                raster.samples.push_back(i / 32 < 16 ? 255 : 100);
-            }
-        }
-        const Bytes webp = encodeWebp(raster, 95);
-        const Mask mask = decodeMask(webp, only(Channel::Luma));
-        EXPECT_NEAR(mask.at(5, 5) / 257.0, 220, 3);
-        EXPECT_NEAR(mask.at(25, 5) / 257.0, 60, 3);
-        if (channels == 4) {
-            EXPECT_EQ(decodeMask(webp, only(Channel::Alpha)).at(5, 25), 100 * 257);
-        }
-    }
-}
-
-TEST(ReadWebp, AnimationIsNamed)
-{
-    Bytes webp = bytesOf("RIFF");
-    const Bytes frame = encodeWebp(noise(3, 8));
-    Bytes body = bytesOf("WEBPVP8X");
-    appendLittle(body, 10, 4);
-    appendLittle(body, 0x02, 4);
-    appendLittle(body, 12, 3);
-    appendLittle(body, 6, 3);
-    const Bytes anim = bytesOf("ANIM");
-    body.insert(body.end(), anim.begin(), anim.end());
-    appendLittle(body, 6, 4);
-    appendLittle(body, 0, 6);
-    const Bytes anmf = bytesOf("ANMF");
-    body.insert(body.end(), anmf.begin(), anmf.end());
-    appendLittle(body, 16 + frame.size() - 12, 4);
-    appendLittle(body, 0, 6);
-    appendLittle(body, 12, 3);
-    appendLittle(body, 6, 3);
-    appendLittle(body, 100, 4);
-    body.insert(body.end(), frame.begin() + 12, frame.end());
-    appendLittle(webp, body.size(), 4);
-    webp.insert(webp.end(), body.begin(), body.end());
-    EXPECT_THAT(messageOf(webp), HasSubstr("animation"));
-}
-
-TEST(ReadNetpbm, RawAsOpenCvWritesIt)
+TEST(ReadNetpbm, EveryKind)
 {
     expectRaster(encodeWithOpenCv(noise(1, 8), ".pgm"), noise(1, 8));
-    expectRaster(encodeWithOpenCv(noise(1, 16), ".pgm"), noise(1, 16));
-    expectRaster(encodeWithOpenCv(noise(3, 8), ".ppm"), noise(3, 8));
     expectRaster(encodeWithOpenCv(noise(3, 16), ".ppm"), noise(3, 16));
-}
-
-TEST(ReadNetpbm, EveryKindByHand)
-{
     const auto levels = [](std::string_view text) { return decodeMask(bytesOf(text), only(Channel::Luma)).coverage; };
     EXPECT_THAT(levels("P1\n# black is one\n3 2\n101\n0 1 0\n"), ElementsAre(0, 65535, 0, 65535, 0, 65535));
     EXPECT_THAT(levels("P4 3 2 \xa0\x40"), ElementsAre(0, 65535, 0, 65535, 0, 65535));
-    EXPECT_THAT(levels("P2 3 1 4 0 1 4 "), ElementsAre(0, 16384, 65535));
-    EXPECT_THAT(levels("P2\r\n3 # three\r\n1\r\n1000\r\n0 #a\n500 1000\r\n"), ElementsAre(0, 32768, 65535));
-    EXPECT_THAT(levels("P5 3 1 9 \x01\x05\x09"), ElementsAre(7282, 36408, 65535));
-    EXPECT_THAT(levels("P3 2 1 1 1 1 1 0 1 0 "), ElementsAre(65535, std::lround(0.587 * 65535)));
-    EXPECT_THAT(levels(std::string_view("P6 1 1 256 \x01\0\x01\0\x01\0", 17)), ElementsAre(65535));
+    EXPECT_THAT(levels("P2\r\n3 # three\r\n1\r\n255\r\n0 #a\n51 255\r\n"), ElementsAre(0, 13107, 65535));
+    EXPECT_THAT(levels("P3 2 1 65535 65535 65535 65535 0 65535 0\n"), ElementsAre(65535, std::lround(0.587 * 65535)));
 }
 
-TEST(ReadNetpbm, WrongNumbersAreNamed)
+// OpenCV 4.6 would read a share of another white as one of 255 or 65535.
+TEST(ReadNetpbm, OtherLevelsOfWhiteAreNamed)
 {
-    EXPECT_THAT(messageOf(bytesOf("P5 1 1 0 \1")), HasSubstr("level of white is 0"));
-    EXPECT_THAT(messageOf(bytesOf("P5 1 1 65536 \1\1")), HasSubstr("65536"));
-    EXPECT_THAT(messageOf(bytesOf("P5 1 1 9 \x0a")), HasSubstr("level 10 is above the level of white, 9"));
-    EXPECT_THAT(messageOf(bytesOf("P2 1 1 9 99999999999999999999 ")), HasSubstr("above the level of white"));
-    EXPECT_THAT(messageOf(bytesOf("P2 1 1 9 -1")), HasSubstr("not a number"));
-    EXPECT_THAT(messageOf(bytesOf("P1 1 1 2")), HasSubstr("neither 0 nor 1"));
-    EXPECT_THAT(messageOf(bytesOf("P5 x 1 9 \1")), HasSubstr("other than numbers"));
-    EXPECT_THAT(messageOf(bytesOf("P5 1 1 9x")), HasSubstr("white space"));
-    EXPECT_THAT(messageOf(bytesOf("P5 2 2 255 abc")), HasSubstr("too early"));
+    EXPECT_THAT(messageOf(bytesOf("P5 1 1 9 \x09")), HasSubstr("level of white is 9,"));
+    EXPECT_THAT(messageOf(bytesOf("P2 # a #\n1 1 1000 500\n")), HasSubstr("level of white is 1000,"));
+    EXPECT_THAT(messageOf(bytesOf("P5 1 1 0 \1")), HasSubstr("PBM/PGM/PPM image"));
+}
+
+TEST(ReadJpeg2000, GreyColourAndAlpha)
+{
+    // OpenCV writes it with loss, but not of one colour.
+    const auto read = [](int type, const cv::Scalar& colour, Channel channel) {
+        const Mask mask = decodeMask(encodeMat(cv::Mat(40, 50, type, colour), ".jp2"), only(channel));
+        EXPECT_EQ(mask.width, 50);
+        EXPECT_EQ(mask.height, 40);
+        return mask.at(20, 30) / 65535.0;
+    };
+    EXPECT_NEAR(read(CV_8UC1, {51}, Channel::Luma), 0.2, 1.0 / 255);
+    EXPECT_NEAR(read(CV_16UC1, {13107}, Channel::Luma), 0.2, 1.0 / 255);
+    const cv::Scalar blue_green_red_alpha(51, 102, 255, 153);
+    EXPECT_NEAR(read(CV_8UC3, blue_green_red_alpha, Channel::Luma), luma(1, 0.4, 0.2), 1.0 / 255);
+    EXPECT_NEAR(read(CV_8UC4, blue_green_red_alpha, Channel::Luma), 0.6 * luma(1, 0.4, 0.2), 1.0 / 255);
+    EXPECT_NEAR(read(CV_8UC4, blue_green_red_alpha, Channel::Alpha), 0.6, 1.0 / 255);
+}
+
+TEST(ReadFloats, LevelsOfAMaskAreCutToThoseBetweenBlackAndWhite)
+{
+    const cv::Mat grey = (cv::Mat_<float>(1, 5) << -1, 0, 0.5, 1, 7);
+    cv::Mat colour;
+    cv::merge(std::vector<cv::Mat>{grey, grey, grey}, colour);
+    const auto levels = [](const cv::Mat& image, const char* extension) {
+        return decodeMask(encodeMat(image, extension), only(Channel::Luma)).coverage;
+    };
+    EXPECT_THAT(levels(grey, ".exr"), ElementsAre(0, 0, 32768, 65535, 65535));
+    EXPECT_THAT(levels(colour, ".exr"), ElementsAre(0, 0, 32768, 65535, 65535));
+    EXPECT_THAT(levels(cv::Mat(colour.colRange(1, 5)), ".hdr"), ElementsAre(0, 32768, 65535, 65535));
+
+    // OpenEXR's colours are premultiplied.
+    const cv::Mat clear(1, 2, CV_32FC4, cv::Scalar(0.25, 0.25, 0.25, 0.5));
+    const Bytes encoded = encodeMat(clear, ".exr");
+    EXPECT_EQ(decodeMask(encoded, only(Channel::Luma)).at(0, 0), 16384);
+    EXPECT_EQ(decodeMask(encoded, only(Channel::Alpha)).at(0, 0), 32768);
 }
 
 }  // namespace

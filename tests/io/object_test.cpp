@@ -433,6 +433,44 @@ TEST_F(Object, RefusesDamagedFiles)
     expectRefused(square().file(scene(kSquare, R"(,"scale":[1e999,1,1])")), "");
 }
 
+// What tinygltf alone would overlook, fetch, or follow without end.
+TEST_F(Object, HandsOverNothingThatIsNotChecked)
+{
+    const std::string square_scene = scene(kSquare + kIndices);
+    const auto changed = [&](const std::string& what, const std::string& to) {
+        std::string json = indexedSquare().json(square_scene);
+        json.replace(json.find(what), what.size(), to);
+        return glb(json, indexedSquare().buffer());
+    };
+    EXPECT_EQ(read(changed("\"mesh\":0", "\"mesh\":0.0")).triangles, kTwo);
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is no index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is no index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is no list");
+    expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is no index or count");
+    expectRefused(changed("\"buffers\":[{\"byteLength\":", "\"buffers\":[{\"byteLength\":0,\"was\":"), "bytes of 0");
+    expectRefused(changed("\"buffers\"", "\"buffer\""), "buffers[0] does not exist");
+    const std::string nested = std::string(100000, '[') + std::string(100000, ']');
+    expectRefused(changed("\"asset\"", "\"extras\":" + nested + ",\"asset\""), "nested more than 64 deep");
+    EXPECT_EQ(read(changed("\"asset\"", R"("extras":{"a":[{}]},"images":[{"uri":"nowhere.png"},5],"asset")")).triangles,
+              kTwo);
+}
+
+TEST_F(Object, BuffersMayBeLongerThanTheySay)
+{
+    const Draft draft = indexedSquare();
+    writeFile(path("data.bin"), draft.buffer() + "more");
+    writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "data.bin"));
+    EXPECT_EQ(readObject(path("object.gltf")).triangles, kTwo);
+    const std::string a = R"({"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],)"
+                          R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)"
+                          R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")";
+    // 36 bytes of 0, and three more.
+    for (const char* const kind : {"data:;base64,", "data:application/x-any;charset=none;base64,"}) {
+        expectRefused(a + kind + std::string(52, 'A') + "\"}]}", "no texture coordinates");
+        expectRefused(a + kind + std::string(47, 'A') + "\"}]}", "Failed to decode");
+    }
+}
+
 // Cut anywhere and with any byte changed, it is read as valid or refused.
 TEST_F(Object, DamageNeverDoesHarm)
 {

@@ -15,6 +15,7 @@
 #include "droplet/compare/compare.h"
 #include "droplet/error.h"
 #include "droplet/io/output.h"
+#include "droplet/units.h"
 #include "support/command.h"
 #include "support/surfaces.h"
 
@@ -151,6 +152,14 @@ TEST_F(ReadSurfaceTest, PlyAndStlAsText)
     const Surface one = read("one.stl", "solid one\n" + facet + "endfacet\nendsolid one\n");
     EXPECT_EQ(one.positions[1], (Vec3{1.0, 0.0, 0.0}));
     EXPECT_EQ(one.normals[0], (Vec3{0.0, 0.0, 1.0}));
+    const auto with = [&](const std::string& number) {
+        std::string text = "solid one\n" + facet + "endfacet\nendsolid one\n";
+        return text.replace(text.find("1e3"), 3, number);
+    };
+    EXPECT_EQ(read("exact.stl", with("0.1234567890123456")).positions[1].x, kMillimetre * 0.1234567890123456);
+    expectRefused("nan.stl", with("nan"), "no STL");
+    expectRefused("word.stl", with("one"), "no STL");
+    expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "no STL");
     expectRefused("cut.stl", "solid one\n" + facet, "cut short");
     expectRefused("empty.stl", "solid one\nendsolid one\n", "no triangles");
     for (std::size_t length = 0; length + 8 < ply.size(); ++length) {

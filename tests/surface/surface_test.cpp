@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -17,6 +16,7 @@
 
 #include "droplet/error.h"
 #include "support/surfaces.h"
+#include "surface/half_edges.h"
 
 namespace droplet {
 namespace {
@@ -32,72 +32,36 @@ struct Expected {
     std::size_t loops;
 };
 
-// A manifold's Euler number, components and boundary loops once more, by half-edges.
-Expected byHalfEdges(const Surface& surface)
-{
-    OpenMesh::TriConnectivity mesh;
-    std::map<std::uint32_t, OpenMesh::VertexHandle> handles;
-    for (const Triangle& triangle : surface.triangles) {
-        for (const std::uint32_t vertex : triangle) {
-            auto& handle = handles[surface.weld[vertex]];
-            handle = handle.is_valid() ? handle : mesh.new_vertex();
-        }
-        const auto handle = [&](std::uint32_t vertex) { return handles.at(surface.weld[vertex]); };
-        EXPECT_TRUE(mesh.add_face(handle(triangle[0]), handle(triangle[1]), handle(triangle[2])).is_valid());
-    }
-    Expected found{static_cast<long>(mesh.n_vertices() + mesh.n_faces()) - static_cast<long>(mesh.n_edges()), 0, 0};
-    std::set<int> seen_vertices;
-    for (const auto start : mesh.vertices()) {
-        std::vector<OpenMesh::VertexHandle> open;
-        if (seen_vertices.insert(start.idx()).second) {
-            ++found.components;
-            open.push_back(start);
-        }
-        while (!open.empty()) {
-            const OpenMesh::VertexHandle at = open.back();
-            open.pop_back();
-            for (auto next = mesh.cvv_begin(at); next.is_valid(); ++next) {
-                if (seen_vertices.insert(next->idx()).second) {
-                    open.push_back(*next);
-                }
-            }
-        }
-    }
-    std::set<int> seen_boundary;
-    for (const auto start : mesh.halfedges()) {
-        if (mesh.is_boundary(start) && seen_boundary.count(start.idx()) == 0) {
-            ++found.loops;
-            for (OpenMesh::HalfedgeHandle at = start; seen_boundary.insert(at.idx()).second;) {
-                at = mesh.next_halfedge_handle(at);
-            }
-        }
-    }
-    return found;
-}
-
 void expectManifold(const Surface& surface, const Expected& expected)
 {
-    const Expected half_edges = byHalfEdges(surface);
-    EXPECT_EQ(half_edges.euler, expected.euler);
-    EXPECT_EQ(half_edges.components, expected.components);
-    EXPECT_EQ(half_edges.loops, expected.loops);
-    const Topology found = topology(surface);
-    EXPECT_TRUE(found.manifold);
-    EXPECT_EQ(found.closed, expected.loops == 0);
-    EXPECT_EQ(found.euler, expected.euler);
-    EXPECT_EQ(found.components, expected.components);
-    EXPECT_EQ(found.boundary_loops, expected.loops);
+    for (const Topology& found : {topology(surface), topology(halfEdges(surface))}) {
+        EXPECT_TRUE(found.manifold);
+        EXPECT_EQ(found.closed, expected.loops == 0);
+        EXPECT_EQ(found.euler, expected.euler);
+        EXPECT_EQ(found.components, expected.components);
+        EXPECT_EQ(found.boundary_loops, expected.loops);
+    }
     EXPECT_EQ(isClosed(surface), expected.loops == 0);
+}
+
+void expectSame(const Topology& a, const Topology& b)
+{
+    EXPECT_EQ(a.manifold, b.manifold);
+    EXPECT_EQ(a.closed, b.closed);
+    EXPECT_EQ(a.euler, b.euler);
+    EXPECT_EQ(a.components, b.components);
+    EXPECT_EQ(a.boundary_loops, b.boundary_loops);
 }
 
 void expectNoManifold(const Surface& surface)
 {
-    const Topology found = topology(surface);
-    EXPECT_FALSE(found.manifold);
-    EXPECT_FALSE(found.closed);
-    EXPECT_EQ(found.euler, 0);
-    EXPECT_EQ(found.components, 0U);
-    EXPECT_EQ(found.boundary_loops, 0U);
+    for (const Topology& found : {topology(surface), topology(halfEdges(surface))}) {
+        EXPECT_FALSE(found.manifold);
+        EXPECT_FALSE(found.closed);
+        EXPECT_EQ(found.euler, 0);
+        EXPECT_EQ(found.components, 0U);
+        EXPECT_EQ(found.boundary_loops, 0U);
+    }
     EXPECT_FALSE(isClosed(surface));
 }
 
@@ -277,11 +241,8 @@ TEST(Topology, AgreesWithTheDefinitionOnEverySmallSoup)
             ASSERT_EQ(found.euler,
                       static_cast<long>(vertices.size() + triangles.size()) - static_cast<long>(edges.size()));
             ASSERT_EQ(found.closed, 2 * edges.size() == 3 * triangles.size());
-            const Expected half_edges = byHalfEdges(soup(triangles, kVertices));
-            ASSERT_EQ(found.euler, half_edges.euler);
-            ASSERT_EQ(found.components, half_edges.components);
-            ASSERT_EQ(found.boundary_loops, half_edges.loops);
         }
+        expectSame(found, topology(halfEdges(soup(triangles, kVertices))));
     }
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     EXPECT_GT(manifolds, 500);
@@ -324,13 +285,7 @@ TEST(Topology, AgreesWithTheDefinitionAroundVerticesOfAnyValence)
             const Topology found = topology(surface);
             ASSERT_EQ(found.manifold, manifoldByDefinition(triangles)) << "valence " << valence << ", run " << run;
             ASSERT_EQ(isClosed(surface), found.closed);
-            if (found.manifold) {
-                const Expected half_edges = byHalfEdges(surface);
-                ASSERT_EQ(found.euler, half_edges.euler);
-                ASSERT_EQ(found.components, half_edges.components);
-                ASSERT_EQ(found.boundary_loops, half_edges.loops);
-                ASSERT_EQ(found.closed, half_edges.loops == 0);
-            }
+            expectSame(found, topology(halfEdges(surface)));
             ++runs[found.manifold];
         }
     }

@@ -50,7 +50,8 @@ struct Mask {
     void validate() const;
 };
 
-/// Reads a mask from an encoded image: PNG, JPEG, BMP, TIFF, WebP, PBM/PGM/PPM; 1 to 16 bits;
+/// Reads a mask from an encoded image: PNG or JPEG; TIFF, WebP, BMP, PBM/PGM/PPM, JPEG 2000, OpenEXR or Radiance HDR
+/// where OpenCV's image codecs are installed; of 1 to 16 bits or, but for TIFF, of floats, which are cut to 0 … 1;
 /// grey, palette, RGB, CMYK, with or without alpha; turned upright if its EXIF data say so. Or from an SVG image,
 /// compressed by gzip or not, which is drawn on a transparent page.
 ///
@@ -72,7 +73,8 @@ struct Mask {
 /// are dry. An image of one level is all liquid if brighter than half, all dry otherwise.
 /// @param encoded  the file's bytes
 /// @param options  which channel, whether to invert, largest size
-/// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, no alpha where alpha was asked;
+/// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, of a kind not read, codecs not
+///                 installed, no alpha where alpha was asked;
 ///                 SVG: no area, over 64 MiB, 250 000 tags or 500 000 references, librsvg missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
 

@@ -30,13 +30,13 @@ struct HeightMap {
 inline constexpr std::size_t kMostHeightMapPixels = std::size_t{1} << 28;
 
 /// Reads a height map from an encoded image of any kind a mask is read from, by its luma in front of black; or from a
-/// TIFF of one channel of floating-point samples of 16, 32 or 64 bits. Turned upright if its EXIF data say so.
+/// TIFF, OpenEXR or Radiance HDR of floating-point samples, by their luma. Turned upright if its EXIF data say so.
 ///
 /// The size in the file's header is checked before any pixel is decoded or memory for it taken.
 /// @param encoded     the file's bytes
 /// @param max_pixels  largest size
-/// @throws Error      InvalidInput: not an image, truncated, larger than max_pixels, several channels of floats, or a
-///                    sample that is not a finite number, with its place
+/// @throws Error      InvalidInput: not an image, truncated, larger than max_pixels, or a sample that is not a
+///                    finite number, with its place
 HeightMap decodeHeightMap(std::span<const std::byte> encoded, std::size_t max_pixels = kMostHeightMapPixels);
 
 /// Reads a height map from a file, as decodeHeightMap does.

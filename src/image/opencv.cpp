@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <dlfcn.h>
+#include <link.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "image/codec_module.h"
+#include "image/codecs.h"
+#include "image/image_bytes.h"
+
+namespace droplet {
+
+namespace {
+
+/// The module, opened when first needed: where the library or the command that holds this code was installed or built,
+/// else where the system looks for libraries.
+class Codecs {
+public:
+    Codecs()
+    {
+        for (const char* folder : {DROPLET_CODECS_BESIDE_LIBRARY, DROPLET_CODECS_BESIDE_COMMAND}) {
+            const std::filesystem::path path = ownFolder() / folder / DROPLET_CODECS;
+            if (std::error_code unknown; std::filesystem::exists(path, unknown)) {
+                open(path.c_str());
+                return;
+            }
+        }
+        open(DROPLET_CODECS);
+    }
+
+    DropletDecode* decode = nullptr;
+    DropletRelease* release = nullptr;
+    std::string problem;  ///< why it cannot be opened, if so
+
+private:
+    static std::filesystem::path ownFolder()
+    {
+        static const char here = 0;
+        Dl_info info{};
+        void* map = nullptr;
+        const bool known = dladdr1(&here, &info, &map, RTLD_DL_LINKMAP) != 0 && map != nullptr;
+        const std::filesystem::path library = known ? static_cast<link_map*>(map)->l_name : "";
+        std::error_code unknown;  // where there is no /proc, the system's folders remain
+        return (library.empty() ? std::filesystem::read_symlink("/proc/self/exe", unknown) : library).parent_path();
+    }
+
+    void open(const char* path)
+    {
+        // Never closed: what OpenCV has registered stays.
+        void* const module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        if (module == nullptr) {
+            problem = dlerror();
+            return;
+        }
+        decode = reinterpret_cast<DropletDecode*>(dlsym(module, "dropletDecode"));
+        release = reinterpret_cast<DropletRelease*>(dlsym(module, "dropletRelease"));
+    }
+};
+
+/// A decoded picture as the module hands it over.
+class Decoded {
+public:
+    Decoded(std::span<const std::byte> encoded, ImageFormat format, std::size_t max_pixels)
+    {
+        static const Codecs codecs;
+        if (codecs.decode == nullptr || codecs.release == nullptr) {
+            throw Error(ErrorCode::InvalidInput, std::string(name(format)) +
+                                                     " images are read with OpenCV, which must be installed (Debian's "
+                                                     "package libopencv-imgcodecs406): " +
+                                                     codecs.problem);
+        }
+        release_ = codecs.release;
+        switch (codecs.decode(encoded.data(), encoded.size(), max_pixels, &picture_)) {
+            case kDropletDecoded:
+                return;
+            case kDropletTooLarge:
+                checkSize(format, static_cast<std::uint64_t>(picture_.width),
+                          static_cast<std::uint64_t>(picture_.height), max_pixels);
+                break;
+            case kDropletDamaged:
+                break;
+            case kDropletOutOfMemory:
+                throw std::bad_alloc();
+        }
+        const std::string problem = picture_.problem;
+        throwDamaged(format, problem.empty() ? "OpenCV cannot decode it" : problem,
+                     "truncated, damaged or unsupported");
+    }
+    Decoded(const Decoded&) = delete;
+    Decoded& operator=(const Decoded&) = delete;
+    ~Decoded() { release_(&picture_); }
+
+    [[nodiscard]] const DropletPicture& picture() const { return picture_; }
+    [[nodiscard]] bool floats() const { return picture_.bits > 16; }
+    [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(picture_.width); }
+    [[nodiscard]] std::size_t height() const { return static_cast<std::size_t>(picture_.height); }
+    [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(picture_.channels); }
+
+    /// A row's samples, colours in the order red, green, blue.
+    template <class Stored, class Sample>
+    void copyRow(std::size_t y, std::vector<Sample>& row) const
+    {
+        const std::size_t count = width() * channels();
+        const Stored* from = static_cast<const Stored*>(picture_.pixels) + y * count;
+        row.resize(count);
+        std::transform(from, from + count, row.begin(), [](Stored sample) {
+            if constexpr (std::is_floating_point_v<Stored> && !std::is_floating_point_v<Sample>) {
+                return static_cast<Sample>(std::lround(65535.0 * (sample > 0 ? std::min<Stored>(sample, 1) : 0)));
+            } else {
+                return static_cast<Sample>(sample);
+            }
+        });
+        for (std::size_t i = 0; channels() >= 3 && i < count; i += channels()) {
+            std::swap(row[i], row[i + 2]);
+        }
+    }
+
+private:
+    DropletPicture picture_{};
+    DropletRelease* release_ = nullptr;
+};
+
+template <class Stored, class Sample>
+void putRows(const Decoded& decoded, Image& image)
+{
+    std::vector<Sample> row;
+    for (std::size_t y = 0; y < decoded.height(); ++y) {
+        decoded.copyRow<Stored>(y, row);
+        putPixels(image, {y * decoded.width(), 1, decoded.picture().channels}, std::span<const Sample>(row));
+    }
+}
+
+constexpr std::uint16_t kTagBits = 258;
+constexpr std::uint16_t kTagPhotometric = 262;
+constexpr std::uint16_t kTagSamples = 277;
+constexpr std::uint16_t kTagPlanes = 284;
+constexpr std::uint16_t kTagExtraSamples = 338;
+constexpr std::uint16_t kTagSampleFormat = 339;
+constexpr std::uint64_t kInks = 5;
+
+std::uint64_t tiffValue(std::span<const std::byte> encoded, std::uint16_t tag)
+{
+    return tiffField(encoded, tag).value_or(1);
+}
+
+/// Refuses the kinds of TIFF that OpenCV 4.6 reads wrongly, or without their alpha, and says nothing.
+void refuseMisreadTiff(std::span<const std::byte> encoded, const DropletPicture& picture)
+{
+    const auto refuse = [](const std::string& kind) { throwUnsupported(ImageFormat::Tiff, kind); };
+    const std::uint64_t sample_format = tiffValue(encoded, kTagSampleFormat);
+    constexpr std::uint64_t kUnsigned = 1;
+    constexpr std::uint64_t kUndefined = 4;
+    if (picture.bits == 0 || (picture.bits <= 16 && sample_format != kUnsigned && sample_format != kUndefined)) {
+        refuse("samples that are not unsigned integers");
+    }
+    const std::uint64_t bits = tiffValue(encoded, kTagBits);
+    if (bits > 8 && bits < 16) {
+        refuse(std::to_string(bits) + " bits per sample");
+    }
+    const std::uint64_t samples = tiffValue(encoded, kTagSamples);
+    if (samples == 2) {
+        refuse("grey with alpha");
+    }
+    if (picture.bits > 8 && samples > 1 && tiffValue(encoded, kTagPlanes) != 1) {
+        refuse("every colour in a plane of its own, of more than 8 bits");
+    }
+    const std::uint64_t photometric = tiffField(encoded, kTagPhotometric).value_or(1);
+    if (picture.bits == 16 && photometric != 1 && photometric != 2) {
+        refuse("photometric interpretation " + std::to_string(photometric) + " with 16 bits per sample");
+    }
+}
+
+/// Refuses a BMP whose fourth byte, which OpenCV 4.6 leaves out, says anything.
+void refuseBmpWithAlpha(std::span<const std::byte> encoded, const DropletPicture& picture)
+{
+    const ByteView view(encoded, ImageFormat::Bmp);
+    constexpr std::uint32_t kOldHeader = 12;
+    if (view.le32(14) == kOldHeader || view.le16(28) != 32) {
+        return;
+    }
+    const std::size_t first = view.le32(10) + std::size_t{3};
+    const std::size_t count = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+    for (std::size_t i = 0; i < count && view.has(first + 4 * i, 1); ++i) {
+        if (encoded[first + 4 * i] != encoded[first]) {
+            throwUnsupported(ImageFormat::Bmp, "32 bits per pixel with alpha");
+        }
+    }
+}
+
+void refuseMisread(std::span<const std::byte> encoded, ImageFormat format, const DropletPicture& picture)
+{
+    if (format == ImageFormat::Tiff) {
+        refuseMisreadTiff(encoded, picture);
+    } else if (format == ImageFormat::Bmp) {
+        refuseBmpWithAlpha(encoded, picture);
+    } else if (format == ImageFormat::Pnm) {
+        const std::uint64_t white = pnmWhite(encoded).value_or(0);
+        if (white != 255 && white != 65535) {
+            throwUnsupported(format, "its level of white is " + std::to_string(white) + ", must be 255 or 65535");
+        }
+    }
+}
+
+/// Of a picture with a fourth channel, what that is. libtiff has multiplied colours of 8 bits by an alpha that was
+/// apart.
+void interpretAlpha(std::span<const std::byte> encoded, ImageFormat format, int bits, Image& image)
+{
+    image.premultiplied = format == ImageFormat::OpenExr;
+    if (format != ImageFormat::Tiff) {
+        return;
+    }
+    constexpr std::uint64_t kUnspecified = 0;
+    constexpr std::uint64_t kAssociated = 1;
+    constexpr std::uint64_t kApart = 2;
+    const std::optional<std::uint64_t> extra = tiffField(encoded, kTagExtraSamples);
+    if (extra == kUnspecified || tiffValue(encoded, kTagPhotometric) == kInks) {
+        image.alpha = {};
+    }
+    image.premultiplied = extra == kAssociated || (extra == kApart && bits == 8);
+}
+
+}  // namespace
+
+Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, const DecodeOptions& options)
+{
+    const Decoded decoded(encoded, format, options.max_pixels);
+    const DropletPicture& picture = decoded.picture();
+    refuseMisread(encoded, format, picture);
+    if (format == ImageFormat::Tiff && decoded.floats()) {
+        throwUnsupported(format, "samples that are not unsigned integers");
+    }
+    Image image = blankImage({format, picture.width, picture.height, 1, options.keeps_colour}, picture.channels == 4);
+    switch (picture.bits) {
+        case 8:
+            putRows<std::uint8_t, std::uint8_t>(decoded, image);
+            break;
+        case 16:
+            putRows<std::uint16_t, std::uint16_t>(decoded, image);
+            break;
+        case 32:
+            putRows<float, std::uint16_t>(decoded, image);
+            break;
+        default:
+            putRows<double, std::uint16_t>(decoded, image);
+    }
+    if (!image.alpha.empty()) {
+        interpretAlpha(encoded, format, picture.bits, image);
+    }
+    return upright(std::move(image), format == ImageFormat::Webp ? webpOrientation(encoded) : 1);
+}
+
+std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> encoded, ImageFormat format,
+                                                 std::size_t max_pixels)
+{
+    const Decoded decoded(encoded, format, max_pixels);
+    if (!decoded.floats()) {
+        return std::nullopt;
+    }
+    refuseMisread(encoded, format, decoded.picture());
+    FloatImage image{decoded.picture().width, decoded.picture().height, {}};
+    image.samples.reserve(decoded.width() * decoded.height());
+    const std::size_t channels = decoded.channels();
+    std::vector<double> row;
+    for (std::size_t y = 0; y < decoded.height(); ++y) {
+        decoded.picture().bits == 32 ? decoded.copyRow<float>(y, row) : decoded.copyRow<double>(y, row);
+        for (std::size_t i = 0; i < row.size(); i += channels) {
+            // So weighed, grey stays grey to the bit.
+            const double luma =
+                channels < 3 ? row[i] : row[i + 1] + 0.299 * (row[i] - row[i + 1]) + 0.114 * (row[i + 2] - row[i + 1]);
+            image.samples.push_back(static_cast<float>(luma));
+        }
+    }
+    return image;
+}
+
+}  // namespace droplet

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The module that decodes images with OpenCV's imgcodecs, which loads over a hundred libraries: so it is opened only
+// when a file needs it.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <new>
+#include <opencv2/imgcodecs.hpp>
+#include <streambuf>
+#include <string>
+
+#include "image/codec_module.h"
+
+namespace {
+
+struct TooLarge {
+    int width = 0;
+    int height = 0;
+};
+
+/// What is decoded on a thread: how large it may be, and what OpenCV has said.
+struct Decoding {
+    std::size_t max_pixels = 0;
+    std::string words;
+};
+
+thread_local Decoding* decoding = nullptr;
+
+/// Refuses an image that is too large where OpenCV, having read the header, asks for its memory.
+class Gate : public cv::MatAllocator {
+public:
+    explicit Gate(const cv::MatAllocator* allocator) : allocator_(allocator) {}
+
+    cv::UMatData* allocate(int dimensions, const int* sizes, int type, void* data, std::size_t* step,
+                           cv::AccessFlag flags, cv::UMatUsageFlags usage) const override
+    {
+        if (decoding != nullptr && dimensions == 2 && sizes[0] > 0 && sizes[1] > 0 &&
+            static_cast<std::size_t>(sizes[1]) > decoding->max_pixels / static_cast<std::size_t>(sizes[0])) {
+            throw TooLarge{sizes[1], sizes[0]};
+        }
+        return allocator_->allocate(dimensions, sizes, type, data, step, flags, usage);
+    }
+    bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override
+    {
+        return allocator_->allocate(data, flags, usage);
+    }
+    void deallocate(cv::UMatData* data) const override { allocator_->deallocate(data); }
+
+private:
+    const cv::MatAllocator* allocator_;
+};
+
+/// Keeps what OpenCV prints of a file from std::cerr; what other threads print passes.
+class Ear : public std::streambuf {
+public:
+    explicit Ear(std::streambuf* out) : out_(out) {}
+
+protected:
+    int_type overflow(int_type c) override
+    {
+        if (traits_type::eq_int_type(c, traits_type::eof())) {
+            return traits_type::not_eof(c);
+        }
+        if (decoding == nullptr) {
+            return out_->sputc(traits_type::to_char_type(c));
+        }
+        decoding->words += traits_type::to_char_type(c);
+        return c;
+    }
+    std::streamsize xsputn(const char* text, std::streamsize count) override
+    {
+        if (decoding == nullptr) {
+            return out_->sputn(text, count);
+        }
+        decoding->words.append(text, static_cast<std::size_t>(count));
+        return count;
+    }
+    int sync() override { return decoding == nullptr ? out_->pubsync() : 0; }
+
+private:
+    std::streambuf* out_;
+};
+
+/// Both stay to the end of the process.
+bool install()
+{
+    cv::Mat::setDefaultAllocator(new Gate(cv::Mat::getDefaultAllocator()));
+    std::cerr.rdbuf(new Ear(std::cerr.rdbuf()));
+    return true;
+}
+
+/// The reason in a message of OpenCV's: "…: error: (-2:Unspecified error) the reason in function 'name'", or
+/// "… error) in function 'name'", a line end, "> the reason:".
+std::string reasonIn(const std::string& words)
+{
+    const auto error = words.rfind("error: (");
+    auto begin = error == std::string::npos ? error : words.find(") ", error);
+    if (begin == std::string::npos) {
+        return "";
+    }
+    begin += 2;
+    if (words.compare(begin, 11, "in function") == 0) {
+        begin = words.find("> ", begin);
+        begin = begin == std::string::npos ? words.size() : begin + 2;
+    }
+    const std::string reason = words.substr(
+        begin, std::min({words.find(" in function", begin), words.find('\n', begin), words.size()}) - begin);
+    return reason.find("CV_IO_MAX_IMAGE") == std::string::npos ? reason : "over 2^20 pixels a side or 2^30 in all";
+}
+
+DropletOutcome damaged(DropletPicture& picture, const std::string& reason)
+{
+    picture.problem[reason.copy(picture.problem, sizeof picture.problem - 1)] = '\0';
+    return kDropletDamaged;
+}
+
+int bitsOf(const cv::Mat& image)
+{
+    switch (image.depth()) {
+        case CV_8U:
+            return 8;
+        case CV_16U:
+            return 16;
+        case CV_32F:
+            return 32;
+        case CV_64F:
+            return 64;
+        default:
+            return 0;
+    }
+}
+
+DropletOutcome decode(const cv::Mat& encoded, Decoding& here, DropletPicture& picture)
+{
+    try {
+        auto image = std::make_unique<cv::Mat>(cv::imdecode(encoded, cv::IMREAD_UNCHANGED));
+        if (image->empty() || !image->isContinuous()) {
+            return damaged(picture, reasonIn(here.words));
+        }
+        picture = {image->cols, image->rows, image->channels(), bitsOf(*image), image->data, nullptr, ""};
+        picture.owner = image.release();
+        return kDropletDecoded;
+    } catch (const TooLarge& size) {
+        picture.width = size.width;
+        picture.height = size.height;
+        return kDropletTooLarge;
+    } catch (const cv::Exception& error) {
+        return error.code == cv::Error::StsNoMem ? kDropletOutOfMemory : damaged(picture, reasonIn(error.what()));
+    } catch (const std::bad_alloc&) {
+        return kDropletOutOfMemory;
+    } catch (const std::exception&) {
+        return damaged(picture, reasonIn(here.words));
+    }
+}
+
+}  // namespace
+
+extern "C" {
+
+DropletOutcome dropletDecode(const void* encoded, std::size_t size, std::size_t max_pixels, DropletPicture* picture)
+{
+    static const bool installed = install();
+    *picture = {};
+    if (!installed || size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        return damaged(*picture, "it is a file of 2 GiB or more");
+    }
+    Decoding here{max_pixels, {}};
+    // OpenCV reads alone: the const_cast is its interface's.
+    const cv::Mat bytes(1, static_cast<int>(size), CV_8UC1, const_cast<void*>(encoded));
+    decoding = &here;
+    const DropletOutcome outcome = decode(bytes, here, *picture);
+    decoding = nullptr;
+    return outcome;
+}
+
+void dropletRelease(DropletPicture* picture)
+{
+    delete static_cast<cv::Mat*>(picture->owner);
+}
+}

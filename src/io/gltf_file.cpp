@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Khronos Group, "glTF 2.0 Specification" (2021), sections 3.5, 3.6 and 4.
+//
+// tinygltf (2.7) loads the file. In front of it stands what it does not check: of a GLB whose last chunk is cut it
+// reads eight bytes past the end; it fetches every image that a file names; it takes values of a wrong type for missing
+// ones and cuts numbers to 32 bits; it follows extras however deep they nest; it looks for buffers in the working
+// directory.
+#include "io/gltf_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "file_bytes.h"
+
+namespace droplet {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string_view textOf(std::span<const std::byte> bytes)
+{
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// ----------------------------------------------------------------------------------------------- the container
+
+struct Container {
+    std::string_view json;
+    std::span<const std::byte> chunk;  ///< of a GLB
+};
+
+/// Section 4.4, of a GLB.
+Container containerOf(std::span<const std::byte> bytes)
+{
+    constexpr std::uint32_t kJson = 0x4E4F534A;
+    constexpr std::uint32_t kBin = 0x004E4942;
+    constexpr std::size_t kHeader = 12;
+    constexpr std::size_t kChunkHeader = 8;
+    if (!textOf(bytes).starts_with("glTF")) {
+        return {textOf(bytes), {}};
+    }
+    const auto word = [](std::span<const std::byte> from, std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            value |= std::to_integer<std::uint32_t>(from[at + i]) << (8 * i);
+        }
+        return value;
+    };
+    if (bytes.size() < kHeader || word(bytes, 4) != 2 || word(bytes, 8) > bytes.size() || word(bytes, 8) < kHeader) {
+        throw Damage("it is cut short, or no GLB of version 2");
+    }
+    std::span<const std::byte> rest = bytes.subspan(kHeader, word(bytes, 8) - kHeader);
+    const auto next = [&](std::uint32_t kind) {
+        if (rest.size() < kChunkHeader || word(rest, 4) != kind || word(rest, 0) > rest.size() - kChunkHeader) {
+            throw Damage("a chunk of the GLB is cut short or out of order");
+        }
+        const std::span<const std::byte> content = rest.subspan(kChunkHeader, word(rest, 0));
+        rest = rest.subspan(kChunkHeader + content.size());
+        return content;
+    };
+    const std::string_view json = textOf(next(kJson));
+    return {json, rest.empty() ? rest : next(kBin)};
+}
+
+// ------------------------------------------------------------------------------------------------ the checks
+
+/// Without extras and extensions.
+Json parsed(std::string_view text)
+{
+    constexpr int kDeepest = 64;  // glTF needs 7, its extras are free
+    const auto keep = [](int depth, Json::parse_event_t event, const Json& value) {
+        if (depth > kDeepest) {
+            throw Damage("its JSON is nested more than " + std::to_string(kDeepest) + " deep");
+        }
+        return event != Json::parse_event_t::key || (value != "extras" && value != "extensions");
+    };
+    constexpr bool kThrow = false;
+    Json root = Json::parse(text, keep, kThrow);
+    if (!root.is_object()) {
+        throw Damage("it is no glTF: its JSON is damaged or cut short");
+    }
+    return root;
+}
+
+enum class Number { Index, Indices, Size };
+
+/// Makes sure that a number, if there, is a whole one that tinygltf takes as it is; 1.0 becomes 1.
+void checkWhole(Json& object, const char* key, Number kind)
+{
+    const auto found = object.find(key);
+    if (found == object.end()) {
+        return;
+    }
+    constexpr double kExact = 9007199254740992.0;  // 2⁵³: whole doubles up to there are exact
+    const double most = kind == Number::Size ? kExact : std::numeric_limits<int>::max();
+    const auto check = [&](Json& value) {
+        const double number = value.is_number() ? value.get<double>() : -1.0;
+        if (!(number >= 0.0 && number <= most && std::floor(number) == number)) {
+            throw Damage(std::string("\"") + key + "\" is no index or count");
+        }
+        value = static_cast<std::uint64_t>(number);
+    };
+    if (kind != Number::Indices) {
+        check(*found);
+    } else if (found->is_array()) {
+        std::for_each(found->begin(), found->end(), check);
+    } else {
+        throw Damage(std::string("\"") + key + "\" is no list");
+    }
+}
+
+void checkNumbers(const Json& object, const char* key, std::size_t count)
+{
+    const auto found = object.find(key);
+    if (found != object.end() &&
+        !(found->is_array() && found->size() == count &&
+          std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); }))) {
+        throw Damage(std::string("\"") + key + "\" is not " + std::to_string(count) + " numbers");
+    }
+}
+
+/// Calls check for every object of a list, if there is one.
+template <typename Check>
+void forObjects(Json& parent, const char* list, const Check& check)
+{
+    const auto found = parent.find(list);
+    if (found == parent.end()) {
+        return;
+    }
+    for (Json& object : *found) {
+        if (!found->is_array() || !object.is_object()) {
+            throw Damage(std::string("\"") + list + "\" is no list of objects");
+        }
+        check(object);
+    }
+}
+
+/// Types and ranges of all that is read, where tinygltf would overlook a wrong one.
+void checkValues(Json& root)
+{
+    struct Rule {
+        const char* list;
+        const char* key;
+        Number kind;
+    };
+    constexpr std::array<Rule, 13> kRules = {{{"scenes", "nodes", Number::Indices},
+                                              {"nodes", "mesh", Number::Index},
+                                              {"nodes", "skin", Number::Index},
+                                              {"nodes", "children", Number::Indices},
+                                              {"accessors", "bufferView", Number::Index},
+                                              {"accessors", "componentType", Number::Index},
+                                              {"accessors", "byteOffset", Number::Size},
+                                              {"accessors", "count", Number::Size},
+                                              {"bufferViews", "buffer", Number::Index},
+                                              {"bufferViews", "byteOffset", Number::Size},
+                                              {"bufferViews", "byteLength", Number::Size},
+                                              {"bufferViews", "byteStride", Number::Size},
+                                              {"buffers", "byteLength", Number::Size}}};
+    for (const Rule& rule : kRules) {
+        forObjects(root, rule.list, [&](Json& object) { checkWhole(object, rule.key, rule.kind); });
+    }
+    checkWhole(root, "scene", Number::Index);
+    forObjects(root, "nodes", [](Json& node) {
+        checkNumbers(node, "matrix", 16);
+        checkNumbers(node, "translation", 3);
+        checkNumbers(node, "rotation", 4);
+        checkNumbers(node, "scale", 3);
+    });
+    forObjects(root, "meshes", [](Json& mesh) {
+        forObjects(mesh, "primitives", [](Json& primitive) {
+            checkWhole(primitive, "mode", Number::Index);
+            checkWhole(primitive, "indices", Number::Index);
+            const auto attributes = primitive.find("attributes");
+            if (attributes != primitive.end() && attributes->is_object()) {
+                for (const auto& attribute : attributes->items()) {
+                    checkWhole(*attributes, attribute.key().c_str(), Number::Index);
+                }
+            }
+        });
+    });
+}
+
+// ----------------------------------------------------------------------------------------------- the buffers
+
+/// A buffer that is not embedded.
+struct Source {
+    std::string name;
+    std::size_t length = 0;
+    std::span<const std::byte> chunk;  ///< empty for a file
+};
+
+/// In the order in which tinygltf asks for them.
+using Sources = std::deque<Source>;
+
+/// Brings buffers to what tinygltf takes: base64 of its media type and of exactly the length asked for.
+Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
+{
+    Sources sources;
+    std::size_t index = 0;
+    forObjects(root, "buffers", [&](Json& buffer) {
+        const std::string name = "buffers[" + std::to_string(index) + "]";
+        const std::size_t length = buffer.value("byteLength", std::size_t{0});
+        const std::string uri = buffer.value("uri", std::string());
+        if (uri.starts_with("data:")) {
+            constexpr std::string_view kMark = ";base64,";
+            const std::size_t mark = uri.find(kMark);
+            if (mark == std::string::npos) {
+                throw Damage(name + " is embedded, but not as base64");
+            }
+            const std::size_t most = length / 3 * 4 + (length % 3 > 0 ? length % 3 + 1 : 0);
+            buffer["uri"] = "data:application/octet-stream;base64," + uri.substr(mark + kMark.size(), most);
+        } else if (uri.empty()) {
+            if (index > 0 || chunk.size() < length || length == 0) {
+                throw Damage(name + " holds " + std::to_string(index > 0 ? 0 : chunk.size()) + " bytes of " +
+                             std::to_string(length));
+            }
+            buffer["uri"] = "chunk";
+            sources.push_back({name, length, chunk.first(length)});
+        } else if (uri.starts_with('/') || uri.find("://") != std::string::npos) {
+            throw Damage(name + " is not beside the file: " + uri);
+        } else {
+            sources.push_back({name + ", " + uri, length, {}});
+        }
+        ++index;
+    });
+    return sources;
+}
+
+bool readSource(std::vector<unsigned char>* to, std::string* /*error*/, const std::string& path, void* user)
+{
+    auto& sources = *static_cast<Sources*>(user);
+    const Source source = std::move(sources.front());
+    sources.pop_front();
+    Bytes bytes;
+    std::span<const std::byte> content = source.chunk;
+    if (content.empty()) {
+        try {
+            std::error_code none;
+            if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
+                throw Damage("no regular file");
+            }
+            bytes = readBytes(path, source.length, [](std::byte) { return true; });
+        } catch (const Damage& damage) {
+            throw Damage(source.name + ": " + damage.what());
+        }
+        content = bytes;
+    }
+    if (content.size() < source.length) {
+        throw Damage(source.name + " holds " + std::to_string(content.size()) + " bytes of " +
+                     std::to_string(source.length));
+    }
+    to->resize(content.size());
+    std::memcpy(to->data(), content.data(), content.size());
+    return true;
+}
+
+}  // namespace
+
+GltfFile readGltfFile(const std::filesystem::path& path)
+{
+    const Bytes bytes =
+        readBytes(path, std::numeric_limits<std::uint32_t>::max(),  // as many as a GLB can say it has
+                  [](std::byte first) {
+                      return std::string_view("g{ \t\r\n\xef").find(static_cast<char>(first)) != std::string_view::npos;
+                  });
+    const Container container = containerOf(bytes);
+    Json root = parsed(container.json);
+    for (const char* const required : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+        const auto list = root.find("extensionsRequired");
+        if (list != root.end() && std::find(list->begin(), list->end(), required) != list->end()) {
+            throw Damage(std::string("its meshes are compressed, which is not read: ") + required);
+        }
+    }
+    checkValues(root);
+    Sources sources = sourcesOf(root, container.chunk);
+    GltfFile file;
+    file.animated = root.contains("animations") && !root["animations"].empty();
+    Json kept = Json::object();
+    for (const char* const key : {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"}) {
+        if (const auto found = root.find(key); found != root.end()) {
+            kept[key] = std::move(*found);
+        }
+    }
+    const std::string text = kept.dump();
+    if (text.size() > std::numeric_limits<unsigned>::max()) {
+        throw Damage("its JSON is longer than 4 GiB");
+    }
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
+                           [](const std::string& name, void*) { return name; }, readSource, nullptr, &sources});
+    std::string error;
+    std::string warning;
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    const bool loaded = loader.LoadASCIIFromString(&file.model, &error, &warning, text.data(),
+                                                   static_cast<unsigned>(text.size()), folder, tinygltf::NO_REQUIRE);
+    if (!loaded || !error.empty()) {
+        // Of a buffer that it cannot decode it repeats the whole text.
+        constexpr std::size_t kLongest = 100;
+        throw Damage("it is no glTF 2.0: " + error.substr(0, std::min(error.find('\n'), kLongest)));
+    }
+    return file;
+}
+
+}  // namespace droplet

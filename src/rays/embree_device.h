@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <type_traits>
+
+namespace droplet {
+
+/// Embree, started. Scenes must be released before it.
+class EmbreeDevice {
+public:
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+    using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+
+    EmbreeDevice() : device_(rtcNewDevice(nullptr))
+    {
+        if (!device_) {
+            throw std::runtime_error("Embree does not start on this machine");
+        }
+    }
+
+    [[nodiscard]] RTCDevice get() const { return device_.get(); }
+    [[nodiscard]] Scene newScene() const { return Scene(rtcNewScene(get())); }
+    /// @throws std::bad_alloc where something failed: all else that can is a mistake of ours
+    void check() const
+    {
+        if (rtcGetDeviceError(get()) != RTC_ERROR_NONE) {
+            throw std::bad_alloc();
+        }
+    }
+
+private:
+    std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
+};
+
+}  // namespace droplet

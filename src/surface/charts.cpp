@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/surface/onto.h"
+#include "surface/half_edges.h"
+#include "union_find.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Numbers equal keys alike, in ascending order; returns how many there are.
+template <class Key>
+std::uint32_t numberEqual(const std::vector<Key>& keys, std::vector<std::uint32_t>& numbers)
+{
+    std::vector<std::uint32_t> order(keys.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    numbers.resize(keys.size());
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        count += i == 0 || keys[order[i - 1]] < keys[order[i]] ? 1 : 0;
+        numbers[order[i]] = count - 1;
+    }
+    return count;
+}
+
+/// 1 where a triangle shows the picture as it is, seen from outside; −1 where mirrored.
+double facingOf(const TexturedMesh& object, const Facet& facet)
+{
+    const auto [i, j, k] = facet.corners;
+    const Vec3 a = object.positions[i];
+    const Vec3 normal = cross(object.positions[j] - a, object.positions[k] - a);
+    const double out = dot(normal, object.normals[i] + object.normals[j] + object.normals[k]);
+    return std::copysign(1.0, facet.twice_flat) * (out < 0.0 ? -1.0 : 1.0);
+}
+
+}  // namespace
+
+std::vector<Facet> facetsOf(const TexturedMesh& object, Vec2 extent)
+{
+    std::vector<Facet> facets;
+    for (const Triangle& t : object.triangles) {
+        Facet facet;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 uv = object.uvs[t[k]];
+            facet.flat[k] = {(uv.x - 0.5) * extent.x, (0.5 - uv.y) * extent.y};
+            facet.corners[k] = t[k];
+        }
+        facet.twice_flat = cross(facet.flat[1] - facet.flat[0], facet.flat[2] - facet.flat[0]);
+        const Vec3 a = object.positions[t[0]];
+        const double twice = length(cross(object.positions[t[1]] - a, object.positions[t[2]] - a));
+        if (std::isnormal(facet.twice_flat) && std::isnormal(twice) && std::isnormal(1.0 / facet.twice_flat)) {
+            facets.push_back(facet);
+        }
+    }
+    if (facets.empty()) {
+        throw Error(ErrorCode::InvalidInput, "the object has no triangle with an area both in space and in uv");
+    }
+    return facets;
+}
+
+std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& facets)
+{
+    std::vector<std::array<double, 5>> keys;
+    for (std::size_t v = 0; v < object.positions.size(); ++v) {
+        const Vec3 p = object.positions[v];
+        keys.push_back({p.x, p.y, p.z, object.uvs[v].x, object.uvs[v].y});
+    }
+    std::vector<std::uint32_t> welded;
+    const std::uint32_t welded_count = numberEqual(keys, welded);
+
+    // Triangles that face the same way have places of their own, and wind outward.
+    std::vector<Vec3> places(2 * std::size_t{welded_count});
+    std::vector<Triangle> outward;
+    std::vector<double> facing;
+    for (const Facet& facet : facets) {
+        facing.push_back(facingOf(object, facet));
+        Triangle t{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            t[k] = 2 * welded[facet.corners[k]] + (facing.back() < 0.0 ? 1U : 0U);
+            places[t[k]] = object.positions[facet.corners[k]];
+        }
+        if (facing.back() * facet.twice_flat < 0.0) {
+            std::swap(t[1], t[2]);
+        }
+        outward.push_back(t);
+    }
+    UnionFind charts = joinedAcrossEdges(halfEdges(places, outward), outward);
+    std::vector<std::uint32_t> number(facets.size(), kNone);
+    std::vector<double> chart_facing;
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        const std::uint32_t name = charts.find(f);
+        if (name == f) {
+            number[f] = static_cast<std::uint32_t>(chart_facing.size());
+            chart_facing.push_back(facing[f]);
+        }
+        facets[f].chart = number[name];
+    }
+    std::vector<std::array<std::uint32_t, 2>> corner_keys;
+    for (const Facet& facet : facets) {
+        for (const std::uint32_t v : facet.corners) {
+            corner_keys.push_back({facet.chart, welded[v]});
+        }
+    }
+    std::vector<std::uint32_t> corner;
+    numberEqual(corner_keys, corner);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        std::copy_n(corner.begin() + static_cast<std::ptrdiff_t>(3 * f), 3, facets[f].corners.begin());
+    }
+    return chart_facing;
+}
+
+double metresPerUv(const TexturedMesh& object)
+{
+    object.validate();
+    struct Stretch {
+        double length;
+        double area;
+    };
+    std::vector<Stretch> stretches;
+    double whole = 0.0;
+    for (const Facet& facet : facetsOf(object, {1.0, 1.0})) {
+        const auto [i, j, k] = facet.corners;
+        const Vec3 a = object.positions[i];
+        const double area = length(cross(object.positions[j] - a, object.positions[k] - a));
+        stretches.push_back({std::sqrt(area / std::abs(facet.twice_flat)), area});
+        whole += area;
+    }
+    std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
+        return std::pair(a.length, a.area) < std::pair(b.length, b.area);
+    });
+    double below = 0.0;
+    for (const Stretch& stretch : stretches) {
+        below += stretch.area;
+        if (below >= 0.5 * whole) {
+            return stretch.length;
+        }
+    }
+    return stretches.back().length;
+}
+
+}  // namespace droplet
