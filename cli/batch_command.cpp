@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "batch_runner.h"
+#include "common_options.h"
 #include "content_hash.h"
 #include "droplet/error.h"
-#include "droplet/version.h"
 #include "files.h"
 #include "option_values.h"
 #include "output_pattern.h"
@@ -158,12 +158,8 @@ int runBatch(int argc, const char* const* argv)
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        print(line.help());
-        return 0;
-    }
-    if (line.flag("--version")) {
-        print("droplet-shape " + std::string(droplet::kVersion) + "\n");
+    if (const auto text = textAskedFor(line)) {
+        print(*text);
         return 0;
     }
     const auto output = line.value("--output");

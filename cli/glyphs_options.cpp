@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "common_options.h"
 #include "droplet/error.h"
-#include "droplet/version.h"
 #include "files.h"
 
 namespace cli {
@@ -201,11 +201,8 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        return line.help();
-    }
-    if (line.flag("--version")) {
-        return "droplet-shape " + std::string(droplet::kVersion) + "\n";
+    if (const auto text = textAskedFor(line)) {
+        return *text;
     }
     const auto font = line.value("--font");
     if (!font || font->text.empty() || isStream(font->text)) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "progress_display.h"
 
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <iostream>
 #include <string>
 #include <system_error>
@@ -18,9 +19,7 @@ constexpr std::size_t kCellsPerStage = 4;
 
 std::string rounded(double value, int decimals)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
+    return fmt::format("{:.{}f}", value, decimals);
 }
 
 std::string bar(droplet::Stage stage, double elapsed)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_command.h"
 
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
-#include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <variant>
 
@@ -21,23 +20,19 @@ namespace {
 
 std::string litres(double volume)
 {
-    std::ostringstream text;
-    text << std::setprecision(4) << volume / 1e-6 << " mL";
-    return text.str();
+    return fmt::format("{:.4g} mL", volume / 1e-6);
 }
 
 void tell(const droplet::WindshieldReport& report)
 {
     const droplet::BalanceRow& last = report.balance.back();
     const droplet::WaterBalance& water = last.balance;
-    std::ostringstream text;
-    text << report.frames << (report.frames == 1 ? " frame" : " frames") << "; at " << std::setprecision(4) << last.time
-         << " s " << last.still << " still droplets, " << last.running << " larger, of which " << last.moving
-         << " move\n"
-         << "water: " << litres(water.rained) << " rained = " << litres(water.on_glass_still + water.on_glass_running)
-         << " on the glass + " << litres(water.left) << " left + " << litres(water.wiped) << " wiped\n"
-         << report.output << "\n";
-    std::cerr << text.str();
+    std::cerr << fmt::format("{} frame{}; at {:.4g} s {} still droplets, {} larger, of which {} move\n", report.frames,
+                             report.frames == 1 ? "" : "s", last.time, last.still, last.running, last.moving)
+              << fmt::format("water: {} rained = {} on the glass + {} left + {} wiped\n", litres(water.rained),
+                             litres(water.on_glass_still + water.on_glass_running), litres(water.left),
+                             litres(water.wiped))
+              << report.output << "\n";
     for (const std::string& warning : report.warnings) {
         std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n";
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_files.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_plan.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "droplet/io/object.h"
 #include "droplet/wind_io/read_drive_cycle.h"
@@ -27,9 +27,7 @@ droplet::DriveCycle driveCycleFrom(const std::string& path, bool whole)
     constexpr double kFastest = 150.0;  // as of --speed
     const double fastest = *std::max_element(cycle.speeds.begin(), cycle.speeds.end());
     if (fastest > kFastest) {
-        std::ostringstream words;
-        words << "goes at " << fastest << " m/s; a car may go at 150 m/s at most";
-        refuse_file(words.str());
+        refuse_file(fmt::format("goes at {:.6g} m/s; a car may go at 150 m/s at most", fastest));
     }
     const double first = cycle.times.front();
     for (double& time : cycle.times) {
@@ -49,10 +47,10 @@ droplet::Glass glassFrom(const std::string& surface, std::vector<std::string>& w
     droplet::Glass glass = forOption(surface, [&] { return droplet::Glass(object, {}); });
     constexpr double kBent = 0.02;
     if (glass.mostStretch() > 1.0 + kBent || glass.leastStretch() < 1.0 - kBent) {
-        std::ostringstream words;
-        words << surface << ": rolled out by its uv, lengths are " << std::setprecision(3) << glass.leastStretch()
-              << " to " << glass.mostStretch() << " times what they are on the rolled out glass";
-        warnings.push_back(words.str());
+        warnings.push_back(
+            fmt::format("{}: rolled out by its uv, lengths are {:.3g} to {:.3g} times what they are on the rolled out "
+                        "glass",
+                        surface, glass.leastStretch(), glass.mostStretch()));
     }
     return glass;
 }

@@ -13,26 +13,14 @@
 #include <cmath>
 
 #include "droplet/error.h"
-#include "number_text.h"
+#include "require.h"
 
 namespace droplet {
-namespace {
-
-[[noreturn]] void refuse(const std::string& field, double value, const std::string& constraint)
-{
-    throw Error(ErrorCode::InvalidArgument, fmt::format("{} is {}, must be {}", field, numberText(value), constraint));
-}
-
-}  // namespace
-
 void Liquid::validate() const
 {
-    if (!std::isfinite(surface_tension) || surface_tension <= 0.0) {
-        refuse("liquid.surface_tension", surface_tension, "finite and more than 0 N/m");
-    }
-    if (!std::isfinite(density) || density < 0.0) {
-        refuse("liquid.density", density, "finite and at least 0 kg/m3");
-    }
+    require(std::isfinite(surface_tension) && surface_tension > 0.0, "liquid.surface_tension", surface_tension,
+            "finite and more than 0 N/m");
+    require(std::isfinite(density) && density >= 0.0, "liquid.density", density, "finite and at least 0 kg/m3");
 }
 
 const std::vector<Liquid>& liquids()

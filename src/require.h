@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sstream>
 #include <string>
+#include <type_traits>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 
 /// Refuses a field's value: "field is value, must be constraint".
-/// @param field       of any type that a stream takes, with its owner: "wiper.stroke"
+/// @param field       of any type that libfmt takes, with its owner: "wiper.stroke"
 /// @param constraint  what the value must be, with its unit: "finite and more than 0 s"
 template <typename Field, typename Value, typename Constraint>
 [[noreturn]] void refuseValue(const Field& field, const Value& value, const Constraint& constraint)
 {
-    std::ostringstream message;
-    message << field << " is " << value << ", must be " << constraint;
-    throw Error(ErrorCode::InvalidArgument, message.str());
+    const auto text = [](const auto& of) {
+        if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(of)>>) {
+            return numberText(of);
+        } else {
+            return fmt::format("{}", of);
+        }
+    };
+    throw Error(ErrorCode::InvalidArgument, fmt::format("{} is {}, must be {}", field, text(value), constraint));
 }
 
 /// Refuses the value unless the condition holds. See refuseValue.

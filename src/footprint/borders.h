@@ -34,8 +34,8 @@ struct Crossing {
 using Border = std::vector<Crossing>;
 
 /// The borders of everything liquid in a mask, as OpenCV's findContours finds them. They come in reading order of where
-/// they begin: a component's to the west of its first pixel, a hole's to the west of its own. Liquid is 8-connected, dry
-/// 4-connected; outside the mask all is dry.
+/// they begin: a component's to the west of its first pixel, a hole's to the west of its own. Liquid is 8-connected,
+/// dry 4-connected; outside the mask all is dry.
 /// @param mask   valid
 /// @param level  coverage from which a pixel is liquid
 /// @throws Error InvalidInput: a mask of 2^31 pixels or more

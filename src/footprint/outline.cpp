@@ -22,6 +22,7 @@
 #include "footprint/corners.h"
 #include "footprint/fairing.h"
 #include "footprint/slot.h"
+#include "number_text.h"
 #include "require.h"
 
 namespace droplet {
@@ -478,7 +479,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const std::vector<Border> borders = followBorders(mask, level);
     if (borders.empty()) {
         throw Error(ErrorCode::InvalidInput,
-                    "no liquid in the mask: no pixel reaches threshold " + std::to_string(options.threshold));
+                    "no liquid in the mask: no pixel reaches threshold " + numberText(options.threshold));
     }
 
     Outline outline;
@@ -522,8 +523,8 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     if (std::none_of(outline.loops.begin(), outline.loops.end(), [](const Loop& l) { return signedArea(l) > 0; })) {
         throw Error(ErrorCode::InvalidInput, "only specks in the mask: the largest of " +
                                                  std::to_string(outline.specks_dropped) + " has " +
-                                                 std::to_string(outline.largest_speck_px) + " px², and speck_size is " +
-                                                 std::to_string(options.speck_size) + " px²");
+                                                 numberText(outline.largest_speck_px) + " px², and speck_size is " +
+                                                 numberText(options.speck_size) + " px²");
     }
     return outline;
 }

@@ -21,10 +21,6 @@ struct Lattice {
     std::uint32_t first_regular_triangle = 0;
 };
 
-/// Guarantees: returns only when the invariants of the mesh's lattice hold, if it has one.
-/// @throws Error InvalidArgument
-void validateLattice(const PlanarMesh& mesh);
-
 /// How many of a mesh's triangles, its first, have to be looked at one by one: all but the regular ones of its lattice.
 std::size_t irregularTriangleCount(const PlanarMesh& mesh);
 

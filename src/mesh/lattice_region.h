@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,7 +22,11 @@ struct RowInterval {
     [[nodiscard]] constexpr Site first() const { return {row, begin}; }
     [[nodiscard]] constexpr Site last() const { return {row, end - 1}; }
 
-    friend auto operator<=>(const RowInterval&, const RowInterval&) = default;
+    /// Row after row, from left to right.
+    friend bool operator<(const RowInterval& a, const RowInterval& b)
+    {
+        return a.row != b.row ? a.row < b.row : a.begin < b.begin;
+    }
 };
 
 /// A set of lattice points, as intervals of rows: all work on it is in proportion to its outline, not to its area.

@@ -4,66 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "blocks.h"
-#include "droplet/error.h"
-#include "mesh/lattice.h"
-#include "number_text.h"
 
 namespace droplet {
-namespace {
-
-[[noreturn]] void fail(const std::string& message)
-{
-    throw Error(ErrorCode::InvalidArgument, message);
-}
-
-}  // namespace
-
-void PlanarMesh::validate() const
-{
-    if (loop_starts.size() < 2 || loop_starts.front() != 0 || loop_starts.back() > vertices.size()) {
-        fail("loop_starts of the mesh must run from 0 to the number of rim vertices");
-    }
-    for (std::size_t k = 0; k < loopCount(); ++k) {
-        if (loop_starts[k] + 3 > loop_starts[k + 1]) {
-            fail("loop " + std::to_string(k) + " of the mesh must have at least three vertices");
-        }
-    }
-    for (const Vec2 v : vertices) {
-        if (!std::isfinite(v.x) || !std::isfinite(v.y)) {
-            fail("vertices of the mesh must be finite");
-        }
-    }
-    std::vector<std::uint32_t> next(rimVertexCount());
-    for (std::size_t k = 0; k < loopCount(); ++k) {
-        for (std::uint32_t v = loop_starts[k]; v < loop_starts[k + 1]; ++v) {
-            next[v] = nextOnRim(*this, k, v);
-        }
-    }
-    for (const Triangle& t : triangles) {
-        if (std::max({t[0], t[1], t[2]}) >= vertices.size()) {
-            fail("triangles of the mesh must index its " + std::to_string(vertices.size()) + " vertices");
-        }
-        if (!(doubleArea(*this, t) > 0)) {
-            fail("triangles of the mesh must be counter-clockwise with positive area");
-        }
-        if (onRim(std::max({t[0], t[1], t[2]}))) {
-            fail("triangles of the mesh must not have all three vertices on the rim");
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = t[k];
-            const std::uint32_t w = t[(k + 1) % 3];
-            if (onRim(v) && onRim(w) && next[v] != w) {
-                fail(fmt::format(
-                    "vertices {} and {} of the mesh are joined by an inner edge though both are on the rim", v, w));
-            }
-        }
-    }
-    validateLattice(*this);
-}
 
 std::uint32_t nextOnRim(const PlanarMesh& mesh, std::size_t loop, std::uint32_t vertex)
 {

@@ -2,10 +2,8 @@
 #include "droplet/picture/drawing.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <ostream>
-#include <string_view>
 #include <utility>
 
 #include "droplet/error.h"
@@ -24,21 +22,12 @@ constexpr double kCapitals = 0.72;
 /// A hundredth of a unit is finer than a screen shows.
 std::string number(double value)
 {
-    std::array<char, 64> text{};
-    const double rounded = std::round(100.0 * value) / 100.0;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), rounded == 0.0 ? 0.0 : rounded).ptr;
-    return {text.data(), end};
+    return fmt::format("{}", std::round(100.0 * value) / 100.0 + 0.0);
 }
 
 std::string hex(const Colour& colour)
 {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string text = "#";
-    for (const std::uint8_t level : colour) {
-        text += kDigits[level >> 4U];
-        text += kDigits[level & 15U];
-    }
-    return text;
+    return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
 }
 
 std::string places(const std::vector<Vec2>& points)

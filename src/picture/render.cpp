@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "number_text.h"
 #include "picture/camera.h"
 #include "picture/ground.h"
 #include "picture/legend.h"
@@ -443,7 +444,7 @@ void RenderOptions::validate() const
     if (ground) {
         ground->validate();
         if (!stand && !(extent.x > 0.0 && extent.y > 0.0)) {
-            refuse("extent = " + std::to_string(extent.x) + " by " + std::to_string(extent.y) +
+            refuse("extent = " + numberText(extent.x) + " by " + numberText(extent.y) +
                    " must be above 0 where a picture is the ground");
         }
     }

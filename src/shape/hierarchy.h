@@ -64,7 +64,7 @@ struct Level {
     std::uint32_t unknowns = 0;
     Stencil stencil;
     std::vector<GridRun> regular;  ///< unknowns whose rows are the stencil, or those of `varying`
-    LatticeRows varying;              ///< empty: the stencil
+    LatticeRows varying;           ///< empty: the stencil
     SparseRows irregular;
     // To the coarser level, if there is one.
     std::vector<RestrictionRun> restriction;    ///< of the coarser level's unknowns

@@ -2,14 +2,13 @@
 #include "droplet/surface/onto.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "number_text.h"
 #include "surface/atlas.h"
 #include "surface/place_droplets.h"
 
@@ -18,9 +17,7 @@ namespace {
 
 std::string rounded(double value)
 {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
+    return numberText(value, 3);
 }
 
 std::string counted(std::size_t count, const std::string& one)
@@ -127,7 +124,7 @@ void OntoOptions::validate() const
 {
     if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
         throw Error(ErrorCode::InvalidArgument,
-                    "extent " + std::to_string(extent.x) + " m × " + std::to_string(extent.y) + " m must be positive");
+                    "extent " + numberText(extent.x) + " m × " + numberText(extent.y) + " m must be positive");
     }
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 
@@ -125,7 +126,7 @@ Eye::Eye(const Glass& glass, const ViewOptions& options)
     const auto ahead = glass.place(aim);
     if (!ahead) {
         throw Error(ErrorCode::InvalidArgument,
-                    "aim (" + std::to_string(aim.x) + ", " + std::to_string(aim.y) + ") must be on the glass");
+                    "aim (" + numberText(aim.x) + ", " + numberText(aim.y) + ") must be on the glass");
     }
     position_ = ahead->point - Vec3{0.0, options.eye_distance, 0.0};
     constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();

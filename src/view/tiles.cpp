@@ -7,6 +7,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -90,8 +91,8 @@ Tiles::Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options)
         }
     }
     if (!(finest < std::numeric_limits<float>::infinity())) {
-        throw Error(ErrorCode::InvalidArgument, "eye_distance " + std::to_string(options.eye_distance) +
-                                                    ": nothing of the glass is seen from there");
+        throw Error(ErrorCode::InvalidArgument,
+                    "eye_distance " + numberText(options.eye_distance) + ": nothing of the glass is seen from there");
     }
     // A texel for each ray; but no more than 128 MiB of them, and none finer than droplets have detail.
     constexpr double kMostTexels = 16e6;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "number_text.h"
 
 namespace droplet {
 
@@ -33,10 +34,10 @@ void DriveCycle::validate() const
     }
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
-            refuse("times[" + std::to_string(i) + "] is " + std::to_string(times[i]) + " s; times must rise");
+            refuse("times[" + std::to_string(i) + "] is " + numberText(times[i]) + " s; times must rise");
         }
         if (!(speeds[i] >= 0.0) || !std::isfinite(speeds[i])) {
-            refuse("speeds[" + std::to_string(i) + "] is " + std::to_string(speeds[i]) +
+            refuse("speeds[" + std::to_string(i) + "] is " + numberText(speeds[i]) +
                    " m/s; it must be finite and at least 0");
         }
     }

@@ -14,6 +14,7 @@
 
 #include "droplet/error.h"
 #include "droplet/surface/onto.h"
+#include "number_text.h"
 #include "require.h"
 
 namespace droplet {
@@ -207,7 +208,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     }
     if (!(developed.scale >= 0.0) || !std::isfinite(developed.scale)) {
         throw Error(ErrorCode::InvalidArgument,
-                    "glass.scale is " + std::to_string(developed.scale) + "; it must be at least 0 m");
+                    "glass.scale is " + numberText(developed.scale) + "; it must be at least 0 m");
     }
     const double scale = developed.scale > 0.0 ? developed.scale : metresPerUv(object);
     const Vec2 y = (1.0 / ahead) * developed.ahead;

@@ -12,6 +12,7 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -78,7 +79,7 @@ RaindropSizes raindropSizes(double rainfall)
 {
     if (!(rainfall >= 0.0) || !std::isfinite(rainfall)) {
         throw Error(ErrorCode::InvalidArgument,
-                    "rainfall is " + std::to_string(rainfall / kMillimetrePerHour) + " mm/h; it must be at least 0");
+                    "rainfall is " + numberText(rainfall / kMillimetrePerHour) + " mm/h; it must be at least 0");
     }
     RaindropSizes sizes;
     if (rainfall > 0.0) {
@@ -95,9 +96,9 @@ double terminalSpeed(double diameter)
 void RaindropRange::validate() const
 {
     if (!(least > 0.0 && greatest > least && std::isfinite(greatest))) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "raindrops.least and greatest are " + std::to_string(least / kMillimetre) + " and " +
-                        std::to_string(greatest / kMillimetre) + " mm; they must be above 0 and rise");
+        throw Error(ErrorCode::InvalidArgument, "raindrops.least and greatest are " + numberText(least / kMillimetre) +
+                                                    " and " + numberText(greatest / kMillimetre) +
+                                                    " mm; they must be above 0 and rise");
     }
 }
 

@@ -389,6 +389,7 @@ TEST(Sequence, RefusesWhatHasNoMeaningThere)
     options.droplet.solve.volumes.clear();
     const Frame first = firstFrame(outlineOf(disc({30, 30}, 20)), options);
     EXPECT_THROW(nextFrame(first, outlineOf(disc({30, 30}, 20), 80, 64), options), Error);
+    EXPECT_THROW(nextFrame(Frame(), outlineOf(disc({30, 30}, 20)), options), Error);
 }
 
 }  // namespace
