@@ -154,6 +154,29 @@ TEST(Rooms, NeedAllThatTheTableAllows)
     }
 }
 
+// The linker takes one of two types of a name for both, and the program breaks at run time.
+TEST(Rooms, NoTwoTypesHaveOneName)
+{
+    std::map<std::string, std::string> places;
+    const std::regex type(R"(^(?:struct|class|enum class) (\w+)(?: final)?(?: :[^:].*)?(?: \{.*)?$)");
+    for (const std::string top : {"include/droplet", "src"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(inSource(top))) {
+            if (entry.path().extension() != ".h") {
+                continue;
+            }
+            std::istringstream lines(testing::readFile(entry.path()));
+            for (std::string line; std::getline(lines, line);) {
+                std::smatch found;
+                if (std::regex_match(line, found, type)) {
+                    const auto [known, is_new] = places.emplace(found[1], entry.path().string());
+                    EXPECT_TRUE(is_new) << found[1] << " in " << entry.path() << " and " << known->second;
+                }
+            }
+        }
+    }
+    EXPECT_GT(places.size(), 100U);
+}
+
 TEST(Rooms, EveryFolderIsInTheTable)
 {
     const auto table = allowed();

@@ -30,7 +30,7 @@ constexpr float kHalfHeight = 0.20F;  // tangent of half the picture's angle upw
 constexpr float kFilled = 0.86F;      // of the picture's width or height
 
 // Around the vertical axis of all points: what is seen at one azimuth or another.
-std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const Turn& turn)
+std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const CameraTurn& turn)
 {
     float radius = 0.0F;
     float low = points.front().z;
@@ -53,7 +53,7 @@ std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const Turn& turn)
 
 }  // namespace
 
-Turn turnedBack(double azimuth)
+CameraTurn turnedBack(double azimuth)
 {
     return {static_cast<float>(std::cos(azimuth)), static_cast<float>(-std::sin(azimuth))};
 }
@@ -64,7 +64,7 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
     // A narrow picture keeps the angle across.
     focal_ = std::max(0.5F * height_, 0.375F * width_) / kHalfHeight;
     const Place place = placeOf(options.view);
-    const Turn turn = turnedBack(options.azimuth);
+    const CameraTurn turn = turnedBack(options.azimuth);
     const auto cos_azimuth = static_cast<float>(std::cos(place.azimuth));
     const auto sin_azimuth = static_cast<float>(std::sin(place.azimuth));
     const auto cos_elevation = static_cast<float>(std::cos(place.elevation));

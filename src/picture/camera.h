@@ -10,7 +10,7 @@
 namespace droplet {
 
 /// A turn about the vertical axis.
-struct Turn {
+struct CameraTurn {
     float cosine = 1.0F;
     float sine = 0.0F;
 
@@ -21,7 +21,7 @@ struct Turn {
 };
 
 /// The turn that keeps camera and lights beside a droplet that stays where it is while it is seen turned by an azimuth.
-Turn turnedBack(double azimuth);
+CameraTurn turnedBack(double azimuth);
 
 /// A camera with a long lens, framed so that the points fill the picture up to a margin.
 class Camera {

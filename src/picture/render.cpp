@@ -294,7 +294,7 @@ private:
     }
 
     const RenderOptions& options_;
-    Turn turn_;
+    CameraTurn turn_;
     Scene scene_;
     Studio studio_;
     Medium medium_;

@@ -105,7 +105,7 @@ Vec3f SoftBox::seen(Vec3f direction) const
     return (1.0F - smoothstep(0.90F, 1.06F, reach)) * cloth * radiance;
 }
 
-Studio::Studio(Lighting lighting, bool upright, Turn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
+Studio::Studio(Lighting lighting, bool upright, CameraTurn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
 {
     if (!uniform_) {
         const auto places = upright ? std::span<const BoxPlace>(kBoxesUpright) : std::span<const BoxPlace>(kBoxes);

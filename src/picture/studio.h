@@ -42,7 +42,7 @@ struct Light {
 /// one on the right; on an object that stands upright, a key light in front of it on the left, and two at its sides.
 class Studio {
 public:
-    Studio(Lighting lighting, bool upright, Turn turn);
+    Studio(Lighting lighting, bool upright, CameraTurn turn);
 
     /// What comes from a direction.
     [[nodiscard]] Vec3f radiance(Vec3f direction) const;

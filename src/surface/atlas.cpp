@@ -45,14 +45,14 @@ std::array<double, 3> anglesOf(const Facet& facet)
 }
 
 /// Means over the facets around every corner, weighted by their angles there.
-std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Facet>& facets,
-                              const std::vector<std::array<std::uint32_t, 3>>& vertices)
+std::vector<AtlasCorner> cornersOf(const TexturedMesh& object, const std::vector<Facet>& facets,
+                                   const std::vector<std::array<std::uint32_t, 3>>& vertices)
 {
     std::uint32_t count = 0;
     for (const Facet& facet : facets) {
         count = std::max({count, facet.corners[0] + 1, facet.corners[1] + 1, facet.corners[2] + 1});
     }
-    std::vector<Corner> corners(count);
+    std::vector<AtlasCorner> corners(count);
     std::vector<double> weights(count, 0.0);
     const auto add = [](std::array<Vec3, 2>& sum, double weight, const std::array<Vec3, 2>& value) {
         sum = {sum[0] + weight * value[0], sum[1] + weight * value[1]};
@@ -77,7 +77,7 @@ std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Face
     for (std::size_t f = 0; f < facets.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
             // Opposite normals leave none: the first will do.
-            Corner& corner = corners[facets[f].corners[k]];
+            AtlasCorner& corner = corners[facets[f].corners[k]];
             corner.normal = unitOr(corner.normal, object.normals[vertices[f][k]]);
         }
     }
@@ -89,7 +89,7 @@ std::vector<Corner> cornersOf(const TexturedMesh& object, const std::vector<Face
         const std::array<double, 3> angles = anglesOf(facet);
         std::array<Vec3, 3> heights;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Corner& corner = corners[facet.corners[k]];
+            const AtlasCorner& corner = corners[facet.corners[k]];
             heights[k] = corner.scale * corner.normal;
         }
         for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ Laid Atlas::lay(const Facet& facet, Vec2 p, double z, Vec3 normal) const
     std::array<Vec3, 2> swelling;
     Laid laid;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Corner& corner = corners[facet.corners[k]];
+        const AtlasCorner& corner = corners[facet.corners[k]];
         place = place + share[k] * corner.place;
         up = up + share[k] * corner.normal;
         laid.scale += share[k] * corner.scale;

@@ -13,7 +13,7 @@
 namespace droplet {
 
 /// What a chart's vertex knows of the object around it.
-struct Corner {
+struct AtlasCorner {
     Vec3 place;
     Vec3 normal;
     double scale = 0.0;            ///< length on the object per length in the picture
@@ -41,7 +41,7 @@ struct Laid {
 /// The object as the picture sees it.
 struct Atlas {
     std::vector<Facet> facets;
-    std::vector<Corner> corners;
+    std::vector<AtlasCorner> corners;
     std::vector<double> facing;  ///< of every chart: 1, or −1 where it shows the picture mirrored
     FacetBoxes boxes;
     double hair = 0.0;  ///< [m]

@@ -12,23 +12,23 @@ struct Vec2f {
 };
 
 /// The glass at a place.
-struct Frame {
+struct GlassFrame {
     Vec3f across;
     Vec3f up;
     Vec3f normal;
 };
 
-inline Frame frameOf(const GlassPlace& place)
+inline GlassFrame frameOf(const GlassPlace& place)
 {
     return {toFloats(place.across), toFloats(place.up), toFloats(place.normal)};
 }
 
-inline Vec3f toFrame(const Frame& frame, Vec3f v)
+inline Vec3f toFrame(const GlassFrame& frame, Vec3f v)
 {
     return {dot(v, frame.across), dot(v, frame.up), dot(v, frame.normal)};
 }
 
-inline Vec3f fromFrame(const Frame& frame, Vec3f v)
+inline Vec3f fromFrame(const GlassFrame& frame, Vec3f v)
 {
     return v.x * frame.across + v.y * frame.up + v.z * frame.normal;
 }

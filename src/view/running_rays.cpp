@@ -14,8 +14,8 @@ namespace droplet {
 /// A droplet about to be traced.
 struct RunningRays::Traced {
     Vec2f position;
-    Vec2f along;  ///< unit, of its motion
-    Frame frame;  ///< x along the motion
+    Vec2f along;       ///< unit, of its motion
+    GlassFrame frame;  ///< x along the motion
     Capsule capsule;
     float wide = 0.0F;            ///< radius of what is seen of the ends [m]
     std::uint8_t level = 0;       ///< of the backdrop
@@ -112,7 +112,7 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     one.top = static_cast<int>(std::max(top - kRim, 0.0F));
     one.bottom = static_cast<int>(std::min(bottom + kRim, h - 1.0F));
     const Tiles& tiles = sight_.tiles;
-    const Tile& tile = tiles[tiles.number((one.left + one.right) / 2 / kTile, (one.top + one.bottom) / 2 / kTile)];
+    const ViewTile& tile = tiles[tiles.number((one.left + one.right) / 2 / kTile, (one.top + one.bottom) / 2 / kTile)];
     const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : right_most - left_most;
     one.level = sight_.levelFor(diameter);
     one.calm_level = sight_.levelFor(diameter / static_cast<float>(options.samples));
@@ -138,7 +138,7 @@ std::vector<RunningRays::Part> RunningRays::trace(const Traced& one) const
 void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const
 {
     const ViewOptions& options = sight_.options;
-    const Tile& tile = sight_.tiles[sight_.tiles.number(column, row)];
+    const ViewTile& tile = sight_.tiles[sight_.tiles.number(column, row)];
     const auto ior = static_cast<float>(options.ior);
     const int n = options.samples;
     const float soft = tile.pixel / static_cast<float>(n);

@@ -68,7 +68,7 @@ void StillSamples::follow(const StillCells& still)
     const Tiles& tiles = sight_.tiles;
     tbb::parallel_for(0, tiles.rows(), [&](int r) {
         for (int c = 0; c < tiles.columns(); ++c) {
-            const Tile& tile = tiles[tiles.number(c, r)];
+            const ViewTile& tile = tiles[tiles.number(c, r)];
             if (tile.on_glass && cells.reach(tile.low, tile.high)) {
                 sample(c, r, cells);
             }
@@ -81,7 +81,7 @@ void StillSamples::sample(int column, int row, const ChangedCells& cells)
 {
     const ViewOptions& options = sight_.options;
     const std::size_t number = sight_.tiles.number(column, row);
-    const Tile& tile = sight_.tiles[number];
+    const ViewTile& tile = sight_.tiles[number];
     std::vector<StillSample>& samples = samples_[number];
     const std::vector<StillSample> before = std::exchange(samples, {});
     samples.reserve(before.size() + kTilePixels);

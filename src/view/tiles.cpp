@@ -12,9 +12,9 @@
 namespace droplet {
 namespace {
 
-Tile tileAt(const Eye& eye, const Glass& glass, int column, int row)
+ViewTile tileAt(const Eye& eye, const Glass& glass, int column, int row)
 {
-    Tile tile;
+    ViewTile tile;
     const int x0 = column * kTile;
     const int y0 = row * kTile;
     const int x1 = std::min(x0 + kTile, eye.width());
@@ -80,7 +80,7 @@ Tiles::Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options)
     float finest = std::numeric_limits<float>::infinity();
     for (int r = 0; r < rows_; ++r) {
         for (int c = 0; c < columns_; ++c) {
-            const Tile& tile = tiles_.emplace_back(tileAt(eye, glass, c, r));
+            const ViewTile& tile = tiles_.emplace_back(tileAt(eye, glass, c, r));
             if (tile.on_glass) {
                 window_.low = {std::min<double>(window_.low.x, tile.low.x),
                                std::min<double>(window_.low.y, tile.low.y)};

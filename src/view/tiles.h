@@ -23,9 +23,9 @@ inline std::uint8_t pixelInTile(int x, int y)
 }
 
 /// A square of the frame, and the glass that is seen through it.
-struct Tile {
+struct ViewTile {
     bool on_glass = false;
-    Frame frame;         ///< of the glass in its middle
+    GlassFrame frame;    ///< of the glass in its middle
     Vec2f right;         ///< on the glass, a pixel to the right [m]
     Vec2f down;          ///< and one down
     float pixel = 0.0F;  ///< side of a square as large as a pixel's image on the glass [m]
@@ -46,7 +46,7 @@ public:
     {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
     }
-    [[nodiscard]] const Tile& operator[](std::size_t number) const { return tiles_[number]; }
+    [[nodiscard]] const ViewTile& operator[](std::size_t number) const { return tiles_[number]; }
 
     /// The part of the glass that is seen, and texels for it.
     [[nodiscard]] const MapWindow& window() const { return window_; }
@@ -54,7 +54,7 @@ public:
 private:
     int columns_;
     int rows_;
-    std::vector<Tile> tiles_;
+    std::vector<ViewTile> tiles_;
     MapWindow window_;
 };
 

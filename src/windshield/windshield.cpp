@@ -25,6 +25,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "require.h"
+#include "union_find.h"
 #include "windshield/cap_scale.h"
 #include "windshield/motion.h"
 #include "windshield/random.h"
@@ -201,16 +202,15 @@ private:
     void merge(const TrackCells& cells)
     {
         const std::vector<Pair> meeting = cells.meeting();
+        UnionFind sets(owner_);
         for (const auto& [a, b] : meeting) {
-            const std::uint32_t root_a = rootOf(a);
-            const std::uint32_t root_b = rootOf(b);
-            owner_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+            sets.join(a, b);
         }
         std::vector<Pair> members;  // a set's first member, and each of its members
         members.reserve(2 * meeting.size());
         for (const auto& [a, b] : meeting) {
-            members.emplace_back(rootOf(a), a);
-            members.emplace_back(rootOf(b), b);
+            members.emplace_back(sets.find(a), a);
+            members.emplace_back(sets.find(b), b);
         }
         std::sort(members.begin(), members.end());
         members.erase(std::unique(members.begin(), members.end()), members.end());
@@ -219,16 +219,6 @@ private:
             absorb({begin, end});
             begin = end;
         }
-    }
-
-    // R. E. Tarjan, J. van Leeuwen, "Worst-case analysis of set union algorithms" (1984): path halving; a set's name is
-    // its first member.
-    std::uint32_t rootOf(std::uint32_t i)
-    {
-        while (owner_[i] != i) {
-            i = owner_[i] = owner_[owner_[i]];
-        }
-        return i;
     }
 
     void absorb(std::span<const Pair> members)
