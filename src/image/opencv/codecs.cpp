@@ -88,8 +88,10 @@ private:
 /// Both stay to the end of the process.
 bool install()
 {
-    cv::Mat::setDefaultAllocator(new Gate(cv::Mat::getDefaultAllocator()));
-    std::cerr.rdbuf(new Ear(std::cerr.rdbuf()));
+    static auto* const gate = new Gate(cv::Mat::getDefaultAllocator());
+    static auto* const ear = new Ear(std::cerr.rdbuf());
+    cv::Mat::setDefaultAllocator(gate);
+    std::cerr.rdbuf(ear);
     return true;
 }
 
