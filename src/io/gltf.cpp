@@ -135,14 +135,6 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
     writeIndices(surface.triangles, surface.positions.size(), bytes);
 }
 
-void writeBinary(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
-{
-    const BinaryFrame frame = binaryFrame(model);
-    bytes.text(frame.head);
-    writeBuffer(surface, bytes);
-    bytes.text(frame.tail);
-}
-
 // Encodes what it is given: S. Josefsson, RFC 4648 (2006), section 4.
 class Base64Buffer : public std::streambuf {
 public:
@@ -208,12 +200,11 @@ std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOpt
     surface.validate();
     checkFloats(surface);
     const tinygltf::Model model = makeModel(surface, options);
-    ByteStream bytes(out);
     if (options.binary) {
-        writeBinary(surface, model, bytes);
-    } else {
-        writeText(surface, model, bytes);
+        return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(surface, bytes); });
     }
+    ByteStream bytes(out);
+    writeText(surface, model, bytes);
     return bytes.finish();
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <sstream>
+#include <string>
 #include <utility>
 
 #include "droplet/surface/material.h"
@@ -155,15 +155,15 @@ void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, 
 }
 
 // GLB file format: a header of three words, then chunks of whole words, JSON filled up with spaces, the buffer with 0.
-BinaryFrame binaryFrame(const tinygltf::Model& model)
+std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
+                          const std::function<void(ByteStream&)>& write_buffer)
 {
     std::string json = jsonOf(model).dump();
     json.append(padding(json.size()), ' ');
     const std::string zeros(padding(bufferBytes(model)), '\0');
     const std::size_t buffer_bytes = bufferBytes(model) + zeros.size();
     constexpr std::size_t kHeaders = 12 + 8 + 8;
-    std::ostringstream head;
-    ByteStream bytes(head);
+    ByteStream bytes(out);
     bytes.text("glTF");
     bytes.u32(2, kHeaders + json.size() + buffer_bytes, json.size());
     bytes.text("JSON");
@@ -171,8 +171,9 @@ BinaryFrame binaryFrame(const tinygltf::Model& model)
     bytes.u32(buffer_bytes);
     bytes.text("BIN");
     bytes.u8(0);
-    bytes.finish();
-    return {head.str(), zeros};
+    write_buffer(bytes);
+    bytes.text(zeros);
+    return bytes.finish();
 }
 
 }  // namespace droplet

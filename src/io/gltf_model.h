@@ -6,9 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
+#include <ostream>
 #include <vector>
 
 #include "droplet/io/gltf.h"
@@ -49,12 +49,10 @@ nlohmann::json jsonOf(const tinygltf::Model& model);
 void writeVectors(const std::vector<Vec3>& vectors, ByteStream& bytes);
 void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, ByteStream& bytes);
 
-/// What stands before a GLB's buffer, and the zeros that stand behind it.
-struct BinaryFrame {
-    std::string head;
-    std::string tail;
-};
-
-BinaryFrame binaryFrame(const tinygltf::Model& model);
+/// Writes a GLB.
+/// @param write_buffer  writes the bytes of the model's buffer
+/// @return              bytes written
+std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
+                          const std::function<void(ByteStream&)>& write_buffer);
 
 }  // namespace droplet

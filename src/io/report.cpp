@@ -255,6 +255,8 @@ Json dropletRow(const DropletReport& droplet)
     return row;
 }
 
+namespace {
+
 void refuseNonFinite(const Json& value, const std::string& key)
 {
     if (value.is_number_float() && !std::isfinite(value.get<double>())) {
@@ -266,8 +268,6 @@ void refuseNonFinite(const Json& value, const std::string& key)
         }
     }
 }
-
-namespace {
 
 Json sections(const Report& report)
 {
@@ -312,11 +312,15 @@ Json sections(const Report& report)
 
 }  // namespace
 
+void writeReportJson(std::ostream& out, const ReportJson& report)
+{
+    refuseNonFinite(report, "");
+    out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
 void writeReport(std::ostream& out, const Report& report)
 {
-    const Json json = sections(report);
-    refuseNonFinite(json, "");
-    out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    writeReportJson(out, sections(report));
 }
 
 }  // namespace droplet

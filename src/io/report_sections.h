@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
+#include <ostream>
 
 #include "droplet/io/report.h"
 
@@ -24,8 +24,9 @@ ReportJson shapeSection(const ShapeFigures& figures, const ReportJson& pressure,
 /// Footprint and shape.
 ReportJson dropletRow(const DropletReport& droplet);
 
-/// JSON has no NaN and no infinity; the library would write null, which a script would take for "not there".
-/// @throws Error NoSuchDroplet, naming the key
-void refuseNonFinite(const ReportJson& value, const std::string& key);
+/// Writes a report, indented.
+/// @throws Error NoSuchDroplet, naming the key, if a number is not finite: JSON has no NaN and no infinity; the library
+///               would write null, which a script would take for "not there"
+void writeReportJson(std::ostream& out, const ReportJson& report);
 
 }  // namespace droplet

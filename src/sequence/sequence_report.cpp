@@ -97,8 +97,7 @@ void writeSequenceReport(std::ostream& out, const SequenceReport& report)
     json["warnings"] = report.warnings;
     json["time_s"] = {{"total", report.time_total}};
     json["peak_memory_bytes"] = report.peak_memory;
-    refuseNonFinite(json, "");
-    out << json.dump(2, ' ', false, ReportJson::error_handler_t::replace) << '\n';
+    writeReportJson(out, json);
 }
 
 }  // namespace droplet

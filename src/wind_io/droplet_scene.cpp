@@ -478,12 +478,7 @@ std::uint64_t DropletScene::write(std::ostream& out) const
     if (content_->frames == 0) {
         throw Error(ErrorCode::InvalidArgument, "a scene of droplets must have at least one frame");
     }
-    const BinaryFrame frame = binaryFrame(content_->model());
-    ByteStream bytes(out);
-    bytes.text(frame.head);
-    content_->writeBuffer(bytes);
-    bytes.text(frame.tail);
-    return bytes.finish();
+    return writeBinary(out, content_->model(), [&](ByteStream& bytes) { content_->writeBuffer(bytes); });
 }
 
 }  // namespace droplet

@@ -123,8 +123,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     json["warnings"] = report.warnings;
     json["time_s"] = {{"total", report.time_total}};
     json["peak_memory_bytes"] = report.peak_memory;
-    refuseNonFinite(json, "");
-    out << json.dump(2, ' ', false, ReportJson::error_handler_t::replace) << '\n';
+    writeReportJson(out, json);
 }
 
 }  // namespace droplet

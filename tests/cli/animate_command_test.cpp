@@ -256,37 +256,6 @@ TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
     }
 }
 
-TEST_F(AnimateTest, ReportHasTheKeysOfItsPage)
-{
-    const std::string page = readFile(testing::inSource("docs/reports.md"));
-    const std::string fence = "```sequence-report\n";
-    const auto begin = page.find(fence) + fence.size();
-    const std::string block = page.substr(begin, page.find("```", begin) - begin);
-    make({"frames", "film.glb", "--json", "report.json"});
-    const auto told = nlohmann::ordered_json::parse(bytesOf("report.json"));
-    std::string written;
-    bool breaks = true;  // keys without others below them share a line with those next to them
-    for (const auto& [key, value] : told.items()) {
-        const auto& keyed = key == "frames" ? value.at(0) : value;
-        if (keyed.is_object()) {
-            written += (breaks ? "" : "\n") + key + ":";
-            for (const auto& member : keyed.items()) {
-                written += " " + member.key();
-            }
-            written += "\n";
-            breaks = true;
-        } else {
-            written += (breaks ? "" : " ") + key;
-            breaks = false;
-        }
-    }
-    EXPECT_EQ(block, written + "\n");
-    const auto& droplet = told["frames"][0]["droplets"][0];
-    for (const char* key : {"id", "from", "volume_m3", "pressure_pa", "height_max_m", "holes"}) {
-        EXPECT_TRUE(droplet.contains(key)) << key;
-    }
-}
-
 TEST_F(AnimateTest, SaysWhatItDid)
 {
     const auto result = run({"frames", "film.glb", "--volume", "20uL"});

@@ -255,6 +255,28 @@ TEST(Readme, EveryCommandHasAPage)
     }
 }
 
+/// The keys of a report as docs/reports.md shows them: those without others below them share a line with their
+/// neighbours; of an array named `rows`, the first row's.
+std::string keysOf(const nlohmann::ordered_json& report, const std::string& rows)
+{
+    std::string keys;
+    bool breaks = true;
+    for (const auto& [key, value] : report.items()) {
+        const auto& keyed = key == rows ? value.at(0) : value;
+        if (keyed.is_object()) {
+            keys += (breaks ? "" : "\n") + key + ":";
+            for (const auto& member : keyed.items()) {
+                keys += " " + member.key();
+            }
+            keys += "\n";
+        } else {
+            keys += (breaks ? "" : " ") + key;
+        }
+        breaks = keyed.is_object();
+    }
+    return keys + "\n";
+}
+
 TEST(Readme, ExitCodesAreTheCommands)
 {
     const std::string help = runDroplet({"--help"}).output;
@@ -271,33 +293,27 @@ TEST(Readme, ExitCodesAreTheCommands)
     EXPECT_EQ(count, 7);
 }
 
-TEST(Readme, ReportHasTheKeysShown)
+TEST(Readme, ReportsHaveTheKeysShown)
 {
-    const auto blocks = codeBlocks(sourceFile("docs/reports.md"), "report");
-    ASSERT_EQ(blocks.size(), 1U);
     testing::ScratchDirectory scratch;
-    const std::string report = (scratch.path() / "report.json").string();
-    const auto run = runDroplet({inSource("data/letter_g_1bit.png").string(), (scratch.path() / "droplet.glb").string(),
-                                 "--triangles", "1k", "--json", report});
-    ASSERT_EQ(run.exit_code, 0) << run.error;
-    std::string written;
-    const auto json = nlohmann::ordered_json::parse(testing::readFile(report));
-    bool breaks = true;  // keys without others below them share a line with those next to them
-    for (const auto& [key, value] : json.items()) {
-        const auto& keyed = key == "droplets" ? value.at(0) : value;
-        if (keyed.is_object()) {
-            written += (breaks ? "" : "\n") + key + ":";
-            for (const auto& member : keyed.items()) {
-                written += " " + member.key();
-            }
-            written += "\n";
-            breaks = true;
-        } else {
-            written += (breaks ? "" : " ") + key;
-            breaks = false;
+    const auto report_of = [&](std::vector<std::string> arguments, const std::string& data) {
+        const std::string path = (scratch.path() / "report.json").string();
+        for (const std::string& argument :
+             {inSource(data).string(), (scratch.path() / "droplet.glb").string(), std::string("--triangles"),
+              std::string("1k"), std::string("--json"), path}) {
+            arguments.push_back(argument);
         }
+        const auto run = runDroplet(arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return nlohmann::ordered_json::parse(testing::readFile(path));
+    };
+    const std::string page = sourceFile("docs/reports.md");
+    EXPECT_THAT(codeBlocks(page, "report"), ElementsAre(keysOf(report_of({}, "data/letter_g_1bit.png"), "droplets")));
+    const auto sequence = report_of({"animate"}, "data/closing");
+    EXPECT_THAT(codeBlocks(page, "sequence-report"), ElementsAre(keysOf(sequence, "frames")));
+    for (const char* key : {"id", "from", "volume_m3", "pressure_pa", "height_max_m", "holes"}) {
+        EXPECT_TRUE(sequence["frames"][0]["droplets"][0].contains(key)) << key;
     }
-    EXPECT_EQ(blocks[0], written + "\n");
 }
 
 TEST(Readme, FirstPictureIsWhatTheFirstCommandMakes)
