@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -79,15 +80,8 @@ int run(int argc, const char* const* argv)
     return cli::runShape(argc, argv);
 }
 
-}  // namespace
-
-int main(int argc, char** argv)
+int guardedRun(int argc, const char* const* argv)
 {
-    // A reader that went away is then a failed write like any other, found and named where it happens.
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);  // so is a file beyond the limit of its size
-    occupyStandardStreams();
-    keepMemory();
     try {
         return run(argc, argv);
     } catch (const droplet::Error& error) {
@@ -97,4 +91,20 @@ int main(int argc, char** argv)
     } catch (const std::exception& error) {
         return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    // A reader that went away is then a failed write like any other, found and named where it happens.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // so is a file beyond the limit of its size
+    occupyStandardStreams();
+    keepMemory();
+    const int code = guardedRun(argc, argv);
+    // Not by a return, which waits for threads of libraries: those of OpenBLAS, which may stand for the LAPACK that
+    // OpenCV loads, wait without end where memory is limited.
+    std::cout.flush();
+    std::_Exit(code);
 }
