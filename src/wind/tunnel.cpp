@@ -161,8 +161,7 @@ std::optional<double> criticalVolume(const ForceModel& model, double slope)
 
 std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap)
 {
-    constexpr double kWeber = 7.5;
-    const double wind = std::sqrt(kWeber * model.liquid.surface_tension / (model.air.density * cap.height));
+    const double wind = std::sqrt(kTearOffWeber * model.liquid.surface_tension / (model.air.density * cap.height));
     return std::isfinite(wind) ? std::optional(wind) : std::nullopt;
 }
 

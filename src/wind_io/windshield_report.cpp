@@ -119,7 +119,8 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     json["largest_residual"] = worst;
     json["counts"] = {{"raindrops", report.counts.raindrops}, {"merged", report.counts.merged},
                       {"swept", report.counts.swept},         {"grown", report.counts.grown},
-                      {"left", report.counts.left},           {"wiped", report.counts.wiped}};
+                      {"torn", report.counts.torn},           {"left", report.counts.left},
+                      {"wiped", report.counts.wiped}};
     json["warnings"] = report.warnings;
     json["time_s"] = {{"total", report.time_total}};
     json["peak_memory_bytes"] = report.peak_memory;

@@ -23,6 +23,11 @@ public:
     }
     /// Half the width seen from above: caps of more than 90° bulge over their rims.
     [[nodiscard]] double reach(const CapSize& cap) const { return wide_ ? cap.radius : cap.contact_radius; }
+    [[nodiscard]] double volumeOfHeight(double height) const
+    {
+        const double s = height / unit_.height;
+        return s * s * s;
+    }
     [[nodiscard]] double reach(double volume) const { return reach_ * std::cbrt(volume); }
     [[nodiscard]] double reach() const { return reach_; }
 

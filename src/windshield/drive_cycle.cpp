@@ -25,6 +25,11 @@ double DriveCycle::speedAt(double time) const
     return (1.0 - part) * speeds[k - 1] + part * speeds[k];
 }
 
+double DriveCycle::meanAcceleration(double from, double to) const
+{
+    return (speedAt(to) - speedAt(from)) / (to - from);
+}
+
 void DriveCycle::validate() const
 {
     const auto refuse = [](const std::string& what) { throw Error(ErrorCode::InvalidArgument, "vehicle." + what); };

@@ -300,6 +300,11 @@ Vec2 gravityAlong(const GlassPlace& place, double gravity)
     return along(place, {0.0, 0.0, -gravity});
 }
 
+Vec2 inertiaAlong(const GlassPlace& place, double acceleration)
+{
+    return along(place, {0.0, -acceleration, 0.0});
+}
+
 Vec2 windAlong(const GlassPlace& place, double speed, WindAlongGlass how)
 {
     const Vec2 projected = along(place, {0.0, -speed, 0.0});

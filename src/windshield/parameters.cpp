@@ -39,6 +39,7 @@ void WindshieldParameters::validate() const
             "more than 0 and at most 0.002 m");
     fluctuation.validate();
     streaks.validate();
+    require(tear_off_weber > 0.0, "tear_off_weber", tear_off_weber, "more than 0");
     for (const Wiper& wiper : wipers) {
         wiper.validate();
     }

@@ -14,7 +14,7 @@ namespace droplet {
 namespace {
 
 // After this line, everything in 8 bytes, the lowest first; reals as their IEEE 754 bits.
-constexpr std::string_view kHead = "droplet-shape windshield 1\n";
+constexpr std::string_view kHead = "droplet-shape windshield 2\n";
 
 class Writer {
 public:
@@ -124,8 +124,8 @@ template <class Archive, class State>
 void figures(Archive& archive, State& s)
 {
     archive.all(s.time, s.next_id, s.next_raindrop, s.until_raindrop, s.rained, s.left, s.wiped, s.merged, s.swept,
-                s.shed, s.counts.raindrops, s.counts.merged, s.counts.swept, s.counts.grown, s.counts.left,
-                s.counts.wiped);
+                s.shed, s.counts.raindrops, s.counts.merged, s.counts.swept, s.counts.grown, s.counts.torn,
+                s.counts.left, s.counts.wiped);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ public:
         drizzle(cells);
         merge(cells);
         sweep();
-        shed();
+        layDown();
         wipe();
         leave();
         s_.time += dt_;
@@ -114,21 +114,23 @@ private:
         const std::size_t count = s_.droplets.size();
         tracks_.resize(count);
         owner_.resize(count);
+        wind_.resize(count);
         std::iota(owner_.begin(), owner_.end(), 0U);
         grown_.assign(before_rain_, 0);
         grown_.resize(count, 1);  // raindrops may land on still droplets
         const double speed = p_.vehicle.speedAt(s_.time + 0.5 * dt_);
+        const double acceleration = p_.vehicle.meanAcceleration(s_.time, s_.time + dt_);
         forBlocks(
             count,
             [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    moveOne(i, speed);
+                    moveOne(i, speed, acceleration);
                 }
             },
             kWorthAThread);
     }
 
-    void moveOne(std::size_t i, double speed)
+    void moveOne(std::size_t i, double speed, double acceleration)
     {
         RunningDroplet& d = s_.droplets[i];
         tracks_.from[i] = d.position;
@@ -139,8 +141,9 @@ private:
             if (p_.relative_wind) {
                 wind = wind - d.velocity;
             }
-            const Vec2 push =
-                gravityAlong(*place, p_.forces.gravity) + pushOn(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
+            wind_[i] = wind;
+            const Vec2 push = gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
+                              pushOn(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
             const Vec2 driving = forces.mass * push + (forces.drag * sizeOf(wind)) * wind;
             const Moved result = moved(forces, driving, d.velocity, dt_);
             d.position = d.position + result.way;
@@ -180,11 +183,17 @@ private:
     /// What stood still is enough to run.
     void grow(const StillDroplet& drop)
     {
-        owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
-        s_.droplets.push_back({s_.next_id++, drop.position, {}, drop.volume, 0.0, 0});
-        tracks_.add(drop.position, drop.position, caps_.reach(drop.volume));
-        grown_.push_back(1);
+        begin(drop.position, {}, drop.volume);
         ++s_.counts.grown;
+    }
+
+    /// Adds a running droplet where it has no way yet.
+    void begin(Vec2 position, Vec2 velocity, double volume)
+    {
+        owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
+        s_.droplets.push_back({s_.next_id++, position, velocity, volume, 0.0, 0});
+        tracks_.add(position, position, caps_.reach(volume));
+        grown_.push_back(1);
     }
 
     /// A running droplet takes up water that was at rest: momentum is kept.
@@ -298,14 +307,12 @@ private:
         taking.close();
     }
 
-    /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
-    void shed()
+    /// What becomes of droplets once all have moved and merged: parts of them stay behind.
+    void layDown()
     {
-        if (p_.streaks.film == 0.0) {
-            return;
-        }
         const std::size_t count = s_.droplets.size();
-        for (std::size_t i = 0; i < count; ++i) {
+        tear();
+        for (std::size_t i = 0; p_.streaks.film > 0.0 && i < count; ++i) {
             if (s_.droplets[i].volume > 0.0 && tracks_.from[i] != tracks_.to[i]) {
                 shedOne(i);
             }
@@ -317,6 +324,83 @@ private:
         gather(std::move(pieces));
     }
 
+    /// Droplets too high for the wind become rows of equal ones down the wind, themselves the first, each where there
+    /// is room or beyond the edge. None is too small to run; water and momentum are kept.
+    void tear()
+    {
+        std::vector<Torn> torn;
+        for (std::uint32_t i = 0; i < wind_.size(); ++i) {
+            if (const double parts = partsOf(i); parts > 1.0) {
+                torn.push_back({i, s_.droplets[i].volume / parts, parts});
+            }
+        }
+        if (torn.empty()) {
+            return;
+        }
+        Tracks standing;
+        for (const RunningDroplet& d : s_.droplets) {
+            if (d.volume > 0.0) {
+                standing.add(d.position, d.position, caps_.reach(d.volume));
+            }
+        }
+        double margin = 0.0;
+        for (const Torn& one : torn) {
+            margin = std::max(margin, caps_.reach(one.volume));
+        }
+        const TrackCells cells(standing, {p_.glass.width(), p_.glass.height()}, margin);
+        Tracks laid;
+        for (const Torn& one : torn) {
+            layRow(one, cells, laid);
+        }
+    }
+
+    struct Torn {
+        std::uint32_t droplet = 0;
+        double volume = 0.0;  // of each part
+        double parts = 0.0;
+    };
+
+    double partsOf(std::size_t i) const
+    {
+        const double wind = sizeOf(wind_[i]);
+        const double highest =
+            p_.tear_off_weber * p_.forces.liquid.surface_tension / (p_.forces.air.density * wind * wind);
+        const double whole = s_.droplets[i].volume;
+        return std::min(std::ceil(whole / caps_.volumeOfHeight(highest)), std::floor(whole / rules_.greatest));
+    }
+
+    /// @param cells  of the droplets before any was torn
+    /// @param laid   what has been laid down since
+    void layRow(const Torn& torn, const TrackCells& cells, Tracks& laid)
+    {
+        const double reach = caps_.reach(torn.volume);
+        const Vec2 onward = (reach / sizeOf(wind_[torn.droplet])) * wind_[torn.droplet];
+        const auto is_free = [&](Vec2 place) {
+            if (cells.touchedBy(place, reach)) {
+                return false;
+            }
+            for (std::size_t k = 0; k < laid.count(); ++k) {
+                if (sizeOf(laid.to[k] - place) <= laid.reach[k] + reach) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        Vec2 place = s_.droplets[torn.droplet].position;
+        const Vec2 velocity = s_.droplets[torn.droplet].velocity;
+        s_.droplets[torn.droplet].volume = torn.volume;
+        for (double k = 1.0; k < torn.parts; ++k) {
+            place = place + onward;
+            while (p_.glass.holds(place) && !(p_.glass.holds(place + onward) && is_free(place))) {
+                place = place + onward;
+            }
+            begin(place, velocity, torn.volume);
+            laid.add(place, place, reach);
+            ++s_.counts.torn;
+        }
+    }
+
+    /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
     void shedOne(std::size_t i)
     {
         const double way = sizeOf(tracks_.to[i] - tracks_.from[i]);
@@ -411,6 +495,7 @@ private:
     std::size_t before_rain_ = 0;        // how many running droplets there were
     // Of every running droplet, in their order:
     Tracks tracks_;
+    std::vector<Vec2> wind_;            // along the glass, where it was before the step
     std::vector<std::uint32_t> owner_;  // who has its water
     std::vector<std::uint8_t> grown_;
 };

@@ -178,8 +178,9 @@ TEST(Windshield, FollowsTheDriveCycle)
     p.forces.wetting.hysteresis = 0.2;
     constexpr double kVolume = 20.0 * kMicrolitre;
     const DropletForces forces = forcesOn(p.forces, kVolume);
-    const double upper = std::sqrt((forces.weight * std::sin(45.0 * kDegree) + forces.retention) / forces.drag);
-    // From a wind that holds it: 0.5 m/s faster every second.
+    // From a wind that holds it: 0.5 m/s faster every second, which drives it up the glass, too.
+    const double hold = forces.weight * std::sin(45.0 * kDegree) + forces.retention;
+    const double upper = std::sqrt((hold - forces.mass * 0.5 * std::cos(45.0 * kDegree)) / forces.drag);
     p.vehicle = {{0.0, 8.0}, {upper - 2.0, upper + 2.0}};
     WindshieldState state = startWindshield(p);
     addRunning(state, {0.1, 0.05}, kVolume);
@@ -187,6 +188,81 @@ TEST(Windshield, FollowsTheDriveCycle)
         state = step(std::move(state), p, kDt);
     }
     EXPECT_NEAR(state.time, 4.0, 1.5 * kDt);
+}
+
+// Without air and friction, water slides as on a plane in a lift: by gravity, and by what the brakes take from the car.
+TEST(Windshield, ThrowsWaterForwardWhenTheCarBrakes)
+{
+    WindshieldParameters p = quietGlass();
+    p.glass = Glass({.width = 0.2, .height = 4.0, .radius = std::numeric_limits<double>::infinity()});
+    p.forces.air.density = 0.0;
+    p.forces.wetting.hysteresis = 0.0;
+    p.forces.wetting.viscosity_factor = 0.0;
+    p.vehicle = {{0.0, 0.5, 1.0}, {6.0, 6.0, 2.0}};
+    WindshieldState state = startWindshield(p);
+    addRunning(state, {0.1, 3.9}, 5.0 * kMicrolitre);
+    state = after(std::move(state), p, 0.025, 10);
+    const double down = kStandardGravity * std::sin(45.0 * kDegree);
+    EXPECT_NEAR(state.droplets[0].velocity.y, -0.25 * down, 1e-12);
+    state = after(std::move(state), p, 0.025, 20);
+    EXPECT_NEAR(state.droplets[0].velocity.y, -0.75 * down - 0.25 * 8.0 * std::cos(45.0 * kDegree), 1e-12);
+    EXPECT_NEAR(state.droplets[0].velocity.x, 0.0, 1e-15);
+}
+
+// ---- breaking up --------------------------------------------------------------------------------------------------
+
+TEST(Windshield, BreaksUpWhatIsTooHighForTheWind)
+{
+    WindshieldParameters p = quietGlass();
+    constexpr double kWind = 11.3;
+    p.vehicle = constantSpeed(kWind);
+    p.forces.wetting.contact_angle = 90.0 * kDegree;
+    p.forces.wetting.hysteresis = 2.0;  // nothing moves
+    const double highest = kTearOffWeber * p.forces.liquid.surface_tension / (p.forces.air.density * kWind * kWind);
+    const double largest = 2.0 / 3.0 * std::numbers::pi * std::pow(highest, 3);
+    struct Case {
+        double volumes = 0.0;
+        std::size_t droplets = 0;
+    };
+    for (const Case& one : {Case{0.99, 1}, Case{1.01, 2}, Case{4.5, 5}}) {
+        SCOPED_TRACE(one.volumes);
+        WindshieldState state = startWindshield(p);
+        addRunning(state, {0.1, 0.02}, one.volumes * largest);
+        state = after(std::move(state), p, kDt, 3);
+        ASSERT_EQ(state.droplets.size(), one.droplets);
+        EXPECT_EQ(state.counts.torn, one.droplets - 1);
+        EXPECT_EQ(state.droplets[0].position, (Vec2{0.1, 0.02}));
+        for (std::size_t k = 0; k < one.droplets; ++k) {
+            EXPECT_NEAR(state.droplets[k].volume * static_cast<double>(one.droplets), one.volumes * largest, 1e-20);
+            EXPECT_NEAR(state.droplets[k].position.x, 0.1, 1e-15);
+            EXPECT_TRUE(k == 0 || state.droplets[k].position.y > state.droplets[k - 1].position.y) << "up, as the wind";
+        }
+        EXPECT_NEAR(balanceOf(state).residual(), 0.0, 1e-15);
+        p.tear_off_weber = std::numeric_limits<double>::infinity();
+        WindshieldState whole = startWindshield(p);
+        addRunning(whole, {0.1, 0.02}, one.volumes * largest);
+        EXPECT_EQ(step(std::move(whole), p, kDt).droplets.size(), 1U);
+        p.tear_off_weber = kTearOffWeber;
+    }
+}
+
+// In the wind that holds droplets of every size, they merged to hemispheres of two millilitres.
+TEST(Windshield, LetsNothingGrowBeyondWhatTheWindTearsOff)
+{
+    WindshieldParameters p = quietGlass();
+    p.vehicle = constantSpeed(9.2);
+    p.rainfall = 200.0 * kMillimetrePerHour;
+    const double highest = kTearOffWeber * p.forces.liquid.surface_tension / (p.forces.air.density * 9.2 * 9.2);
+    const auto largest_after = [&](int steps) {
+        double largest = 0.0;
+        for (const RunningDroplet& d : after(startWindshield(p), p, 1.0 / 30.0, steps).droplets) {
+            largest = std::max(largest, capOf(d.volume, p.forces.wetting.contact_angle).height);
+        }
+        return largest / highest;
+    };
+    EXPECT_LT(largest_after(900), 1.02);  // but for what the last step swept up
+    p.tear_off_weber = std::numeric_limits<double>::infinity();
+    EXPECT_GT(largest_after(900), 1.3);
 }
 
 TEST(Windshield, SlowsByTheDropletsOwnSpeedWhereTheWindIsRelative)

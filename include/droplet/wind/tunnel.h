@@ -62,8 +62,11 @@ std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSet
 /// @param model  valid
 std::optional<double> criticalVolume(const ForceModel& model, double slope);
 
-/// The wind that tears a droplet off its place, from its height alone, for comparison: We = ρ_a U² y / γ ≈ 7.5 ± 0.5
-/// (Zhang et al., Phys. Rev. Fluids 9 (2024) 034004) [m/s]; empty where the air weighs nothing.
+/// The Weber number ρ_a U² y / γ at which wind tears a droplet of height y off its place, ± 0.5: Zhang et al., Phys.
+/// Rev. Fluids 9 (2024) 034004.
+inline constexpr double kTearOffWeber = 7.5;
+
+/// The wind that tears a droplet off its place, from its height alone [m/s]; empty where the air weighs nothing.
 std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap);
 
 /// What is swept: every value of one list with every one of the others.

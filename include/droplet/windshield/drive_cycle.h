@@ -14,6 +14,10 @@ struct DriveCycle {
     /// @return      [m/s]
     [[nodiscard]] double speedAt(double time) const;
 
+    /// @param from, to  [s], from < to
+    /// @return          mean acceleration from one time to the other [m/s²]
+    [[nodiscard]] double meanAcceleration(double from, double to) const;
+
     /// Guarantees: returns only when the invariants hold.
     /// @throws Error InvalidArgument
     void validate() const;

@@ -100,6 +100,10 @@ private:
 /// @param gravity  [m/s²], downward
 Vec2 gravityAlong(const GlassPlace& place, double gravity);
 
+/// What an accelerating vehicle does to water along the glass: less its acceleration, which points ahead [m/s²].
+/// @param acceleration  of the vehicle, ahead [m/s²]; negative: it brakes
+Vec2 inertiaAlong(const GlassPlace& place, double acceleration);
+
 /// The wind along the glass outside of its boundary layer [m/s], towards +y in the middle of a cylinder.
 /// @param speed  of the vehicle [m/s]
 Vec2 windAlong(const GlassPlace& place, double speed, WindAlongGlass how);

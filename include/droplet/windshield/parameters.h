@@ -6,6 +6,7 @@
 
 #include "droplet/units.h"
 #include "droplet/wind/forces.h"
+#include "droplet/wind/tunnel.h"
 #include "droplet/windshield/drive_cycle.h"
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/rain.h"
@@ -44,6 +45,8 @@ struct WindshieldParameters {
     bool relative_wind = false;    ///< drag by the wind relative to the moving droplet, instead of to the glass
     Fluctuation fluctuation;
     Streaks streaks;
+    /// Droplets so high that the Weber number of the wind along the glass is more break up; > 0, infinity: none does.
+    double tear_off_weber = kTearOffWeber;
     std::vector<Wiper> wipers;
     std::uint64_t seed = 1;
 

@@ -16,6 +16,7 @@ struct WindshieldCounts {
     std::uint64_t merged = 0;     ///< running droplets taken up by others
     std::uint64_t swept = 0;      ///< still droplets taken up by running ones
     std::uint64_t grown = 0;      ///< still droplets that became running ones
+    std::uint64_t torn = 0;       ///< droplets made by wind from larger ones
     std::uint64_t left = 0;       ///< running droplets that left over the edges
     std::uint64_t wiped = 0;      ///< droplets of both kinds
 
@@ -47,7 +48,9 @@ struct WindshieldState {
 WindshieldState startWindshield(const WindshieldParameters& parameters);
 
 /// Goes on by dt: rain arrives (Poisson), running droplets are moved by the forces (wind/forces.h), take up still ones
-/// along their way and merge where they touch, then wipers pass and what is beyond the edges has left.
+/// along their way and merge where they touch; those too high for the wind break up into the fewest equal ones that are
+/// not, in a row along the wind; then wipers pass and what is beyond the edges has left. A vehicle's acceleration acts
+/// on the droplets as gravity does.
 ///
 /// Guarantees: the same bytes from the same arguments, at any number of threads; water is kept (balanceOf); droplets in
 /// the order of their ids; a droplet whose forces are within the retention limit stays exactly where it is.
