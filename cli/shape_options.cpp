@@ -51,6 +51,7 @@ void declareShape(CommandLine& line)
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");
     declareShapes(line);
+    declareMaskOut(line);
     declarePreview(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     declareHtml(line);
@@ -213,6 +214,9 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     std::vector<std::string> warnings;
     options.preview = readPreview(line, warnings);
     options = readShapes(line, std::move(options), "OUTPUT");
+    if (const auto mask = line.value("--mask-out")) {
+        options.footprint.mask_out = mask->text;
+    }
     options.settings.warnings.insert(options.settings.warnings.end(), warnings.begin(), warnings.end());
     return options;
 }

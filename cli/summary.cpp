@@ -178,8 +178,13 @@ std::string penetration(const Report& report)
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
-    std::string text = line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
-                                          digits(liquid.density) + " kg/m³");
+    std::string text;
+    if (!report.input.type) {
+        text += line("mask", std::string("by ") + name(report.input.segment) + ", " +
+                                 digits(100.0 * report.input.segment_confidence, 2) + " % sure");
+    }
+    text += line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
+                               digits(liquid.density) + " kg/m³");
     text += line("gravity", gravity(report));
     text += line("ground", ground(report) + penetration(report));
     text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +
