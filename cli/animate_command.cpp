@@ -305,11 +305,7 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
 void tell(const droplet::SequenceReport& report, const RunOptions& run)
 {
     if (run.verbosity == Verbosity::Quiet) {
-        RunOptions loud = run;
-        loud.verbosity = Verbosity::Normal;
-        for (std::size_t i = 0; i < report.grave_warnings; ++i) {
-            tellWarning(report.warnings[i], loud);
-        }
+        tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
         return;
     }
     if (run.progress == ProgressMode::Json) {

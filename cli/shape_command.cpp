@@ -314,13 +314,10 @@ void tell(const droplet::Report& report, const RunOptions& run)
     if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
         std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    for (std::size_t i = 0; i < report.warnings.size(); ++i) {
-        RunOptions told = run;
-        if (i < report.grave_warnings && run.verbosity == Verbosity::Quiet) {
-            told.verbosity = Verbosity::Normal;
-        }
-        tellWarning(report.warnings[i], told);
+    for (const std::string& warning : report.warnings) {
+        tellWarning(warning, run);
     }
+    tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
 }
 
 }  // namespace
@@ -436,6 +433,19 @@ void tellWarning(const std::string& warning, const RunOptions& run)
         return;
     }
     std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
+}
+
+void tellGraveIfQuiet(const std::vector<std::string>& warnings, std::size_t grave, const RunOptions& run,
+                      const std::string& subject)
+{
+    if (run.verbosity != Verbosity::Quiet) {
+        return;
+    }
+    RunOptions loud = run;
+    loud.verbosity = Verbosity::Normal;
+    for (std::size_t i = 0; i < grave; ++i) {
+        tellWarning(subject + warnings[i], loud);
+    }
 }
 
 void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)

@@ -198,8 +198,7 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
     for (const char* option : {"--channel", "--fill", "--liquid", "--model", "--material", "--format", "--progress",
-                               "--grading", "--solver", "--view", "--segment", "--colour",
-                               "--preview-colour"}) {
+                               "--grading", "--solver", "--view", "--segment", "--colour", "--preview-colour"}) {
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
         for (const std::string& name : offered) {
