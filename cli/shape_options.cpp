@@ -32,6 +32,7 @@ const CommandText& commandText()
                                       "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
                                       "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
                                       "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+                                      "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
                                       "  droplet-shape - - --format stl < logo.png > logo.stl\n"
                                       "\n"
                                       "Exit codes:\n"

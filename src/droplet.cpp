@@ -103,7 +103,7 @@ std::string towers(const Droplet& droplet, Model model)
     const std::string which = droplet.figures.size() == 1
                                   ? "the droplet is "
                                   : std::to_string(count) + " of " + std::to_string(droplet.figures.size()) +
-                                        " droplets are too high, one is ";
+                                        (count == 1 ? " droplets stands" : " droplets stand") + " too high, up to ";
     return which + rounded(worst->height_max / kMillimetre) +
            " mm high, but a puddle of this liquid with a mean contact angle of " +
            rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
