@@ -147,8 +147,8 @@ private:
                         : firstFrame(std::move(outline), sequence_, progress_);
         droplet::FrameReport report = reportOf(*frame_, sequence_);
         report.input = picture.name;
-        for (const std::string& warning : frame_->droplet.warnings) {
-            warn(picture.name, warning);
+        for (std::size_t i = 0; i < frame_->droplet.warnings.size(); ++i) {
+            warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.grave_warnings);
         }
         if (options_.files) {
             progress_(Stage::Write);
@@ -214,11 +214,13 @@ private:
     }
 
     /// Frames tend to have the same to complain of; once is enough.
-    void warn(const std::string& name, const std::string& warning)
+    void warn(const std::string& name, const std::string& warning, bool is_grave)
     {
         const std::string kind = warning.substr(0, warning.find_first_of("0123456789"));
         if (told_.insert(kind).second) {
-            report_.warnings.push_back(name + ": " + warning);
+            report_.warnings.insert(is_grave ? report_.warnings.begin() : report_.warnings.end(),
+                                    name + ": " + warning);
+            report_.grave_warnings += is_grave ? 1 : 0;
         }
     }
 
@@ -303,6 +305,7 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
 void tell(const droplet::SequenceReport& report, const RunOptions& run)
 {
     if (run.verbosity == Verbosity::Quiet) {
+        tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
         return;
     }
     if (run.progress == ProgressMode::Json) {

@@ -132,6 +132,8 @@ public:
         }
     }
 
+    [[nodiscard]] bool has(const std::string& name) const { return app_.get_option_no_throw(name) != nullptr; }
+
     [[nodiscard]] bool flag(const std::string& name) const
     {
         const CLI::Option* option = app_.get_option(name);
@@ -191,8 +193,6 @@ public:
     [[nodiscard]] std::string help() const { return app_.help(); }
 
 private:
-    [[nodiscard]] bool has(const std::string& name) const { return app_.get_option_no_throw(name) != nullptr; }
-
     /// Whether the rest of the line does not matter.
     [[nodiscard]] bool asksForText() const
     {
@@ -365,6 +365,11 @@ void CommandLine::exclude(const std::vector<std::string>& names)
 void CommandLine::parse(int argc, const char* const* argv)
 {
     parser_->parse(argc, argv);
+}
+
+bool CommandLine::knows(const std::string& name) const
+{
+    return parser_->has(name);
 }
 
 bool CommandLine::flag(const std::string& name) const

@@ -48,6 +48,8 @@ public:
     /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
     void parse(int argc, const char* const* argv);
 
+    /// Whether an option of that name is declared.
+    [[nodiscard]] bool knows(const std::string& name) const;
     [[nodiscard]] bool flag(const std::string& name) const;
     [[nodiscard]] std::optional<Given> value(const std::string& name) const;
     /// Every value of an option that may be given several times, or of arguments, in their order.

@@ -23,7 +23,14 @@ _droplet_shape()
         --volume-mode) choices='total track' ;;
         --solver) choices='auto llt multigrid' ;;
         --view) choices='three-quarter top side' ;;
-        --colour) choices='look contours contact-angle' ;;
+        --segment) choices='auto threshold adaptive grabcut' ;;
+        --preview-colour) choices='look contours contact-angle' ;;
+        --colour)
+            choices='black white red green blue yellow'
+            if [[ ${COMP_WORDS[1]} == glyphs ]]; then
+                choices='look contours contact-angle'
+            fi
+            ;;
         --align) choices='start centre end' ;;
         --progress) choices='auto none json' ;;
         --preset)
@@ -40,7 +47,7 @@ _droplet_shape()
             fi
             choices='turned projected'
             ;;
-        --width | --pixel-size | --threshold | --speck-size | --contact-angle | --volume | --height | \
+        --width | --pixel-size | --threshold | --speck-size | --smooth | --fill-holes | --keep | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
             --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
@@ -54,7 +61,7 @@ _droplet_shape()
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | \
+        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | --mask-out | \
             --picture | --chart | --map | --trace | --drive-cycle | --background | --maps | \
             --droplets | --model | --json | --html | --export-evolver | --config) ;;
         *)
@@ -64,15 +71,16 @@ _droplet_shape()
                     --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
                     --advancing --receding --triangles --edge --grading --open --material'
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
-                local showing='--preview --view --preview-size --ground --colour --turntable'
-                local picture='--width --pixel-size --channel --threshold --invert --speck-size'
+                local showing='--preview --view --preview-size --ground --preview-colour --turntable'
+                local picture='--width --pixel-size --channel --threshold --invert --speck-size --segment --colour
+                    --smooth --fill-holes --keep'
                 case ${COMP_WORDS[1]} in
                     animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
                     batch)
                         choices="$picture $making $running --format --fill-range --json
                             --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet"
                         ;;
-                    glyphs) choices="$making $running $showing --format --fill-range --json --html --font --face-index
+                    glyphs) choices="$making $running $showing --colour --format --fill-range --json --html --font --face-index
                         --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
                         --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
@@ -89,7 +97,7 @@ _droplet_shape()
                         --gravity --time --warm-up --fps --background --fit --size --field-of-view
                         --eye-distance --samples --layer --codec --maps --map-width --droplets --model --json
                         --resume --no-clobber --threads --quiet --config --help --version' ;;
-                    *) choices="$picture $making $running $showing --format --fill-range --json --html --export-evolver" ;;
+                    *) choices="$picture --mask-out $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
             fi
             ;;

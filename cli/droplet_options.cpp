@@ -15,6 +15,7 @@ namespace {
 
 using droplet::Dimension;
 
+constexpr Range kArea{Dimension::Area, 0.0, 1e6, "from 0mm2 to 1e6m2"};
 constexpr Range kVolume{Dimension::Volume, 1e-27, 1e9, "from 1e-18uL to 1e9m3"};
 // 90° would stand upright: the height has no finite slope there.
 constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 89.999 * droplet::kDegree,
@@ -101,6 +102,42 @@ void readHysteresis(const CommandLine& line, DropletSettings& settings)
         refuse(*receding, "at most --advancing, '" + advancing->text + "'");
     }
     settings.hysteresis = hysteresis;
+}
+
+/// How liquid is told from dry, and what is done to the mask then.
+void readSegment(const CommandLine& line, FootprintOptions& options)
+{
+    using droplet::Segmentation;
+    const auto segment = line.value("--segment");
+    if (segment) {
+        options.mask.segment = choice<Segmentation>(*segment, {{"auto", Segmentation::Auto},
+                                                               {"threshold", Segmentation::Threshold},
+                                                               {"adaptive", Segmentation::Adaptive},
+                                                               {"grabcut", Segmentation::GrabCut}});
+    }
+    const auto channel = line.value("--channel");
+    if (segment && channel && channel->text == "alpha" && (segment->text == "adaptive" || segment->text == "grabcut")) {
+        refuse("--segment " + segment->text + " and --channel alpha exclude each other: alpha needs no search");
+    }
+    options.mask.insist = line.value("--threshold").has_value();
+    const auto colour = line.value("--colour");
+    if (colour && !isPreviewColour(colour->text)) {
+        if (segment) {
+            refuse("--segment and --colour exclude each other, give one of them");
+        }
+        options.mask.colour = forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
+    }
+    droplet::CleanOptions& clean = options.trace.clean;
+    if (const auto smooth = line.value("--smooth")) {
+        clean.smooth = quantity(*smooth, kLength);
+    }
+    if (const auto holes = line.value("--fill-holes")) {
+        clean.fill_holes = quantity(*holes, kArea);
+    }
+    if (const auto keep = line.value("--keep")) {
+        constexpr std::size_t kMost = 1'000'000;
+        clean.keep = count(*keep, kMost, "1M");
+    }
 }
 
 constexpr const char* kGroundWords =
@@ -250,8 +287,21 @@ void declareFootprint(CommandLine& line)
              "differs from the colour of its border [auto]");
     line.add(kGroup, "--threshold", "F", "coverage at which liquid begins, over 0, under 1 [0.5]");
     line.addFlag(kGroup, "--invert", "exchange liquid and dry");
+    line.add(kGroup, "--segment", "NAME",
+             "how liquid is told from dry: threshold, for drawings\n"
+             "and scans; adaptive, for photographs in uneven light;\n"
+             "grabcut, by colours; auto decides and says so [auto]");
+    line.add(kGroup, "--colour", "COLOUR", "take what is of this colour: red, #e30613");
+    line.add(kGroup, "--smooth", "LENGTH", "smooth away bends and spots narrower than that");
+    line.add(kGroup, "--fill-holes", "AREA", "fill holes smaller than that, such as glints");
+    line.add(kGroup, "--keep", "N", "keep the N largest droplets alone");
     line.add(kGroup, "--speck-size", "F", "drop spots and holes of less than F square pixels [3]");
     line.exclude({"--width", "--pixel-size"});
+}
+
+void declareMaskOut(CommandLine& line)
+{
+    line.add("Footprint", "--mask-out", "FILE", "write the mask that was used, PNG; - is stdout");
 }
 
 void declareLiquid(CommandLine& line)
@@ -328,6 +378,11 @@ void declareRun(CommandLine& line)
     line.exclude({"--quiet", "--verbose"});
 }
 
+bool isPreviewColour(const std::string& text)
+{
+    return text == "look" || text == "contours" || text == "contact-angle";
+}
+
 FootprintOptions readFootprint(const CommandLine& line)
 {
     FootprintOptions options;
@@ -352,6 +407,7 @@ FootprintOptions readFootprint(const CommandLine& line)
         trace.threshold = *number;
     }
     options.mask.invert = line.flag("--invert");
+    readSegment(line, options);
     if (const auto speck = line.value("--speck-size")) {
         const auto number = finiteNumber(speck->text);
         if (!number || *number < 0.0) {

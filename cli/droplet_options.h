@@ -22,7 +22,8 @@ inline constexpr std::size_t kMostTriangles = 100'000'000;
 /// What the help says of units, for footers.
 inline constexpr const char* kUnitsText =
     "Quantities carry a unit:\n"
-    "  lengths nm um mm cm m in; volumes nL uL mL L mm3 cm3 m3; angles deg rad;\n"
+    "  lengths nm um mm cm m in; areas um2 mm2 cm2 m2; angles deg rad;\n"
+    "  volumes nL uL mL L mm3 cm3 m3;\n"
     "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
     "  acceleration m/s2 mm/s2 g\n";
 
@@ -30,7 +31,8 @@ inline constexpr const char* kUnitsText =
 struct FootprintOptions {
     droplet::MaskOptions mask;
     droplet::TraceOptions trace;
-    bool sized = false;  ///< whether the picture's size is given
+    bool sized = false;                   ///< whether the picture's size is given
+    std::optional<std::string> mask_out;  ///< path of the mask that was used, or kStandardStream
 };
 
 /// How an outline becomes droplets, and how they look.
@@ -63,12 +65,17 @@ struct RunOptions {
 // Each command declares the groups it takes, in the order of its help, and reads them once the line is parsed.
 
 void declareFootprint(CommandLine& line);
+/// Of the commands that make one droplet, beside declareFootprint.
+void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line);
 void declareGround(CommandLine& line);
 void declareSurface(CommandLine& line);
 void declareRun(CommandLine& line);
 
 // All throw droplet::Error InvalidArgument, naming option, value and what is allowed.
+
+/// Whether a value of --colour is one of --preview-colour, which had that name before.
+bool isPreviewColour(const std::string& text);
 
 FootprintOptions readFootprint(const CommandLine& line);
 /// Liquid, ground and surface.

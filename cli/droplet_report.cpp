@@ -69,8 +69,10 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
     if (one_pressure) {
         report.pressure = report.droplets.front().pressure;
     }
-    report.warnings = settings.warnings;
-    report.warnings.insert(report.warnings.end(), droplet.warnings.begin(), droplet.warnings.end());
+    report.warnings = droplet.warnings;
+    report.grave_warnings = droplet.grave_warnings;
+    const auto grave_end = report.warnings.begin() + static_cast<std::ptrdiff_t>(report.grave_warnings);
+    report.warnings.insert(grave_end, settings.warnings.begin(), settings.warnings.end());
     return report;
 }
 

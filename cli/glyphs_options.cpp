@@ -187,7 +187,7 @@ void refuseOthers(const CommandLine& line, bool is_text)
         return;
     }
     for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
-                               "--ground", "--colour", "--turntable", "--html"}) {
+                               "--ground", "--preview-colour", "--colour", "--turntable", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }

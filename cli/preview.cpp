@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "droplet/picture/paint.h"
+#include "droplet_options.h"
 
 namespace cli {
 namespace {
@@ -93,9 +94,12 @@ void declarePreview(CommandLine& line)
     line.add("Picture", "--ground", "PICTURE",
              "what it stands on: laid as the footprint's picture is,\n"
              "or on the object of --onto [a table with a ruling]");
-    line.add("Picture", "--colour", "NAME",
+    line.add("Picture", "--preview-colour", "NAME",
              "look; or contours of heights, or contact-angle along\n"
              "the rim, with a legend [look]");
+    if (!line.knows("--colour")) {
+        line.add("Picture", "--colour", "NAME", "its older name");
+    }
     line.add("Picture", "--turntable", "N", "N pictures of a whole turn, FILE-001.png and so on");
 }
 
@@ -114,7 +118,15 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     if (ground) {
         options.ground = ground->text;
     }
-    if (const auto colour = line.value("--colour")) {
+    auto colour = line.value("--preview-colour");
+    if (const auto older = line.value("--colour");
+        older && (isPreviewColour(older->text) || !line.knows("--segment"))) {
+        if (colour) {
+            refuse("--preview-colour and --colour " + older->text + " exclude each other, give one of them");
+        }
+        colour = older;
+    }
+    if (colour) {
         options.colouring = choice<Colouring>(
             *colour,
             {{"look", Colouring::Look}, {"contours", Colouring::Contours}, {"contact-angle", Colouring::ContactAngle}});
@@ -124,10 +136,13 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     }
     const auto preview = line.value("--preview");
     if (!preview) {
-        for (const char* option : {"--view", "--preview-size", "--ground", "--colour", "--turntable"}) {
+        for (const char* option : {"--view", "--preview-size", "--ground", "--turntable"}) {
             if (line.value(option)) {
                 warnings.push_back(std::string(option) + " has no effect without --preview");
             }
+        }
+        if (colour) {
+            warnings.push_back(colour->subject + " has no effect without --preview");
         }
         return std::nullopt;
     }
@@ -143,11 +158,11 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     }
     if (options.colouring != Colouring::Look) {
         if (ground) {
-            warnings.push_back("--ground has no effect with --colour " + line.value("--colour")->text);
+            warnings.push_back("--ground has no effect with " + colour->subject + " " + colour->text);
             options.ground.reset();
         }
         if (options.colouring == Colouring::Contours && line.value("--onto")) {
-            refuse("--colour contours and --onto exclude each other: heights are counted from flat ground");
+            refuse(colour->subject + " contours and --onto exclude each other: heights are counted from flat ground");
         }
     }
     return options;

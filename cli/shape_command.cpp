@@ -19,6 +19,7 @@
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/page.h"
+#include "droplet/picture/picture.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
@@ -99,6 +100,26 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
     return settings;
 }
 
+/// What is said of a mask that may not be what was meant.
+std::optional<std::string> doubtOf(const droplet::Mask& mask)
+{
+    constexpr double kSure = 0.5;
+    if (mask.segment_confidence >= kSure) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "the picture is hardly a mask ({:.0f} % sure, taken by --segment {}); --mask-out shows what was "
+        "taken, --segment, --channel and --threshold change it",
+        100.0 * mask.segment_confidence, name(mask.segment));
+}
+
+/// The mask as it was traced, of 16 bits.
+void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::TraceOptions& trace)
+{
+    const droplet::Mask used = droplet::clean(mask, trace.clean, droplet::pixelSize(mask, trace), trace.threshold);
+    droplet::writePng(droplet::DeepPicture{used.width, used.height, 1, used.coverage}, out);
+}
+
 double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
 {
     const double pixel = droplet::pixelSize(mask, options);
@@ -116,6 +137,8 @@ droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Out
     input.pixel_size = outline.pixel_size;
     input.channel = mask.channel;
     input.inverted = mask.inverted;
+    input.segment = mask.segment;
+    input.segment_confidence = mask.segment_confidence;
     input.threshold = options.footprint.trace.threshold;
     input.level_dry = mask.level_dry;
     input.level_liquid = mask.level_liquid;
@@ -171,9 +194,9 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     return subject;
 }
 
-/// Writes the surface and, if asked for, the datafile for Surface Evolver, the page, pictures and the report.
+/// Writes the surface and, if asked for, its mask, the datafile for Surface Evolver, the page, pictures and the report.
 void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
-          StageClock& clock, droplet::Report& report)
+          const std::optional<OutputFile>& mask, StageClock& clock, droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!slidesInPageAlone(options)) {
@@ -185,6 +208,9 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                              droplet::writeSurface(droplet.surface, out, options.format,
                                                    {options.settings.material, report.output.topology.closed});
                      }});
+    if (mask) {
+        files.push_back(*mask);
+    }
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
                              droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, report.physics);
@@ -232,7 +258,8 @@ struct Stages {
 
 /// Lays a droplet on its object, writes its files, and says what was done.
 droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
-                       const Surroundings& around, const ShapeOptions& options, Stages& stages)
+                       const Surroundings& around, const ShapeOptions& options, Stages& stages,
+                       const std::optional<OutputFile>& mask = std::nullopt)
 {
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
@@ -248,7 +275,7 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const d
     if (options.preview) {
         subject.emplace(subjectOf(droplet, settings, around));
     }
-    save(droplet, options, subject, stages.clock, report);
+    save(droplet, options, subject, mask, stages.clock, report);
     return report;
 }
 
@@ -271,7 +298,15 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
     droplet::InputReport input = describeInput(mask, droplet.outline, options);
     input.own_size = takesOwnSize(mask, around, options);
-    return finish(std::move(droplet), settings, input, around, options, stages);
+    if (auto doubt = doubtOf(mask)) {
+        settings.warnings.insert(settings.warnings.begin(), std::move(*doubt));
+    }
+    std::optional<OutputFile> mask_file;
+    if (options.footprint.mask_out) {
+        mask_file = {*options.footprint.mask_out,
+                     [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
+    }
+    return finish(std::move(droplet), settings, input, around, options, stages, mask_file);
 }
 
 void tell(const droplet::Report& report, const RunOptions& run)
@@ -282,6 +317,7 @@ void tell(const droplet::Report& report, const RunOptions& run)
     for (const std::string& warning : report.warnings) {
         tellWarning(warning, run);
     }
+    tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
 }
 
 }  // namespace
@@ -355,6 +391,9 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     if (options.json) {
         outputs.push_back({"--json", *options.json});
     }
+    if (options.footprint.mask_out) {
+        outputs.push_back({"--mask-out", *options.footprint.mask_out});
+    }
     if (options.evolver) {
         outputs.push_back({"--export-evolver", *options.evolver});
     }
@@ -394,6 +433,19 @@ void tellWarning(const std::string& warning, const RunOptions& run)
         return;
     }
     std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
+}
+
+void tellGraveIfQuiet(const std::vector<std::string>& warnings, std::size_t grave, const RunOptions& run,
+                      const std::string& subject)
+{
+    if (run.verbosity != Verbosity::Quiet) {
+        return;
+    }
+    RunOptions loud = run;
+    loud.verbosity = Verbosity::Normal;
+    for (std::size_t i = 0; i < grave; ++i) {
+        tellWarning(subject + warnings[i], loud);
+    }
 }
 
 void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)

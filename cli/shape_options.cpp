@@ -32,6 +32,7 @@ const CommandText& commandText()
                                       "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
                                       "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
                                       "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+                                      "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
                                       "  droplet-shape - - --format stl < logo.png > logo.stl\n"
                                       "\n"
                                       "Exit codes:\n"
@@ -51,6 +52,7 @@ void declareShape(CommandLine& line)
                      "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
                      "- is standard output and needs --format");
     declareShapes(line);
+    declareMaskOut(line);
     declarePreview(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     declareHtml(line);
@@ -213,6 +215,9 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     std::vector<std::string> warnings;
     options.preview = readPreview(line, warnings);
     options = readShapes(line, std::move(options), "OUTPUT");
+    if (const auto mask = line.value("--mask-out")) {
+        options.footprint.mask_out = mask->text;
+    }
     options.settings.warnings.insert(options.settings.warnings.end(), warnings.begin(), warnings.end());
     return options;
 }

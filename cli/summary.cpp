@@ -62,13 +62,17 @@ std::string line(const std::string& label, const std::string& text)
 std::string picture(const droplet::InputReport& input)
 {
     const bool alpha = input.channel == droplet::Channel::Alpha;
-    const std::string liquid =
-        alpha ? (input.inverted ? "transparent" : "opaque") : (input.inverted ? "dark" : "bright");
+    const std::string liquid = input.segment == droplet::Segmentation::Colour ? "one colour"
+                               : alpha ? (input.inverted ? "transparent" : "opaque")
+                                       : (input.inverted ? "dark" : "bright");
     const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +
                              (input.own_size ? " as it states" : "") + ", drawn with ";
     std::string text = fmt::format("{}{} × {} pixels of {}; {} is liquid ({}), {} edges", input.drawn ? page : "",
                                    input.width_px, input.height_px, millimetres(input.pixel_size), liquid,
-                                   alpha ? "alpha" : "luma", input.anti_aliased ? "anti-aliased" : "hard");
+                                   input.segment == droplet::Segmentation::Colour ? "--colour"
+                                   : alpha                                        ? "alpha"
+                                                                                  : "luma",
+                                   input.anti_aliased ? "anti-aliased" : "hard");
     if (input.specks_dropped > 0) {
         text += "; " + counted(input.specks_dropped, "speck") + " dropped, the largest of " +
                 digits(input.largest_speck_px, 3) + " pixels";
@@ -178,8 +182,13 @@ std::string penetration(const Report& report)
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
-    std::string text = line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
-                                          digits(liquid.density) + " kg/m³");
+    std::string text;
+    if (!report.input.type) {
+        text += line("mask", fmt::format("by {}, {:.0f} % sure", name(report.input.segment),
+                                         100.0 * report.input.segment_confidence));
+    }
+    text += line("liquid", liquid.name + ", " + digits(liquid.surface_tension * 1e3) + " mN/m, " +
+                               digits(liquid.density) + " kg/m³");
     text += line("gravity", gravity(report));
     text += line("ground", ground(report) + penetration(report));
     text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +

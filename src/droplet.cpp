@@ -74,6 +74,43 @@ double uprightShare(const Droplet& droplet)
     return upright / droplet.total.rim_length;
 }
 
+/// How high a droplet may be before it is called a tower. Of droplets with one contact angle all along the rim round
+/// ones six capillary lengths wide are higher than an endless puddle, by 8 % for small angles, where (I₀(x) − 1)/I₁(x)
+/// has its maximum. Where a jagged rim has small angles the mean is small beside what holds up the middle: real
+/// drawings reach 33 %. The linear model's puddle is √(σ/ρg) tan θ high, which is to be believed up to 50°.
+double tallest(const ShapeFigures& figures, Model model)
+{
+    constexpr double kRoundAndJagged = 1.4;
+    const double angle = std::min(figures.contact_angle.mean, 50.0 * kDegree);
+    const double linear = std::tan(angle) / (2.0 * std::sin(0.5 * angle));
+    return *figures.height_bound * kRoundAndJagged * (model == Model::Linear ? linear : 1.0);
+}
+
+/// What is said of droplets that are towers; empty if none is.
+std::string towers(const Droplet& droplet, Model model)
+{
+    std::size_t count = 0;
+    const ShapeFigures* worst = nullptr;
+    for (const ShapeFigures& figures : droplet.figures) {
+        if (figures.height_bound && figures.height_max > tallest(figures, model)) {
+            ++count;
+            worst = worst == nullptr || figures.height_max > worst->height_max ? &figures : worst;
+        }
+    }
+    if (worst == nullptr) {
+        return {};
+    }
+    const std::string which = droplet.figures.size() == 1
+                                  ? "the droplet is "
+                                  : std::to_string(count) + " of " + std::to_string(droplet.figures.size()) +
+                                        (count == 1 ? " droplets stands" : " droplets stand") + " too high, up to ";
+    return which + rounded(worst->height_max / kMillimetre) +
+           " mm high, but a puddle of this liquid with a mean contact angle of " +
+           rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
+           rounded(*worst->height_bound / kMillimetre) +
+           " mm; look whether its footprint is what was meant, or ask for less liquid";
+}
+
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
 {
     constexpr double kVisible = 1e-6;  // of the height; less is round-off
@@ -176,6 +213,10 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     }
     droplet.surface = loft(droplet.meshes, droplet.solution.droplets, lofting);
     droplet.warnings = warningsOf(droplet, options);
+    if (std::string tall = towers(droplet, options.solve.model); !tall.empty()) {
+        droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
+        droplet.grave_warnings = 1;
+    }
 }
 
 Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)

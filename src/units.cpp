@@ -29,6 +29,7 @@ struct Kind {
 
 constexpr std::array kLengths{Unit{"nm", 1, 1e9}, Unit{"um", 1, 1e6}, Unit{"mm", 1, 1e3},
                               Unit{"cm", 1, 1e2}, Unit{"m", 1, 1},    Unit{"in", 254, 1e4}};
+constexpr std::array kAreas{Unit{"um2", 1, 1e12}, Unit{"mm2", 1, 1e6}, Unit{"cm2", 1, 1e4}, Unit{"m2", 1, 1}};
 constexpr std::array kVolumes{Unit{"nL", 1, 1e12}, Unit{"uL", 1, 1e9},  Unit{"mL", 1, 1e6}, Unit{"L", 1, 1e3},
                               Unit{"mm3", 1, 1e9}, Unit{"cm3", 1, 1e6}, Unit{"m3", 1, 1}};
 constexpr std::array kAngles{Unit{"deg", std::numbers::pi, 180}, Unit{"rad", 1, 1}};
@@ -46,6 +47,8 @@ Kind kindOf(Dimension dimension)
     switch (dimension) {
         case Dimension::Length:
             return {"a length", "4mm", kLengths};
+        case Dimension::Area:
+            return {"an area", "1.5mm2", kAreas};
         case Dimension::Volume:
             return {"a volume", "30uL", kVolumes};
         case Dimension::Angle:

@@ -651,6 +651,36 @@ TEST(Droplet, EstimatesTheErrorOfSlopesBeyondTheModel)
     }
 }
 
+TEST(Droplet, WarnsOfTowersAndStatesHowHighAPuddleIs)
+{
+    DropletOptions options = plain();
+    options.solve.gravity = 9.81;
+    const Mask mask = smoothMask(220, 220, disc({110, 110}, 100));  // seven capillary lengths to the rim
+    for (const Model model : {Model::Linear, Model::Exact}) {
+        options.solve.model = model;
+        options.solve.fill = {FillBy::ContactAngle, 40.0 * kDegree, FillSharing::Each};
+        const Droplet puddle = makeDroplet(mask, options);
+        const double length = *capillaryLength(options.solve.liquid, options.solve.gravity);
+        ASSERT_TRUE(puddle.total.height_bound);
+        EXPECT_NEAR(*puddle.total.height_bound, 2.0 * length * std::sin(20.0 * kDegree), 1e-9 * length);
+        EXPECT_EQ(puddle.grave_warnings, 0U) << ::testing::PrintToString(puddle.warnings);
+    }
+    options.solve.model = Model::Linear;
+    options.solve.fill = {FillBy::Height, 30.0 * kMillimetre, FillSharing::Each};
+    const Droplet tower = makeDroplet(mask, options);
+    ASSERT_EQ(tower.grave_warnings, 1U);
+    EXPECT_THAT(tower.warnings.front(), HasSubstr("30 mm high, but a puddle of this liquid"));
+
+    // Nothing holds a droplet down without weight; on a slope it gathers at the lower end.
+    options.solve.gravity = 0.0;
+    EXPECT_FALSE(makeDroplet(mask, options).total.height_bound);
+    options.solve.gravity = 9.81;
+    options.solve.tilt = 10.0 * kDegree;
+    const Droplet inclined = makeDroplet(mask, options);
+    EXPECT_FALSE(inclined.total.height_bound);
+    EXPECT_EQ(inclined.grave_warnings, 0U);
+}
+
 TEST(Droplet, RefusesWhatDoesNotExist)
 {
     const Mask mask = smoothMask(256, 256, disc({128.0, 128.0}, 100.0));

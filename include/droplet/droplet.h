@@ -39,6 +39,7 @@ struct Droplet {
     ShapeFigures total;
     Surface surface;
     std::vector<std::string> warnings;  ///< one line each; empty when all is well
+    std::size_t grave_warnings = 0;     ///< so many of the first say that the droplet cannot be right
 };
 
 /// All stages in one call: trace, split, triangulate, solve, measure, loft.

@@ -10,6 +10,7 @@ namespace droplet {
 /// The physical kinds a written quantity can have.
 enum class Dimension {
     Length,
+    Area,
     Volume,
     Angle,
     SurfaceTension,
@@ -30,12 +31,14 @@ inline constexpr double kMillimetrePerHour = 1e-3 / 3600.0;  ///< [m/s]
 ///
 /// A bare number is refused: which unit was meant would be a guess.
 /// @param text       number directly followed by, or one space before, a unit; the number must be finite
-/// @param dimension  which units are admitted: Length nm um mm cm m in; Volume nL uL mL L mm3 cm3 m3;
+/// @param dimension  which units are admitted: Length nm um mm cm m in; Area um2 mm2 cm2 m2; Volume nL uL mL L mm3 cm3
+/// m3;
 ///                   Angle deg rad; SurfaceTension mN/m N/m dyn/cm; Density kg/m3 g/cm3 g/mL;
 ///                   Acceleration m/s2 mm/s2 g (kStandardGravity); Speed mm/s m/s km/h mph; Duration ms s min h;
 ///                   Rainfall mm/h in/h; Viscosity mPa.s Pa.s. `µ` is read as `u`, `³`/`²` as `3`/`2`,
 ///                   `°` as `deg`.
-/// @return           the value in SI units (m, m³, rad, N/m, kg/m³, m/s², m/s, s, Pa·s; rainfall too in m/s), finite
+/// @return           the value in SI units (m, m², m³, rad, N/m, kg/m³, m/s², m/s, s, Pa·s; rainfall too in m/s),
+/// finite
 /// @throws Error     InvalidArgument, naming the text, the admitted units and an example
 double parseQuantity(std::string_view text, Dimension dimension);
 

@@ -8,10 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "droplet/error.h"
+#include "footprint/segmentation.h"
 #include "image/image.h"
 #include "image/image_file.h"
 #include "number_text.h"
@@ -62,6 +65,7 @@ std::uint64_t pixelsAt(const Histogram& histogram, std::int64_t level)
 struct Range {
     std::int64_t dry = 0;
     std::int64_t liquid = kWhite;
+    bool is_uneven = false;  ///< whether much of the picture is dry by far: the border does not tell of the middle
 };
 
 /// Whether two levels this far apart are told apart: a quarter of the range.
@@ -142,7 +146,13 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
     const std::int64_t darker = farthest(histogram, dry, -1, marked);
     const std::int64_t brighter = farthest(histogram, dry, +1, marked);
     if (std::max(darker, brighter) > 0) {
-        return {dry, brighter >= darker ? dry + brighter : dry - darker};
+        const bool is_dark = brighter < darker;
+        const std::int64_t distance = is_dark ? darker : brighter;
+        std::uint64_t beyond = 0;
+        for (std::int64_t level = 0; level <= kWhite; ++level) {
+            beyond += 4 * (is_dark ? level - dry : dry - level) > distance ? pixelsAt(histogram, level) : 0;
+        }
+        return {dry, is_dark ? dry - distance : dry + distance, 10 * beyond > plane.size()};
     }
     // Nothing stands out. Unstretched, towards the farther end of the range, no pixel reaches half.
     return {dry, 2 * dry > kWhite ? 0 : kWhite};
@@ -192,15 +202,28 @@ void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool inve
     }
 }
 
-/// Decides which levels are liquid, and turns one plane of the image into coverage in place.
-/// @throws Error InvalidInput: no alpha where alpha was asked
-Mask maskFromImage(Image image, const MaskOptions& options)
+/// What a mask takes over from its picture: all but the coverage.
+Mask blankMask(const Image& image)
 {
     Mask mask;
     mask.width = image.width;
     mask.height = image.height;
     mask.drawn_scale = image.drawn_scale;
     mask.physical_width = image.physical_width;
+    return mask;
+}
+
+/// A mask, and whether the ground it was told from has one level.
+struct LevelMask {
+    Mask mask;
+    bool is_uneven = false;
+};
+
+/// Decides which levels are liquid, and turns one plane of the image into coverage in place.
+/// @throws Error InvalidInput: no alpha where alpha was asked
+LevelMask maskFromImage(Image image, const MaskOptions& options)
+{
+    Mask mask = blankMask(image);
     mask.channel = options.channel;
     if (options.channel == Channel::Auto) {
         mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
@@ -222,6 +245,95 @@ Mask maskFromImage(Image image, const MaskOptions& options)
     mask.inverted = range.liquid < range.dry;
     mask.level_dry = static_cast<double>(range.dry) / static_cast<double>(kWhite);
     mask.level_liquid = static_cast<double>(range.liquid) / static_cast<double>(kWhite);
+    return {std::move(mask), range.is_uneven};
+}
+
+/// The mask that a way of segmentation other than one threshold makes of a picture; none if it finds nothing.
+/// @param image    with colour
+/// @param segment  Adaptive, GrabCut or Colour
+std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Segmentation segment)
+{
+    std::optional<Segmented> found;
+    if (segment == Segmentation::Colour) {
+        found = segmentColour(image, *options.colour);
+    } else if (segment == Segmentation::GrabCut) {
+        found = segmentGrabCut(image);
+    } else {
+        found = segmentAdaptive({image.width, image.height, image.luma});
+    }
+    if (!found) {
+        return std::nullopt;
+    }
+    Mask mask = blankMask(image);
+    mask.coverage = std::move(found->coverage.levels);
+    mask.segment = segment;
+    mask.segment_confidence = found->confidence;
+    if (segment != Segmentation::Colour) {
+        mask.segment_confidence *= fewColours(image, mask.coverage);
+    }
+    mask.level_dry = found->level_dry;
+    mask.level_liquid = found->level_liquid;
+    if (options.invert) {
+        applyRange(mask.coverage, {}, true);
+        std::swap(mask.level_dry, mask.level_liquid);
+    }
+    mask.inverted = mask.level_liquid < mask.level_dry;
+    return mask;
+}
+
+Image decodeColours(std::span<const std::byte> encoded, const MaskOptions& options)
+{
+    return decodeImage(encoded, {options.max_pixels, options.vector_long_side, true});
+}
+
+/// A picture whose luma is as it is seen in front of black.
+Image inFrontOfBlack(Image image)
+{
+    if (!image.alpha.empty()) {
+        Image grey;
+        grey.luma = std::move(image.luma);
+        grey.alpha = std::move(image.alpha);
+        grey.premultiplied = image.premultiplied;
+        image.luma = lumaOverBlack(std::move(grey));
+        image.alpha.clear();
+    }
+    return image;
+}
+
+/// What Segmentation::Auto makes of a picture of which one threshold makes a mask.
+/// @throws Error InvalidInput: it is no mask, however it is taken
+Mask decided(std::span<const std::byte> encoded, const MaskOptions& options, LevelMask levels)
+{
+    constexpr double kClean = 0.9;
+    constexpr double kBetter = 0.05;
+    constexpr double kNoMask = 0.3;
+    Mask mask = std::move(levels.mask);
+    const MaskLook look = lookOfMask({mask.width, mask.height, mask.coverage}, true);
+    mask.segment_confidence = look.confidence;
+    if (look.confidence >= kClean && !levels.is_uneven) {
+        return mask;
+    }
+    const Image image = inFrontOfBlack(decodeColours(encoded, options));
+    // One level in the middle of several grounds puts rims off.
+    constexpr double kUneven = 0.7;
+    mask.segment_confidence *= fewColours(image, mask.coverage) * (levels.is_uneven ? kUneven : 1.0);
+    // A drawing may have any number of colours.
+    if (look.has_rim && isDrawn({image.width, image.height, image.luma})) {
+        mask.segment_confidence = std::max(0.5, mask.segment_confidence);
+        if (look.sharp) {
+            return mask;
+        }
+    }
+    auto other = segmented(image, options, Segmentation::Adaptive);
+    if (other && other->segment_confidence > mask.segment_confidence + kBetter &&
+        other->segment_confidence >= kNoMask) {
+        return std::move(*other);
+    }
+    if (look.has_rim && mask.segment_confidence < kNoMask && !options.insist) {
+        throw Error(ErrorCode::InvalidInput,
+                    "is no picture of a footprint: it does not fall into liquid and dry with an edge between them; "
+                    "--segment or --threshold takes it all the same");
+    }
     return mask;
 }
 
@@ -230,7 +342,26 @@ Mask maskFromImage(Image image, const MaskOptions& options)
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
-        return maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
+        if (options.colour) {
+            return *segmented(decodeColours(encoded, options), options, Segmentation::Colour);
+        }
+        const bool by_levels = options.segment == Segmentation::Auto || options.segment == Segmentation::Threshold;
+        LevelMask levels = maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
+        Mask& mask = levels.mask;
+        if (mask.channel == Channel::Alpha) {
+            return mask;
+        }
+        if (by_levels) {
+            const bool is_open = options.segment == Segmentation::Auto && options.channel == Channel::Auto;
+            return is_open && !mask.drawn_scale ? decided(encoded, options, std::move(levels)) : std::move(mask);
+        }
+        if (auto found = segmented(inFrontOfBlack(decodeColours(encoded, options)), options, options.segment)) {
+            return std::move(*found);
+        }
+        throw Error(ErrorCode::InvalidInput,
+                    std::string("--segment ") + name(options.segment) + " finds no edge in the picture, so no liquid");
+    } catch (const cv::Exception&) {
+        throwOutOfMemory();
     } catch (const std::bad_alloc&) {
         throwOutOfMemory();
     }

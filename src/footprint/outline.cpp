@@ -453,6 +453,7 @@ void TraceOptions::validate() const
         require(*pixel_size > 0.0 && std::isfinite(*pixel_size), "pixel_size", *pixel_size, "finite and more than 0 m");
     }
     require(speck_size >= 0.0 && std::isfinite(speck_size), "speck_size", speck_size, "finite and at least 0 px²");
+    clean.validate();
 }
 
 double signedArea(const Loop& loop)
@@ -474,6 +475,11 @@ Outline trace(const Mask& mask, const TraceOptions& options)
 {
     mask.validate();
     options.validate();
+    if (options.clean.any()) {
+        TraceOptions as_it_is = options;
+        as_it_is.clean = {};
+        return trace(clean(mask, options.clean, pixelSize(mask, options), options.threshold), as_it_is);
+    }
     const Field field(mask, options.threshold);
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * kFull));
     const std::vector<Border> borders = followBorders(mask, level);

@@ -158,6 +158,12 @@ ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const Sol
     figures.bond_number = density * std::abs(options.gravity) * total.area / (std::numbers::pi * sigma);
     const double along = length(gravity.along);
     measureRim(mesh, field, along > 0.0 ? (1.0 / along) * gravity.along : Vec2{}, figures);
+    const double angle = figures.contact_angle.mean;
+    if (options.ground.flat() && along == 0.0 && gravity.normal > 0.0 && angle > 0.0) {
+        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
+            figures.height_bound = 2.0 * *unit * std::sin(0.5 * angle);
+        }
+    }
     return figures;
 }
 
@@ -173,6 +179,7 @@ ShapeFigures combine(const std::vector<ShapeFigures>& droplets)
         total.dry_area += d.dry_area;
         total.volume += d.volume;
         total.height_max = std::max(total.height_max, d.height_max);
+        total.height_bound = std::max(total.height_bound, d.height_bound);  // of none, none
         total.depth_max = std::max(total.depth_max, d.depth_max);
         total.liquid_area += d.liquid_area;
         total.linear_area += d.linear_area;

@@ -98,7 +98,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
-    EXPECT_THAT(longOptions(help()), SizeIs(48));
+    EXPECT_THAT(longOptions(help()), SizeIs(54));
     auto known = longOptions(help());
     for (const std::string& command : commands()) {
         known.merge(longOptions(help(command)));
@@ -198,7 +198,7 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
     for (const char* option : {"--channel", "--fill", "--liquid", "--model", "--material", "--format", "--progress",
-                               "--grading", "--solver", "--view", "--colour"}) {
+                               "--grading", "--solver", "--view", "--segment", "--colour", "--preview-colour"}) {
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
         for (const std::string& name : offered) {

@@ -119,7 +119,8 @@ TEST_F(PreviewTest, RefusesWhatCannotBe)
     }
     refused({"--preview", "a.jpg"}, 2, {"--preview", "a.jpg", ".png"});
     refused({"--preview", "a.png", "--view", "below"}, 2, {"--view", "three-quarter, top, side"});
-    refused({"--preview", "a.png", "--colour", "red"}, 2, {"--colour", "look, contours, contact-angle"});
+    refused({"--preview", "a.png", "--preview-colour", "red"}, 2,
+            {"--preview-colour", "look, contours, contact-angle"});
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
     refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
     refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview -"});

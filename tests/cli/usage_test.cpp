@@ -161,6 +161,13 @@ TEST_F(UsageTest, NumbersOutOfRange)
     for (const char* speck : {"-1", "nan", "inf", "some"}) {
         expectRefused({"--speck-size", speck}, {"--speck-size", speck, "at least 0"});
     }
+    expectRefused({"--segment", "magic"}, {"--segment", "'magic'", "auto, threshold, adaptive, grabcut"});
+    expectRefused({"--colour", "reddish"}, {"--colour", "'reddish'", "#e30613"});
+    expectRefused({"--colour", "red", "--segment", "grabcut"}, {"--segment", "--colour"});
+    expectRefused({"--channel", "alpha", "--segment", "adaptive"}, {"--segment adaptive", "--channel alpha"});
+    expectRefused({"--smooth", "3"}, {"--smooth", "'3'"});
+    expectRefused({"--fill-holes", "1mm"}, {"--fill-holes", "'1mm'", "mm2"});
+    expectRefused({"--keep", "0"}, {"--keep", "'0'", "from 1 to 1M"});
     for (const char* count : {"0", "-5", "5.5", "1e9", "5kk", "k", "5G", "many", "nan"}) {
         expectRefused({"--triangles", count}, {"--triangles", count, "from 1 to 100M"});
     }

@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "droplet/footprint/css_colour.h"
+#include "droplet/footprint/segment.h"
+
 namespace droplet {
 
 /// Which part of an image's pixels says where the liquid is.
@@ -21,6 +24,10 @@ enum class Channel {
 struct MaskOptions {
     Channel channel = Channel::Auto;
     bool invert = false;                            ///< exchange liquid and dry, after all other decisions
+    Segmentation segment = Segmentation::Auto;      ///< Auto with a channel but Auto is Threshold; alpha that
+                                                    ///< is used goes before it
+    bool insist = false;                            ///< take a picture even if it does not look like a mask
+    std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
     std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
     int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
 };
@@ -32,8 +39,10 @@ struct Mask {
     int height = 0;                       ///< [px]
     std::vector<std::uint16_t> coverage;  ///< row by row from the top left; 0 dry, 65535 liquid
 
-    Channel channel = Channel::Luma;  ///< the channel that was used; never Auto
-    bool inverted = false;            ///< true if dark (or transparent) pixels are the liquid
+    Channel channel = Channel::Luma;                 ///< the channel that was used; never Auto
+    bool inverted = false;                           ///< true if dark (or transparent) pixels are the liquid
+    Segmentation segment = Segmentation::Threshold;  ///< the way that was taken; never Auto
+    double segment_confidence = 1.0;  ///< how much the picture looks like a mask taken that way, in [0, 1]
     double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
     double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
 
@@ -71,10 +80,18 @@ struct Mask {
 /// all pixels clear of dry lie at it or up to an eighth nearer to dry. Clear of dry means apart by a quarter of the
 /// range; if no pixel is, levels stay unstretched and no coverage reaches half. Levels on the other side of dry
 /// are dry. An image of one level is all liquid if brighter than half, all dry otherwise.
+///
+/// With Segmentation::Auto, a picture read by luma that this makes no clean mask of (rims without an edge in the
+/// picture, ground or liquid of many levels, grains) is taken by Segmentation::Adaptive if that makes a better one.
+/// Its rims have fractional coverage, too; what is too small or has no edge of its own is dropped.
+///
+/// A colour asked for is looked for in CIE Lab, to a distance of 20; where it blends into another its share is the
+/// coverage. What is transparent has no colour.
 /// @param encoded  the file's bytes
 /// @param options  which channel, whether to invert, largest size
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, of a kind not read, codecs not
 ///                 installed, no alpha where alpha was asked;
+///                 no mask, whichever way it is taken, unless insist; nothing of the colour;
 ///                 SVG: no area, over 64 MiB, 250 000 tags or 500 000 references, librsvg missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
 

@@ -48,6 +48,8 @@ struct InputReport {
     double pixel_size = 0.0;  ///< [m]
     Channel channel = Channel::Luma;
     bool inverted = false;
+    Segmentation segment = Segmentation::Threshold;  ///< as in Mask
+    double segment_confidence = 1.0;                 ///< as in Mask
     double threshold = 0.5;
     double level_dry = 0.0;     ///< as in Mask
     double level_liquid = 1.0;  ///< as in Mask
@@ -121,6 +123,7 @@ struct Report {
     std::optional<Retention> retention;   ///< forces of all droplets together
     std::vector<DropletReport> droplets;  ///< in the order of the meshes
     std::vector<std::string> warnings;
+    std::size_t grave_warnings = 0;          ///< so many of the first of them are told even where only errors are
     std::array<double, kStageCount> time{};  ///< indexed by Stage [s]
     double time_total = 0.0;                 ///< [s]
     std::uint64_t peak_memory = 0;           ///< [bytes]

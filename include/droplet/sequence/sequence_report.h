@@ -48,6 +48,7 @@ struct SequenceReport {
     GroundReport ground;
     std::vector<FrameReport> frames;
     std::vector<std::string> warnings;
+    std::size_t grave_warnings = 0;  ///< so many of the first are told even where only errors are
     double time_total = 0.0;        ///< [s]
     std::uint64_t peak_memory = 0;  ///< [bytes]
 

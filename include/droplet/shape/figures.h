@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
@@ -24,7 +25,9 @@ struct ShapeFigures {
     double dry_area = 0.0;        ///< of the footprint, where the liquid left the ground dry [m²]
     double volume = 0.0;          ///< ∫(u − h) [m³]
     double height_max = 0.0;      ///< largest u − h [m]
-    double depth_max = 0.0;       ///< largest h − u: how far the surface sinks into the ground [m]
+    /// Height of an endless puddle of the mean contact angle θ, 2 √(σ/ρg) sin(θ/2); of level, flat ground alone [m].
+    std::optional<double> height_bound;
+    double depth_max = 0.0;    ///< largest h − u: how far the surface sinks into the ground [m]
     double liquid_area = 0.0;  ///< ∫√(1+|∇u|²) but for what is dry, the true area of the liquid's surface [m²]
     double linear_area = 0.0;  ///< ∫(1 + ½|∇u|²) there, what the linear model takes for it [m²]
     double surface_energy = 0.0;  ///< σ · liquid_area [J]

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "footprint/segmentation.h"
+
+namespace droplet {
+
+/// A plane's levels as numbers from 0 to 1, made so small that its longer side has at most `longest` pixels.
+cv::Mat workingImage(const LevelView& plane, int longest = 1024);
+
+/// Least and most of an image's levels within a distance.
+struct LocalRange {
+    cv::Mat least;
+    cv::Mat most;
+};
+
+LocalRange localRange(const cv::Mat& image, int reach);
+
+/// Gives regions, liquid or dry, to their surroundings if less than half of their rim lies at an edge, or if they have
+/// fewer pixels than `least_area`. The largest region of each kind stays. Liquid is 8-connected, dry 4-connected.
+/// @param is_liquid  255 or 0, changed in place
+/// @param is_edge    255 or 0
+void dropRegionsWithoutEdge(cv::Mat& is_liquid, const cv::Mat& is_edge, int least_area);
+
+}  // namespace droplet

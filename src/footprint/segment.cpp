@@ -1,0 +1,534 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Segmentation of photographs. The first threshold is a surface through the grey levels at edges: S. D. Yanowitz and
+// A. M. Bruckstein, "A new method for image segmentation" (1989), whose validation drops regions without an edge, too.
+// From then on light is divided out: ground tells its own level, liquid what share of it it sends back. By colour:
+// C. Rother, V. Kolmogorov and A. Blake, "GrabCut" (2004), as OpenCV has it.
+#include "droplet/footprint/segment.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "droplet/error.h"
+#include "footprint/edges.h"
+#include "footprint/segmentation.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kWhite = 65535.0;
+
+/// Rims this near are told to a fraction of a pixel; farther off all is liquid or dry [px of the working image].
+constexpr int kBand = 3;
+
+/// Standard deviation of the noise in an image, by the median of its Laplacian's absolute values, which edges and
+/// light hardly change.
+double noiseOf(const cv::Mat& image)
+{
+    cv::Mat laplacian;
+    cv::Laplacian(image, laplacian, CV_32F, 1);
+    std::vector<float> sizes;
+    sizes.reserve(laplacian.total());
+    for (int y = 0; y < laplacian.rows; ++y) {
+        for (int x = 0; x < laplacian.cols; ++x) {
+            sizes.push_back(std::abs(laplacian.at<float>(y, x)));
+        }
+    }
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    // The mask 1 1 −4 1 1 has the norm √20; of a normal distribution half lies within 0.6745.
+    return *middle / 0.6745 / std::sqrt(20.0);
+}
+
+constexpr double kNarrow = 4.0;  // standard deviation [px]
+
+/// Values known in some places, smoothly spread over the whole image: averages over a few pixels where those know
+/// something, else over four times as many, and so on.
+/// @param wide  how many times as wide as kNarrow the narrowest averages are
+cv::Mat spread(const cv::Mat& values, const cv::Mat& known, double wide = 1.0)
+{
+    constexpr double kTrust = 1.0e-2;  // of a level against the one below
+    cv::Mat weight;
+    known.convertTo(weight, CV_32F, 1.0 / 255.0);
+    cv::Mat weighted = values.mul(weight);
+    if (wide > 1.0) {
+        const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(pixels / wide))); };
+        const cv::Size smaller{side(values.cols), side(values.rows)};
+        cv::resize(weighted, weighted, smaller, 0, 0, cv::INTER_AREA);
+        cv::resize(weight, weight, smaller, 0, 0, cv::INTER_AREA);
+    }
+    cv::Mat sum = cv::Mat::zeros(values.size(), CV_32F);
+    cv::Mat total = cv::Mat::zeros(values.size(), CV_32F);
+    double trust = 1.0;
+    for (int level = 0;; ++level) {
+        cv::Mat soft;
+        cv::Mat soft_weight;
+        cv::GaussianBlur(weighted, soft, {}, kNarrow);
+        cv::GaussianBlur(weight, soft_weight, {}, kNarrow);
+        cv::resize(soft, soft, values.size(), 0, 0, cv::INTER_LINEAR);
+        cv::resize(soft_weight, soft_weight, values.size(), 0, 0, cv::INTER_LINEAR);
+        sum += trust * soft;
+        total += trust * soft_weight;
+        if (std::max(weight.cols, weight.rows) <= 4) {
+            break;
+        }
+        trust *= kTrust;
+        const cv::Size smaller{(weight.cols + 3) / 4, (weight.rows + 3) / 4};
+        cv::resize(weighted, weighted, smaller, 0, 0, cv::INTER_AREA);
+        cv::resize(weight, weight, smaller, 0, 0, cv::INTER_AREA);
+    }
+    return sum / cv::max(total, 1e-30);
+}
+
+cv::Mat shrunk(const cv::Mat& region, int pixels)
+{
+    cv::Mat result;
+    cv::erode(region, result, {}, {-1, -1}, pixels, cv::BORDER_CONSTANT, cv::Scalar(255));
+    return result;
+}
+
+/// The inside of a region; of one that has none, all of it.
+cv::Mat coreOf(const cv::Mat& region)
+{
+    for (int pixels = kBand; pixels > 0; --pixels) {
+        cv::Mat core = shrunk(region, pixels);
+        if (cv::countNonZero(core) > 0) {
+            return core;
+        }
+    }
+    return region;
+}
+
+/// Share of an image's border that is marked.
+double shareOfBorder(const cv::Mat& marked)
+{
+    cv::Mat border = cv::Mat(marked.size(), CV_8U, cv::Scalar(255));
+    if (marked.cols > 2 && marked.rows > 2) {
+        border(cv::Rect(1, 1, marked.cols - 2, marked.rows - 2)) = 0;
+    }
+    return static_cast<double>(cv::countNonZero(border & marked)) / cv::countNonZero(border);
+}
+
+/// What is liquid in a working image, and the light on it.
+struct Sorted {
+    cv::Mat is_liquid;  ///< 255 or 0
+    cv::Mat ground;     ///< level of dry ground, everywhere
+    cv::Mat share;      ///< of it that liquid sends back, everywhere
+    cv::Mat image;
+};
+
+/// The regions of dry ground that lie inside of liquid.
+struct Holes {
+    cv::Mat label;
+    std::vector<cv::Rect> boxes;  ///< by label; empty of what is no hole
+    std::vector<int> areas;
+};
+
+Holes holesOf(const cv::Mat& is_liquid)
+{
+    Holes holes;
+    cv::Mat stats;
+    cv::Mat centroids;
+    const int count = cv::connectedComponentsWithStats(cv::Mat(~is_liquid), holes.label, stats, centroids, 4, CV_32S);
+    holes.boxes.resize(static_cast<std::size_t>(count));
+    holes.areas.resize(static_cast<std::size_t>(count));
+    for (int k = 1; k < count; ++k) {
+        const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
+                           stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+        const bool is_inside = box.x > 0 && box.y > 0 && box.br().x < is_liquid.cols && box.br().y < is_liquid.rows;
+        if (is_inside) {
+            holes.boxes[static_cast<std::size_t>(k)] = box;
+            holes.areas[static_cast<std::size_t>(k)] = stats.at<int>(k, cv::CC_STAT_AREA);
+        }
+    }
+    return holes;
+}
+
+/// Dry ground without its smaller holes, which may be no ground but mirror a lamp.
+cv::Mat openGround(const cv::Mat& is_liquid, const Holes& holes)
+{
+    cv::Mat ground = ~is_liquid;
+    for (std::size_t k = 1; k < holes.boxes.size(); ++k) {
+        if (holes.areas[k] > 0 && holes.areas[k] < static_cast<int>(is_liquid.total() / 100)) {
+            ground(holes.boxes[k]).setTo(0, holes.label(holes.boxes[k]) == static_cast<int>(k));
+        }
+    }
+    return ground;
+}
+
+/// Fills holes that are brighter than the ground in that light: they mirror a lamp.
+void fillGlints(Sorted& sorted)
+{
+    constexpr double kBrighter = 1.08;
+    const Holes holes = holesOf(sorted.is_liquid);
+    for (std::size_t k = 1; k < holes.boxes.size(); ++k) {
+        if (holes.areas[k] == 0) {
+            continue;
+        }
+        const cv::Rect& box = holes.boxes[k];
+        const cv::Mat hole = holes.label(box) == static_cast<int>(k);
+        cv::Mat middle = shrunk(hole, 1);
+        middle = cv::countNonZero(middle) > 0 ? middle : hole;
+        if (cv::mean(sorted.image(box), middle)[0] > kBrighter * cv::mean(sorted.ground(box), middle)[0]) {
+            sorted.is_liquid(box).setTo(255, hole);
+        }
+    }
+}
+
+std::optional<Sorted> sortByEdges(const cv::Mat& working)
+{
+    constexpr int kReach = 3;
+    constexpr double kFaintest = 0.10;   // contrast of an edge
+    constexpr double kAboveNoise = 6.0;  // standard deviations
+    constexpr int kRounds = 3;
+    constexpr int kLeastArea = 12;  // of a region [px]
+    cv::Mat image;
+    cv::medianBlur(working, image, 3);
+    const double noise = noiseOf(working);
+    cv::Mat soft;
+    cv::GaussianBlur(image, soft, {}, noise > 0.02 ? 1.5 : 1.0);
+    const double soft_noise = noiseOf(soft);
+
+    // Edges by contrast, which light does not change.
+    const LocalRange range = localRange(soft, kReach);
+    const cv::Mat step = range.most - range.least;
+    const cv::Mat contrast = step / (range.most + range.least + 0.04);
+    cv::Mat clear = contrast > kFaintest;
+    clear &= step > std::max(0.02, kAboveNoise * std::max(soft_noise, 0.3 * noise));
+    const int edge_pixels = cv::countNonZero(clear);
+    if (edge_pixels < std::max<int>(8, static_cast<int>(working.total() / 5000))) {
+        return std::nullopt;
+    }
+    // Strong and faint ones apart, as Otsu's threshold has it.
+    cv::Mat bytes;
+    contrast.convertTo(bytes, CV_8U, 255.0);
+    cv::Mat listed(1, edge_pixels, CV_8U);
+    int next = 0;
+    for (int y = 0; y < bytes.rows; ++y) {
+        for (int x = 0; x < bytes.cols; ++x) {
+            if (clear.at<std::uint8_t>(y, x) > 0) {
+                listed.at<std::uint8_t>(0, next++) = bytes.at<std::uint8_t>(y, x);
+            }
+        }
+    }
+    cv::Mat unused;
+    const double strong = cv::threshold(listed, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+    const cv::Mat is_edge = (bytes > 0.8 * strong) & clear;
+
+    Sorted sorted;
+    sorted.image = soft;
+    const cv::Mat middle = 0.5 * (range.most + range.least);
+    sorted.is_liquid = soft < spread(middle, is_edge);
+    dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kLeastArea);
+    if (shareOfBorder(sorted.is_liquid) > 0.5) {
+        sorted.is_liquid = ~sorted.is_liquid;
+    }
+    for (int round = 0; round < kRounds; ++round) {
+        if (cv::countNonZero(sorted.is_liquid) == 0) {
+            return std::nullopt;
+        }
+        sorted.ground = cv::max(spread(soft, coreOf(openGround(sorted.is_liquid, holesOf(sorted.is_liquid)))), 1e-3);
+        sorted.share = spread(soft / sorted.ground, coreOf(sorted.is_liquid));
+        // Liquid and ground must differ, on the same side everywhere.
+        const bool dark = cv::mean(sorted.share, sorted.is_liquid)[0] < 1.0;
+        sorted.share = dark ? cv::Mat(cv::min(sorted.share, 0.92)) : cv::Mat(cv::max(sorted.share, 1.08));
+        const cv::Mat half = sorted.ground.mul(0.5 * (sorted.share + 1.0));
+        sorted.is_liquid = dark ? cv::Mat(soft < half) : cv::Mat(soft > half);
+        if (dark) {
+            fillGlints(sorted);
+        }
+        dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kLeastArea);
+    }
+    return cv::countNonZero(sorted.is_liquid) == 0 ? std::nullopt : std::optional(sorted);
+}
+
+/// Levels in any number of channels as a full image holds them.
+struct Channels {
+    int width = 0;
+    int height = 0;
+    std::vector<cv::Mat> planes;  ///< CV_16UC1 of that size
+};
+
+/// The share of liquid in every pixel of a full image, from what is liquid in a working image: near rims by where the
+/// pixel's level lies between those of liquid and ground nearby.
+LevelPlane matte(const Channels& channels, const cv::Mat& is_liquid, const std::vector<cv::Mat>& dry,
+                 const std::vector<cv::Mat>& liquid)
+{
+    const cv::Mat surely = shrunk(is_liquid, kBand);
+    const cv::Mat surely_dry = shrunk(~is_liquid, kBand);
+    LevelPlane plane{channels.width, channels.height, {}};
+    plane.levels.resize(static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(plane.height));
+    const double per_x = static_cast<double>(is_liquid.cols) / plane.width;
+    const double per_y = static_cast<double>(is_liquid.rows) / plane.height;
+    tbb::parallel_for(0, plane.height, [&](int y) {
+        const double v = std::clamp((y + 0.5) * per_y - 0.5, 0.0, is_liquid.rows - 1.0);
+        const int y0 = static_cast<int>(v);
+        const int y1 = std::min(y0 + 1, is_liquid.rows - 1);
+        const auto row = std::min(static_cast<int>((y + 0.5) * per_y), is_liquid.rows - 1);
+        std::uint16_t* const to = plane.levels.data() + static_cast<std::ptrdiff_t>(y) * plane.width;
+        for (int x = 0; x < plane.width; ++x) {
+            const auto column = std::min(static_cast<int>((x + 0.5) * per_x), is_liquid.cols - 1);
+            if (surely.at<std::uint8_t>(row, column) > 0 || surely_dry.at<std::uint8_t>(row, column) > 0) {
+                to[x] = surely.at<std::uint8_t>(row, column) > 0 ? 65535 : 0;
+                continue;
+            }
+            const double u = std::clamp((x + 0.5) * per_x - 0.5, 0.0, is_liquid.cols - 1.0);
+            const int x0 = static_cast<int>(u);
+            const int x1 = std::min(x0 + 1, is_liquid.cols - 1);
+            const auto between = [&](const cv::Mat& image) {
+                const double upper = (1 - u + x0) * image.at<float>(y0, x0) + (u - x0) * image.at<float>(y0, x1);
+                const double lower = (1 - u + x0) * image.at<float>(y1, x0) + (u - x0) * image.at<float>(y1, x1);
+                return (1 - v + y0) * upper + (v - y0) * lower;
+            };
+            double along = 0.0;
+            double square = 1e-12;
+            for (std::size_t c = 0; c < channels.planes.size(); ++c) {
+                const double from = between(dry[c]);
+                const double way = between(liquid[c]) - from;
+                along += way * (channels.planes[c].at<std::uint16_t>(y, x) / kWhite - from);
+                square += way * way;
+            }
+            to[x] = static_cast<std::uint16_t>(std::lround(kWhite * std::clamp(along / square, 0.0, 1.0)));
+        }
+    });
+    return plane;
+}
+
+/// A plane without single hot pixels and with less noise, for rims of a full image.
+cv::Mat calmed(const LevelView& plane)
+{
+    const cv::Mat levels(plane.height, plane.width, CV_16UC1, const_cast<std::uint16_t*>(plane.levels));
+    cv::Mat calm;
+    cv::medianBlur(levels, calm, 3);
+    cv::Mat sample;
+    const cv::Rect middle(plane.width / 4, plane.height / 4, std::max(1, plane.width / 2),
+                          std::max(1, plane.height / 2));
+    calm(middle).convertTo(sample, CV_32F, 1.0 / kWhite);
+    const double noise = noiseOf(sample);
+    constexpr double kVisible = 0.01;
+    if (noise > kVisible) {
+        cv::GaussianBlur(calm, calm, {}, noise > 4 * kVisible ? 2.0 : 1.2);
+    }
+    return calm;
+}
+
+LevelPlane planeOf(const cv::Mat& image)
+{
+    LevelPlane plane{image.cols, image.rows, {}};
+    cv::Mat levels;
+    image.convertTo(levels, CV_16U, kWhite);
+    plane.levels.assign(levels.begin<std::uint16_t>(), levels.end<std::uint16_t>());
+    return plane;
+}
+
+double medianLevel(const cv::Mat& image, const cv::Mat& region)
+{
+    std::vector<float> levels;
+    for (int y = 0; y < image.rows; ++y) {
+        for (int x = 0; x < image.cols; ++x) {
+            if (region.at<std::uint8_t>(y, x) > 0) {
+                levels.push_back(image.at<float>(y, x));
+            }
+        }
+    }
+    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+    std::nth_element(levels.begin(), middle, levels.end());
+    return levels.empty() ? 0.0 : *middle;
+}
+
+/// Confidence by what the light, as far as it is soft, leaves of the levels: of one liquid, all over the picture.
+/// Glints are liquid.
+double confidenceOf(const Sorted& sorted)
+{
+    const double wide = std::max(sorted.image.cols, sorted.image.rows) / (96.0 * kNarrow);
+    const cv::Mat dry = coreOf(~sorted.is_liquid);
+    const cv::Mat light = cv::max(spread(sorted.image, dry, wide), 1e-3);
+    const cv::Mat back = sorted.image / light;
+    const double share = medianLevel(back, coreOf(sorted.is_liquid));
+    cv::Mat coverage = (1.0 - back) / (std::abs(1.0 - share) < 0.02 ? 0.02 : 1.0 - share);
+    const cv::Mat is_glint = sorted.is_liquid & (share < 1.0 ? cv::Mat(coverage < 0) : cv::Mat(coverage > 2.0));
+    coverage.setTo(1, is_glint);
+    // Beyond 0 and 1 folded back, so that levels are seen to be spread there, too.
+    const cv::Mat is_over = coverage > 0.5;
+    const cv::Mat off = is_over / 255;
+    cv::Mat aim;
+    off.convertTo(aim, CV_32F);
+    cv::Mat folded = cv::min(cv::abs(coverage - aim), 0.45);
+    cv::subtract(1.0, folded, folded, is_over);
+    return lookOfMask(planeOf(folded), false).confidence;
+}
+
+/// The three channels of an image's colours, red first.
+Channels colourChannels(const Image& image)
+{
+    Channels channels{image.width, image.height, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+        cv::Mat plane(image.height, image.width, CV_16UC1);
+        for (int y = 0; y < image.height; ++y) {
+            const auto* const from = image.colour.data() + static_cast<std::ptrdiff_t>(y) * image.width;
+            for (int x = 0; x < image.width; ++x) {
+                plane.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(257 * from[x][c]);
+            }
+        }
+        cv::medianBlur(plane, plane, 3);
+        channels.planes.push_back(std::move(plane));
+    }
+    return channels;
+}
+
+/// OpenCV's random numbers as they were, whatever is drawn from them meanwhile.
+class SeededDice {
+public:
+    SeededDice() : before_(cv::theRNG()) { cv::theRNG() = cv::RNG(1); }
+    ~SeededDice() { cv::theRNG() = before_; }
+    SeededDice(const SeededDice&) = delete;
+    SeededDice& operator=(const SeededDice&) = delete;
+
+private:
+    cv::RNG before_;
+};
+
+/// Half of the range that the middle two thirds of numbers take.
+double spreadOf(std::vector<float> numbers)
+{
+    if (numbers.empty()) {
+        return 0.0;
+    }
+    std::sort(numbers.begin(), numbers.end());
+    const auto at = [&](double share) {
+        return numbers[static_cast<std::size_t>(share * static_cast<double>(numbers.size() - 1))];
+    };
+    return 0.5 * (at(5.0 / 6.0) - at(1.0 / 6.0));
+}
+
+}  // namespace
+
+double fewColours(const Image& image, const std::vector<std::uint16_t>& coverage)
+{
+    constexpr int kSide = 128;         // hues need no more pixels, and noise goes
+    constexpr float kDarkest = 0.24F;  // sum of the channels from which a hue is told
+    const cv::Mat colours(image.height, image.width, CV_8UC3,
+                          const_cast<std::array<std::uint8_t, 3>*>(image.colour.data()));
+    const cv::Mat covers(image.height, image.width, CV_16UC1, const_cast<std::uint16_t*>(coverage.data()));
+    cv::Mat small;
+    cv::Mat share;
+    cv::resize(colours, small, {kSide, kSide}, 0, 0, cv::INTER_AREA);
+    cv::resize(covers, share, {kSide, kSide}, 0, 0, cv::INTER_AREA);
+    small.convertTo(small, CV_32FC3, 1.0 / 255.0);
+    std::array<std::vector<float>, 2> red;
+    std::array<std::vector<float>, 2> blue;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const auto& colour = small.at<cv::Vec3f>(y, x);
+            const float sum = colour[0] + colour[1] + colour[2];
+            const double covered = share.at<std::uint16_t>(y, x) / kWhite;
+            if (sum > kDarkest && (covered < 0.1 || covered > 0.9)) {
+                const std::size_t kind = covered > 0.5 ? 1 : 0;
+                red[kind].push_back(colour[0] / sum);
+                blue[kind].push_back(colour[2] / sum);
+            }
+        }
+    }
+    double widest = 0.0;
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+        widest = std::max(widest, std::hypot(spreadOf(red[kind]), spreadOf(blue[kind])));
+    }
+    // Two kinds of light on one paper make 0.05.
+    return 1.0 - std::clamp((widest - 0.05) / 0.05, 0.0, 1.0);
+}
+
+const char* name(Segmentation segment)
+{
+    switch (segment) {
+        case Segmentation::Auto:
+            return "auto";
+        case Segmentation::Threshold:
+            return "threshold";
+        case Segmentation::Adaptive:
+            return "adaptive";
+        case Segmentation::GrabCut:
+            return "grabcut";
+        case Segmentation::Colour:
+            return "colour";
+    }
+    throw Error(ErrorCode::InvalidArgument, "segment is no way of segmentation");
+}
+
+std::optional<Segmented> segmentAdaptive(const LevelView& luma)
+{
+    const auto sorted = sortByEdges(workingImage(luma));
+    if (!sorted) {
+        return std::nullopt;
+    }
+    Segmented result;
+    result.coverage = matte({luma.width, luma.height, {calmed(luma)}}, sorted->is_liquid, {sorted->ground},
+                            {sorted->ground.mul(sorted->share)});
+    result.confidence = confidenceOf(*sorted);
+    result.level_dry = medianLevel(sorted->image, ~sorted->is_liquid);
+    result.level_liquid = medianLevel(sorted->image, sorted->is_liquid);
+    return result;
+}
+
+std::optional<Segmented> segmentGrabCut(const Image& image)
+{
+    constexpr int kLongest = 512;  // of the picture that colours are learned on [px]
+    constexpr int kRounds = 5;
+    const LevelView luma(image.width, image.height, image.luma);
+    const auto sorted = sortByEdges(workingImage(luma));
+    if (!sorted) {
+        return std::nullopt;
+    }
+    const Channels full = colourChannels(image);
+    const double scale = std::min(1.0, static_cast<double>(kLongest) / std::max(image.width, image.height));
+    const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(scale * pixels))); };
+    const cv::Size size{side(image.width), side(image.height)};
+    std::vector<cv::Mat> small(3);
+    std::vector<cv::Mat> bytes(3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        cv::resize(full.planes[c], small[c], size, 0, 0, cv::INTER_AREA);
+        small[c].convertTo(bytes[c], CV_8U, 1.0 / 257.0);
+        small[c].convertTo(small[c], CV_32F, 1.0 / kWhite);
+    }
+    cv::Mat picture;
+    cv::merge(bytes, picture);
+    cv::Mat begun;
+    cv::resize(sorted->is_liquid, begun, size, 0, 0, cv::INTER_NEAREST);
+    cv::Mat trimap(size, CV_8U, cv::Scalar(cv::GC_PR_BGD));
+    trimap.setTo(cv::GC_PR_FGD, begun);
+    trimap.setTo(cv::GC_FGD, shrunk(begun, 2 * kBand));
+    trimap.setTo(cv::GC_BGD, shrunk(~begun, 4 * kBand));
+    const cv::Mat is_first = (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
+    if (cv::countNonZero(is_first) == 0 || cv::countNonZero(is_first) == static_cast<int>(is_first.total())) {
+        return std::nullopt;
+    }
+    {
+        const SeededDice dice;
+        cv::Mat dry_colours;
+        cv::Mat liquid_colours;
+        cv::grabCut(picture, trimap, {}, dry_colours, liquid_colours, kRounds, cv::GC_INIT_WITH_MASK);
+    }
+    const cv::Mat is_liquid = (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
+    if (cv::countNonZero(is_liquid) == 0) {
+        return std::nullopt;
+    }
+    std::vector<cv::Mat> dry;
+    std::vector<cv::Mat> liquid;
+    for (const cv::Mat& plane : small) {
+        dry.push_back(spread(plane, coreOf(~is_liquid)));
+        liquid.push_back(spread(plane, coreOf(is_liquid)));
+    }
+    Segmented result;
+    result.coverage = matte(full, is_liquid, dry, liquid);
+    result.confidence = confidenceOf(*sorted);
+    cv::Mat grey;
+    cv::resize(sorted->image, grey, size, 0, 0, cv::INTER_AREA);
+    result.level_dry = medianLevel(grey, ~is_liquid);
+    result.level_liquid = medianLevel(grey, is_liquid);
+    return result;
+}
+
+}  // namespace droplet
