@@ -230,7 +230,10 @@ Mask maskFromImage(Image image, const MaskOptions& options)
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
-        return maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
+        return maskFromImage(decodeImage(encoded, {.max_pixels = options.max_pixels,
+                                                   .vector_long_side = options.vector_long_side,
+                                                   .drawing = {options.vector_seconds, options.vector_memory}}),
+                             options);
     } catch (const std::bad_alloc&) {
         throwOutOfMemory();
     }
