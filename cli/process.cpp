@@ -65,18 +65,17 @@ int waitFor(pid_t id)
     return status;
 }
 
+std::string wordsOf(std::FILE* words)
+{
+    std::array<char, 4096> text{};
+    std::rewind(words);
+    return {text.data(), std::fread(text.data(), 1, text.size(), words)};
+}
+
 std::string firstLine(std::FILE* words)
 {
-    std::array<char, 512> line{};
-    std::rewind(words);
-    if (std::fgets(line.data(), static_cast<int>(line.size()), words) == nullptr) {
-        return {};
-    }
-    std::string text = line.data();
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
-        text.pop_back();
-    }
-    return text;
+    const std::string text = wordsOf(words);
+    return text.substr(0, text.find_first_of("\r\n"));
 }
 
 std::string plainName(const std::string& path)

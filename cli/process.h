@@ -33,6 +33,9 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
 /// Its status, once it has ended.
 int waitFor(pid_t id);
 
+/// What a program said, or the beginning of it.
+std::string wordsOf(std::FILE* words);
+
 /// The first line a program said.
 std::string firstLine(std::FILE* words);
 

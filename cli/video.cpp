@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <string_view>
@@ -53,12 +55,29 @@ std::optional<double> quotient(std::string_view text)
     return rate > 0.0 && rate < 1e6 ? std::optional(rate) : std::nullopt;
 }
 
-std::optional<double> rateOf(const std::string& path)
+/// What stands behind a name in lines such as `nb_frames=40`.
+std::optional<double> valueOf(const std::string& name, std::string_view lines)
 {
-    const Process process = startReading({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
-                                          "stream=avg_frame_rate", "-of", "default=nw=1:nk=1", "-i", plainName(path)},
-                                         path);
-    std::array<char, 128> text{};
+    const auto at = lines.find(name + "=");
+    return at == std::string_view::npos ? std::nullopt : quotient(lines.substr(at + name.size() + 1).substr(0, 64));
+}
+
+/// A video that was trimmed may hold more frames than it shows: then its duration tells.
+std::optional<double> shownFrames(std::string_view lines)
+{
+    const auto held = valueOf("nb_frames", lines);
+    const auto rate = valueOf("avg_frame_rate", lines);
+    const auto duration = valueOf("duration", lines);
+    return held && rate && duration ? std::optional(std::min(*held, *rate * *duration)) : held;
+}
+
+Video::Announced announcedBy(const std::string& path)
+{
+    const Process process =
+        startReading({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                      "stream=avg_frame_rate,duration,nb_frames", "-of", "default=nw=1", "-i", plainName(path)},
+                     path);
+    std::array<char, 512> text{};
     const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
     std::fclose(process.output);
     const int status = waitFor(process.id);
@@ -72,12 +91,13 @@ std::optional<double> rateOf(const std::string& path)
         }
     }
     std::fclose(words);
-    return quotient({text.data(), count});
+    const std::string_view lines(text.data(), count);
+    return {valueOf("avg_frame_rate", lines), shownFrames(lines)};
 }
 
 }  // namespace
 
-Video::Video(const std::string& path) : path_(path), rate_(rateOf(path))
+Video::Video(const std::string& path) : path_(path), announced_(announcedBy(path))
 {
     const Process process =
         startReading({"ffmpeg", "-nostdin", "-v", "error", "-xerror", "-i", plainName(path), "-map", "0:v:0",
@@ -106,6 +126,15 @@ void Video::finish()
     frames_ = nullptr;
     const int status = waitFor(process_);
     process_ = -1;
+    // Of a Matroska that ends too early ffmpeg reads what there is, and ends as if all were well.
+    const bool cut = wordsOf(words_).find("ended prematurely") != std::string::npos;
+    const bool few = announced_.frames && static_cast<double>(done_) + 1.0 < *announced_.frames;
+    if (done_ > 0 && (status != 0 || cut || few)) {
+        const std::string line = firstLine(words_);
+        throw Error(ErrorCode::InvalidInput, path_ + ": is cut off or damaged after frame " + std::to_string(done_) +
+                                                 (few ? " of " + std::to_string(std::lround(*announced_.frames)) : "") +
+                                                 (line.empty() ? "" : ": " + line));
+    }
     if (status != 0) {
         complain(path_, "ffmpeg", words_);
     }
@@ -143,6 +172,7 @@ std::optional<std::vector<std::byte>> Video::next()
         finish();
         complain(path_, "ffmpeg", words_);
     }
+    ++done_;
     return frame;
 }
 

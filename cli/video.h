@@ -14,7 +14,7 @@ namespace cli {
 /// Frames of a video, decoded one after another by the program ffmpeg.
 class Video {
 public:
-    /// Starts ffmpeg, and asks ffprobe for the rate of frames.
+    /// Starts ffmpeg, and asks ffprobe for the rate and the number of frames.
     /// @throws droplet::Error InvalidInput if one of them is not there or cannot read the file
     explicit Video(const std::string& path);
     /// Ends ffmpeg.
@@ -23,17 +23,24 @@ public:
     Video& operator=(const Video&) = delete;
 
     /// The next frame, as a PPM; nothing after the last one.
-    /// @throws droplet::Error InvalidInput, with ffmpeg's words, if it failed
+    /// @throws droplet::Error InvalidInput, with ffmpeg's words, if it failed or the video is cut off
     std::optional<std::vector<std::byte>> next();
 
-    [[nodiscard]] std::optional<double> framesPerSecond() const { return rate_; }
+    [[nodiscard]] std::optional<double> framesPerSecond() const { return announced_.rate; }
+
+    /// What a video says of itself.
+    struct Announced {
+        std::optional<double> rate;    ///< frames a second
+        std::optional<double> frames;  ///< how many it shows
+    };
 
 private:
-    /// Waits for ffmpeg; complains if it did.
+    /// Waits for ffmpeg; complains if it did, or if it had fewer frames than were announced.
     void finish();
 
     std::string path_;
-    std::optional<double> rate_;
+    Announced announced_;
+    std::size_t done_ = 0;  ///< frames
     pid_t process_ = -1;
     std::FILE* frames_ = nullptr;
     std::FILE* words_ = nullptr;

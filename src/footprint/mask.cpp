@@ -281,9 +281,12 @@ std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Se
     return mask;
 }
 
-Image decodeColours(std::span<const std::byte> encoded, const MaskOptions& options)
+Image decode(std::span<const std::byte> encoded, const MaskOptions& options, bool keeps_colour)
 {
-    return decodeImage(encoded, {options.max_pixels, options.vector_long_side, true});
+    return decodeImage(encoded, {.max_pixels = options.max_pixels,
+                                 .vector_long_side = options.vector_long_side,
+                                 .keeps_colour = keeps_colour,
+                                 .drawing = {options.vector_seconds, options.vector_memory}});
 }
 
 /// A picture whose luma is as it is seen in front of black.
@@ -313,7 +316,7 @@ Mask decided(std::span<const std::byte> encoded, const MaskOptions& options, Lev
     if (look.confidence >= kClean && !levels.is_uneven) {
         return mask;
     }
-    const Image image = inFrontOfBlack(decodeColours(encoded, options));
+    const Image image = inFrontOfBlack(decode(encoded, options, true));
     // One level in the middle of several grounds puts rims off.
     constexpr double kUneven = 0.7;
     mask.segment_confidence *= fewColours(image, mask.coverage) * (levels.is_uneven ? kUneven : 1.0);
@@ -343,10 +346,10 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
         if (options.colour) {
-            return *segmented(decodeColours(encoded, options), options, Segmentation::Colour);
+            return *segmented(decode(encoded, options, true), options, Segmentation::Colour);
         }
         const bool by_levels = options.segment == Segmentation::Auto || options.segment == Segmentation::Threshold;
-        LevelMask levels = maskFromImage(decodeImage(encoded, {options.max_pixels, options.vector_long_side}), options);
+        LevelMask levels = maskFromImage(decode(encoded, options, false), options);
         Mask& mask = levels.mask;
         if (mask.channel == Channel::Alpha) {
             return mask;
@@ -355,7 +358,7 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
             const bool is_open = options.segment == Segmentation::Auto && options.channel == Channel::Auto;
             return is_open && !mask.drawn_scale ? decided(encoded, options, std::move(levels)) : std::move(mask);
         }
-        if (auto found = segmented(inFrontOfBlack(decodeColours(encoded, options)), options, options.segment)) {
+        if (auto found = segmented(inFrontOfBlack(decode(encoded, options, true)), options, options.segment)) {
             return std::move(*found);
         }
         throw Error(ErrorCode::InvalidInput,

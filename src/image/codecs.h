@@ -21,7 +21,9 @@ Image decodePng(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header);
 
 /// Draws a vector image, which has no pixels of its own. Nothing it refers to is read.
-/// @throws Error InvalidInput: damaged, a page without area, more than librsvg or its stack can take
+/// @throws Error InvalidInput: damaged, a page without area, more than librsvg can take or the options admit; the
+/// program
+///               that draws, or librsvg, is not installed
 Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options);
 
 /// Decodes a TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or Radiance HDR, upright, by OpenCV. Its size is

@@ -45,11 +45,18 @@ void putPixels(Image& image, const PixelRun& run, std::span<const Sample> sample
 /// The image as seen when held by its EXIF (or TIFF) orientation, 1 … 8; needs one more plane of memory.
 Image upright(Image image, int orientation);
 
+/// What drawing a vector image may take.
+struct DrawingLimits {
+    double seconds = 10.0;                      ///< as in MaskOptions [s]
+    std::size_t memory = std::size_t{1} << 30;  ///< as in MaskOptions [B]
+};
+
 /// How an image becomes pixels.
 struct DecodeOptions {
     std::size_t max_pixels = std::size_t{1} << 28;  ///< as in MaskOptions
     int vector_long_side = 2048;                    ///< as in MaskOptions [px]
     bool keeps_colour = false;                      ///< beside luma
+    DrawingLimits drawing{};
 };
 
 /// Decodes an image of any format this library reads, upright. The size in its header is checked first.

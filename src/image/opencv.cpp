@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <dlfcn.h>
-#include <link.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
@@ -12,54 +10,31 @@
 #include "image/codec_module.h"
 #include "image/codecs.h"
 #include "image/image_bytes.h"
+#include "image/installed.h"
 
 namespace droplet {
 
 namespace {
 
-/// The module, opened when first needed: where the library or the command that holds this code was installed or built,
-/// else where the system looks for libraries.
+/// The module, opened when first needed.
 class Codecs {
 public:
     Codecs()
     {
-        for (const char* folder : {DROPLET_CODECS_BESIDE_LIBRARY, DROPLET_CODECS_BESIDE_COMMAND}) {
-            const std::filesystem::path path = ownFolder() / folder / DROPLET_CODECS;
-            if (std::error_code unknown; std::filesystem::exists(path, unknown)) {
-                open(path.c_str());
-                return;
-            }
-        }
-        open(DROPLET_CODECS);
-    }
-
-    DropletDecode* decode = nullptr;
-    DropletRelease* release = nullptr;
-    std::string problem;  ///< why it cannot be opened, if so
-
-private:
-    static std::filesystem::path ownFolder()
-    {
-        static const char here = 0;
-        Dl_info info{};
-        void* map = nullptr;
-        const bool known = dladdr1(&here, &info, &map, RTLD_DL_LINKMAP) != 0 && map != nullptr;
-        const std::filesystem::path library = known ? static_cast<link_map*>(map)->l_name : "";
-        std::error_code unknown;  // where there is no /proc, the system's folders remain
-        return (library.empty() ? std::filesystem::read_symlink("/proc/self/exe", unknown) : library).parent_path();
-    }
-
-    void open(const char* path)
-    {
+        const auto path = installedFile(DROPLET_CODECS);
         // Never closed: what OpenCV has registered stays.
-        void* const module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        void* const module = path ? dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
         if (module == nullptr) {
-            problem = dlerror();
+            problem = path ? dlerror() : DROPLET_CODECS " is missing";
             return;
         }
         decode = reinterpret_cast<DropletDecode*>(dlsym(module, "dropletDecode"));
         release = reinterpret_cast<DropletRelease*>(dlsym(module, "dropletRelease"));
     }
+
+    DropletDecode* decode = nullptr;
+    DropletRelease* release = nullptr;
+    std::string problem;  ///< why it cannot be opened, if so
 };
 
 /// A decoded picture as the module hands it over.

@@ -1,111 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// After: Scalable Vector Graphics 2 (W3C), 8.2 and 8.12 (the size of a page); CSS Values and Units 3, 5.2; RFC 1952.
+// After: RFC 1952 (gzip).
 //
-// librsvg draws the page. It is opened when first needed: with Cairo, Pango and forty more libraries it takes 11 ms, a
-// quarter of a small run. Without a base URI it loads nothing but data: URLs, no file and nothing from the network; it
-// runs no scripts. What it leaves open is closed here:
-// - the length of what compressed files hold, and the number of elements;
-// - its stack: it descends into what elements refer to, and a file of a few hundred kilobytes, where every element uses
-//   the one before, overflows any ordinary one. No element can refer to itself, so that the deepest descent is through
-//   all of them, and at most 7 kB an element were measured (patterns and masks).
-// - its time: it counts references, and gives up at 500 000. A page is first drawn very small, where as many take
-//   seconds, not hours.
-#include <dlfcn.h>
-#include <librsvg/rsvg.h>
-#include <pthread.h>
+// A program of ours draws the page with librsvg (svg/draw.cpp): librsvg, Cairo and Pango end the process when a drawing
+// overflows their stack or asks for more memory than there is, and compute for as long as it wants. So the drawing has
+// a process of its own, with limits, and takes but itself along. Both sides look into files in memory; nothing waits
+// for a pipe to be read but the end.
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
-#include <exception>
+#include <csignal>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "droplet/units.h"
 #include "image/codecs.h"
 #include "image/image_bytes.h"
+#include "image/installed.h"
+#include "image/svg_drawing.h"
 #include "number_text.h"
+
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
 
 namespace droplet {
 namespace {
 
 constexpr std::size_t kLongestText = std::size_t{1} << 26;
 constexpr std::size_t kMostTags = 250'000;
-constexpr std::size_t kStackOfTag = 8 << 10;
-constexpr std::size_t kLeastStack = 8 << 20;
-constexpr double kDotsPerInch = 96.0;  // of CSS
-constexpr double kInch = 25.4 * kMillimetre;
-constexpr int kLongestSide = 32767;  // of Cairo's images
-constexpr int kProbe = 64;
 
 [[noreturn]] void throwRefused(const std::string& detail)
 {
     throw Error(ErrorCode::InvalidInput, "SVG image " + detail);
 }
 
-/// The functions used.
-class Library {
-public:
-    Library()
-    {
-        library_ = dlopen("librsvg-2.so.2", RTLD_NOW | RTLD_LOCAL);
-        find("rsvg_handle_new_from_data", handle_new);
-        find("rsvg_handle_set_dpi", set_dpi);
-        find("rsvg_handle_get_intrinsic_dimensions", intrinsic_dimensions);
-        find("rsvg_handle_get_intrinsic_size_in_pixels", intrinsic_size);
-        find("rsvg_handle_get_geometry_for_element", geometry_for_element);
-        find("rsvg_handle_render_document", render_document);
-        find("rsvg_handle_render_element", render_element);
-        find("g_error_free", error_free);
-        find("g_object_unref", object_unref);
-        find("cairo_image_surface_create_for_data", surface_create);
-        find("cairo_surface_flush", surface_flush);
-        find("cairo_surface_destroy", surface_destroy);
-        find("cairo_create", context_create);
-        find("cairo_status", context_status);
-        find("cairo_destroy", context_destroy);
-    }
-
-    decltype(&rsvg_handle_new_from_data) handle_new = nullptr;
-    decltype(&rsvg_handle_set_dpi) set_dpi = nullptr;
-    decltype(&rsvg_handle_get_intrinsic_dimensions) intrinsic_dimensions = nullptr;
-    decltype(&rsvg_handle_get_intrinsic_size_in_pixels) intrinsic_size = nullptr;
-    decltype(&rsvg_handle_get_geometry_for_element) geometry_for_element = nullptr;
-    decltype(&rsvg_handle_render_document) render_document = nullptr;
-    decltype(&rsvg_handle_render_element) render_element = nullptr;
-    decltype(&g_error_free) error_free = nullptr;
-    void (*object_unref)(gpointer) = nullptr;  // g_object_unref is a macro, too
-    decltype(&cairo_image_surface_create_for_data) surface_create = nullptr;
-    decltype(&cairo_surface_flush) surface_flush = nullptr;
-    decltype(&cairo_surface_destroy) surface_destroy = nullptr;
-    decltype(&cairo_create) context_create = nullptr;
-    decltype(&cairo_status) context_status = nullptr;
-    decltype(&cairo_destroy) context_destroy = nullptr;
-
-private:
-    template <typename Function>
-    void find(const char* name, Function& function)
-    {
-        void* const symbol = library_ == nullptr ? nullptr : dlsym(library_, name);
-        if (symbol == nullptr) {
-            throwRefused("needs librsvg, which must be installed: " +
-                         std::string(library_ == nullptr ? dlerror() : name));
-        }
-        function = reinterpret_cast<Function>(symbol);
-    }
-
-    void* library_ = nullptr;  // never closed: what it started goes on
-};
-
-/// Threads may not start GLib side by side, nor is there a reason to look up names twice.
-const Library& library()
+[[noreturn]] void throwSystem(int failure)
 {
-    static const Library loaded;
-    return loaded;
+    throwRefused("cannot be drawn: " + std::string(std::strerror(failure)));
 }
 
 std::vector<std::byte> inflated(std::span<const std::byte> compressed)
@@ -137,258 +79,233 @@ std::vector<std::byte> inflated(std::span<const std::byte> compressed)
     return text;
 }
 
-class Document {
+/// A file of ours that programs which are started do not get, but where named.
+class Descriptor {
 public:
-    explicit Document(std::span<const std::byte> text)
+    /// Takes a descriptor over. One of the three that a program starts with is exchanged, for it is to be given
+    /// others there.
+    explicit Descriptor(int number) : number_(number)
     {
-        GError* error = nullptr;
-        handle_ = rsvg_.handle_new(reinterpret_cast<const guint8*>(text.data()), text.size(), &error);
-        if (handle_ == nullptr) {
-            throwDamaged(ImageFormat::Svg, taken(error));
+        if (number_ >= 0 && number_ <= STDERR_FILENO) {
+            number_ = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+            ::close(number);
         }
-        rsvg_.set_dpi(handle_, kDotsPerInch);
+        if (number_ < 0) {
+            throwSystem(errno);
+        }
     }
+    ~Descriptor() { ::close(number_); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
 
-    ~Document() { rsvg_.object_unref(handle_); }
+    [[nodiscard]] int number() const { return number_; }
 
-    Document(const Document&) = delete;
-    Document& operator=(const Document&) = delete;
+private:
+    int number_;
+};
 
-    /// Where the page is as large as what is drawn on it, that is moved into place.
-    struct Page {
-        double width = 0.0;   ///< [CSS px]
-        double height = 0.0;  ///< [CSS px]
-        bool as_drawn = false;
-        std::optional<double> physical_width;  ///< [m]
-    };
+Descriptor memoryFile()
+{
+    return Descriptor(::memfd_create("droplet-svg", MFD_CLOEXEC));
+}
 
-    Page page()
-    {
-        gboolean has_width = FALSE;
-        gboolean has_height = FALSE;
-        gboolean has_box = FALSE;
-        RsvgLength width{};
-        RsvgLength height{};
-        RsvgRectangle box{};
-        rsvg_.intrinsic_dimensions(handle_, &has_width, &width, &has_height, &height, &has_box, &box);
-        Page page;
-        if (rsvg_.intrinsic_size(handle_, &page.width, &page.height) != FALSE) {
-            page.physical_width = metres(width);
-        } else if (has_box != FALSE) {
-            // One of the two may be stated; the other, like both, is that of the box.
-            const double aspect = box.width / box.height;
-            page.physical_width = metres(width);
-            if (const auto physical_height = metres(height); physical_height && !page.physical_width) {
-                page.physical_width = *physical_height * aspect;
-            }
-            page.width = page.physical_width           ? *page.physical_width / kInch * kDotsPerInch
-                         : width.unit == RSVG_UNIT_PX  ? width.length
-                         : height.unit == RSVG_UNIT_PX ? height.length * aspect
-                                                       : box.width;
-            page.height = page.width / aspect;
-        } else {
-            page.as_drawn = true;
-            RsvgRectangle ink{};
-            GError* error = nullptr;
-            if (rsvg_.geometry_for_element(handle_, nullptr, &ink, nullptr, &error) == FALSE) {
-                throwRefused("cannot be drawn: " + taken(error));
-            }
-            page.width = ink.width;
-            page.height = ink.height;
+void writeWhole(const Descriptor& file, const void* bytes, std::size_t size)
+{
+    for (std::size_t done = 0; done < size;) {
+        const ssize_t count = ::write(file.number(), static_cast<const char*>(bytes) + done, size - done);
+        if (count < 0 && errno != EINTR) {
+            throwSystem(errno);
         }
-        if (!(page.width > 0.0 && page.height > 0.0 && std::isfinite(page.width) && std::isfinite(page.height))) {
-            throwRefused(page.as_drawn ? "states no size and draws nothing" : "has a page without area");
-        }
-        return page;
+        done += count < 0 ? 0 : static_cast<std::size_t>(count);
     }
+}
 
-    /// Premultiplied colours, row by row; the page lies at the top left and is `scale` times as large.
-    std::vector<std::uint32_t> draw(const Page& page, double scale, int width, int height)
-    {
-        std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-        cairo_surface_t* const surface = rsvg_.surface_create(reinterpret_cast<unsigned char*>(pixels.data()),
-                                                              CAIRO_FORMAT_ARGB32, width, height, 4 * width);
-        cairo_t* const context = rsvg_.context_create(surface);
-        const RsvgRectangle place{0.0, 0.0, page.width * scale, page.height * scale};
-        GError* error = nullptr;
-        const bool drawn = (page.as_drawn ? rsvg_.render_element(handle_, context, nullptr, &place, &error)
-                                          : rsvg_.render_document(handle_, context, &place, &error)) != FALSE;
-        const bool failed = rsvg_.context_status(context) != CAIRO_STATUS_SUCCESS;
-        rsvg_.surface_flush(surface);
-        rsvg_.context_destroy(context);
-        rsvg_.surface_destroy(surface);
-        if (!drawn || failed) {
-            throwRefused("cannot be drawn: " + (drawn ? "Cairo fails" : taken(error)));
+/// The program that draws, started.
+pid_t startDrawing(const Descriptor& request, const Descriptor& drawing, int words)
+{
+    static const auto program = installedFile(DROPLET_SVG);
+    if (!program) {
+        throwRefused("needs the program " DROPLET_SVG ", which is installed with droplet-shape and draws it");
+    }
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, request.number(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, drawing.number(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, words, STDERR_FILENO);
+    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+    // What the host has blocked or ignored is not the drawing's; and what the terminal sends to all of us (^C, ^Z) is
+    // ours to act on, for a drawing whose thread has ended ends as well.
+    posix_spawnattr_t how;
+    posix_spawnattr_init(&how);
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    sigset_t signals;
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&how, &signals);
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&how, &signals);
+    pid_t process = -1;
+    std::array<char*, 2> arguments{const_cast<char*>(program->c_str()), nullptr};
+    const int failure = ::posix_spawn(&process, program->c_str(), &files, &how, arguments.data(), environ);
+    posix_spawnattr_destroy(&how);
+    posix_spawn_file_actions_destroy(&files);
+    if (failure != 0) {
+        throwSystem(failure);
+    }
+    return process;
+}
+
+/// How a drawing ended.
+struct End {
+    bool late = false;
+    int status = 0;     ///< as of waitpid; 0, too, where the host has taken it
+    std::string words;  ///< the first that it said
+};
+
+End awaitEnd(pid_t process, const Descriptor& words, double seconds)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
+    End end;
+    std::array<char, 4096> chunk{};
+    for (;;) {
+        const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
+        pollfd event{words.number(), POLLIN, 0};
+        const int ready = ::poll(&event, 1, static_cast<int>(std::clamp(1e3 * left + 1.0, 0.0, 1e9)));
+        if (ready == 0) {
+            end.late = true;
+            ::kill(process, SIGKILL);
+            break;
         }
-        return pixels;
+        const ssize_t count = ready < 0 ? -1 : ::read(words.number(), chunk.data(), chunk.size());
+        if (count == 0 || (count < 0 && errno != EINTR)) {
+            break;  // nobody is left to say anything
+        }
+        if (count > 0 && end.words.size() < chunk.size()) {
+            end.words.append(chunk.data(), static_cast<std::size_t>(count));
+        }
+    }
+    while (::waitpid(process, &end.status, 0) == -1) {
+        if (errno != EINTR) {
+            end.status = 0;
+            break;
+        }
+    }
+    return end;
+}
+
+std::string memoryProblem(const DrawingLimits& limits)
+{
+    return "takes more than " + numberText(static_cast<double>(limits.memory) / (1 << 20)) + " MiB of memory to draw";
+}
+
+/// What is said of a drawing that did not come to an end of its own.
+std::string problemOf(const End& end, const DrawingLimits& limits)
+{
+    const int signal = WIFSIGNALED(end.status) ? WTERMSIG(end.status) : 0;
+    constexpr std::string_view kLoader = "loading shared libraries: ";
+    if (const auto at = end.words.find(kLoader); at != std::string::npos) {
+        const std::string reason = end.words.substr(at + kLoader.size());
+        return "needs librsvg, which must be installed (Debian's package librsvg2-2): " +
+               reason.substr(0, reason.find('\n'));
+    }
+    if (end.late || signal == SIGPROF) {
+        return "takes more than " + numberText(limits.seconds) + " s to draw";
+    }
+    if (signal == SIGKILL || end.words.find("alloc") != std::string::npos) {
+        return memoryProblem(limits);
+    }
+    if (signal == SIGSEGV || signal == SIGBUS) {
+        return "is nested too deeply, or too long, for librsvg to draw";
+    }
+    return "cannot be drawn: librsvg has failed";
+}
+
+/// The pixels of a file in memory.
+class Pixels {
+public:
+    Pixels(const Descriptor& file, std::size_t size)
+        : size_(size), file_(::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, file.number(), 0))
+    {
+        if (file_ == MAP_FAILED) {
+            throwSystem(errno);
+        }
+    }
+    ~Pixels() { ::munmap(file_, size_); }
+    Pixels(const Pixels&) = delete;
+    Pixels& operator=(const Pixels&) = delete;
+
+    [[nodiscard]] const std::uint32_t* row(std::size_t first) const
+    {
+        return reinterpret_cast<const std::uint32_t*>(static_cast<const std::byte*>(file_) + kSvgPixels) + first;
     }
 
 private:
-    /// What went wrong, in one line; the error is freed.
-    std::string taken(GError* error) const
-    {
-        std::string message = error == nullptr ? "unknown error" : error->message;
-        if (error != nullptr) {
-            rsvg_.error_free(error);
-        }
-        // "Error domain 1 code 77 on line 1 column 134 of data: ..." is libxml2's.
-        if (const auto from = message.find("Error domain "), to = message.find("on line ", from);
-            from != std::string::npos && to != std::string::npos) {
-            message.erase(from, to - from);
-        }
-        while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) {
-            message.pop_back();
-        }
-        std::replace_if(
-            message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
-            '?');
-        return message;
-    }
-
-    static std::optional<double> metres(const RsvgLength& length)
-    {
-        switch (length.unit) {
-            case RSVG_UNIT_IN:
-                return length.length * kInch;
-            case RSVG_UNIT_CM:
-                return length.length * 10.0 * kMillimetre;
-            case RSVG_UNIT_MM:
-                return length.length * kMillimetre;
-            case RSVG_UNIT_PT:
-                return length.length * kInch / 72.0;
-            case RSVG_UNIT_PC:
-                return length.length * kInch / 6.0;
-            default:
-                return std::nullopt;
-        }
-    }
-
-    const Library& rsvg_ = library();
-    RsvgHandle* handle_ = nullptr;
+    std::size_t size_;
+    void* file_;
 };
 
-/// A grid of pixels over a page. It is exactly as wide as the page, and less than a pixel higher.
-struct Raster {
-    int width = 1;
-    int height = 1;
-    double scale = 1.0;  ///< pixels per CSS px
-};
-
-Raster rasterOf(const Document::Page& page, const DecodeOptions& options)
+Image imageOf(const SvgDrawing& drawing, const Pixels& pixels, const DecodeOptions& options)
 {
-    // A page as narrow as a hair is drawn larger than asked for rather than as a row of pixels.
-    constexpr double kShortSide = 16.0;
-    const double most = static_cast<double>(options.max_pixels);
-    const double long_side = std::clamp(options.vector_long_side, 1, kLongestSide);
-    double scale = std::max(long_side / std::max(page.width, page.height),
-                            std::min(kShortSide, long_side) / std::min(page.width, page.height));
-    scale =
-        std::min({scale, kLongestSide / std::max(page.width, page.height), std::sqrt(most / page.width / page.height)});
-    double width = std::max(1.0, std::round(page.width * scale));
-    const auto height = [&] {
-        constexpr double kRounding = 1e-6;
-        return std::max(1.0, std::ceil(page.height / page.width * width - kRounding));
-    };
-    while (width > 1.0 && (width * height() > most || height() > kLongestSide)) {
-        width -= 1.0;
-    }
-    if (!(height() <= kLongestSide && width * height() <= most)) {
-        throwRefused("has a page of " + numberText(page.width) + " x " + numberText(page.height) +
-                     ", too narrow to be drawn in " + std::to_string(options.max_pixels) + " pixels");
-    }
-    return {static_cast<int>(width), static_cast<int>(height()), width / page.width};
-}
-
-Image draw(std::span<const std::byte> text, const DecodeOptions& options)
-{
-    Document document(text);
-    const Document::Page page = document.page();
-    const Raster raster = rasterOf(page, options);
-    if (const Raster probe = rasterOf(page, {std::min(options.max_pixels, std::size_t{kProbe} * kProbe), kProbe});
-        probe.width < raster.width) {
-        document.draw(page, probe.scale, probe.width, probe.height);
-    }
-    const std::vector<std::uint32_t> pixels = document.draw(page, raster.scale, raster.width, raster.height);
-
     Image image = blankImage({.format = ImageFormat::Svg,
-                              .width = raster.width,
-                              .height = raster.height,
+                              .width = drawing.width,
+                              .height = drawing.height,
                               .keeps_colour = options.keeps_colour},
                              true);
     image.premultiplied = true;
-    image.drawn_scale = raster.scale;
-    image.physical_width = page.physical_width;
-    const auto columns = static_cast<std::size_t>(raster.width);
+    image.drawn_scale = drawing.scale;
+    if (drawing.physical_width > 0.0) {
+        image.physical_width = drawing.physical_width;
+    }
+    const auto columns = static_cast<std::size_t>(drawing.width);
     std::vector<std::uint8_t> row(4 * columns);
-    for (std::size_t first = 0; first < pixels.size(); first += columns) {
+    for (std::size_t first = 0; first < image.luma.size(); first += columns) {
+        const std::uint32_t* const from = pixels.row(first);
         for (std::size_t x = 0; x < columns; ++x) {
-            const std::uint32_t pixel = pixels[first + x];
-            row[4 * x] = static_cast<std::uint8_t>(pixel >> 16);
-            row[4 * x + 1] = static_cast<std::uint8_t>(pixel >> 8);
-            row[4 * x + 2] = static_cast<std::uint8_t>(pixel);
-            row[4 * x + 3] = static_cast<std::uint8_t>(pixel >> 24);
+            row[4 * x] = static_cast<std::uint8_t>(from[x] >> 16);
+            row[4 * x + 1] = static_cast<std::uint8_t>(from[x] >> 8);
+            row[4 * x + 2] = static_cast<std::uint8_t>(from[x]);
+            row[4 * x + 3] = static_cast<std::uint8_t>(from[x] >> 24);
         }
         putPixels(image, {first, 1, 4}, std::span<const std::uint8_t>(row));
     }
     return image;
 }
 
-/// Memory for a stack, of which only what is touched is taken, above a page that must not be.
-class Stack {
-public:
-    explicit Stack(std::size_t size) : size_(size)
-    {
-        start_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK,
-                      -1, 0);
-        if (start_ == MAP_FAILED) {
-            throw std::bad_alloc();
-        }
-        mprotect(start_, kGuard, PROT_NONE);
+Image draw(std::span<const std::byte> text, std::size_t tags, const DecodeOptions& options)
+{
+    const Descriptor asked = memoryFile();
+    const Descriptor drawn = memoryFile();
+    const SvgRequest request{options.max_pixels, options.vector_long_side, options.drawing.seconds,
+                             options.drawing.memory, tags};
+    writeWhole(asked, &request, sizeof request);
+    writeWhole(asked, text.data(), text.size());
+
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+        throwSystem(errno);
     }
+    const Descriptor words(ends[0]);
+    auto said = std::make_unique<Descriptor>(ends[1]);
+    const pid_t process = startDrawing(asked, drawn, said->number());
+    said.reset();
+    const End end = awaitEnd(process, words, options.drawing.seconds);
 
-    ~Stack() { munmap(start_, size_); }
-
-    Stack(const Stack&) = delete;
-    Stack& operator=(const Stack&) = delete;
-
-    /// Runs a function on this stack, in a thread of its own, and waits for it. What it throws is thrown here.
-    template <typename Function>
-    void run(Function& function)
-    {
-        struct Call {
-            Function& function;
-            std::exception_ptr thrown;
-        } call{function, nullptr};
-        const auto start = [](void* argument) -> void* {
-            auto& started = *static_cast<Call*>(argument);
-            try {
-                started.function();
-            } catch (...) {
-                started.thrown = std::current_exception();
-            }
-            return nullptr;
-        };
-        pthread_attr_t attributes;
-        pthread_t thread{};
-        pthread_attr_init(&attributes);
-        pthread_attr_setstack(&attributes, start_, size_);
-        const int failure = pthread_create(&thread, &attributes, start, &call);
-        pthread_attr_destroy(&attributes);
-        if (failure != 0) {
-            throw std::bad_alloc();
-        }
-        pthread_join(thread, nullptr);
-        if (call.thrown) {
-            std::rethrow_exception(call.thrown);
-        }
+    SvgDrawing drawing;
+    const bool whole = ::pread(drawn.number(), &drawing, sizeof drawing, 0) == sizeof drawing;
+    if (end.late || end.status != 0 || !whole || drawing.outcome == SvgOutcome::None) {
+        throwRefused(problemOf(end, options.drawing));
     }
-
-private:
-    static constexpr std::size_t kGuard = 1 << 16;
-
-    std::size_t size_;
-    void* start_;
-};
+    if (drawing.outcome == SvgOutcome::Damaged) {
+        throwDamaged(ImageFormat::Svg, drawing.problem.data());
+    }
+    if (drawing.outcome == SvgOutcome::Refused) {
+        const std::string problem = drawing.problem.data();
+        throwRefused(problem.ends_with("NoMemory") ? memoryProblem(options.drawing) : problem);
+    }
+    const std::size_t size =
+        kSvgPixels + 4 * static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
+    return imageOf(drawing, Pixels(drawn, size), options);
+}
 
 }  // namespace
 
@@ -411,11 +328,7 @@ Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options
     if (tags > kMostTags) {
         throwRefused("of " + std::to_string(tags) + " tags, more than the limit of " + std::to_string(kMostTags));
     }
-    Image image;
-    Stack stack(kLeastStack + tags * kStackOfTag);
-    auto on_stack = [&] { image = draw(encoded, options); };
-    stack.run(on_stack);
-    return image;
+    return draw(encoded, tags, options);
 }
 
 }  // namespace droplet

@@ -296,6 +296,33 @@ TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)
     expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe, which cannot be run"}, without);
 }
 
+TEST_F(AnimateTest, VideosThatAreCutOffAreToldSo)
+{
+    // Of Matroska, ffmpeg itself makes little of it; AVI says how many frames there are.
+    CommandOptions options;
+    options.directory = directory();
+    for (const std::string name : {"film.mkv", "film.avi", "film.mp4"}) {
+        const auto made =
+            runProgram({"ffmpeg", "-v", "error", "-framerate", "10", "-start_number", "8", "-i", "frames/f%04d.pgm",
+                        "-c:v", "mjpeg", "-q:v", "1", "-fflags", "+bitexact", "-movflags", "+faststart", name},
+                       options);
+        ASSERT_EQ(made.exit_code, 0) << made.error;
+        EXPECT_EQ(run({name, "whole.glb"}).exit_code, 0) << name;
+        fs::resize_file(directory() / name, fs::file_size(directory() / name) * 3 / 4);
+        expectFailure({name, "old.glb"}, 3, {name, "is cut off or damaged after frame "});
+    }
+    // One that was trimmed without being encoded again holds frames that it does not show.
+    const auto trimmed = runProgram({"ffmpeg", "-v", "error", "-framerate", "10", "-start_number", "8", "-i",
+                                     "frames/f%04d.pgm", "-c:v", "mpeg4", "-q:v", "1", "long.mp4"},
+                                    options);
+    ASSERT_EQ(trimmed.exit_code, 0) << trimmed.error;
+    ASSERT_EQ(
+        runProgram({"ffmpeg", "-v", "error", "-ss", "0.2", "-i", "long.mp4", "-c", "copy", "trimmed.mp4"}, options)
+            .exit_code,
+        0);
+    EXPECT_EQ(run({"trimmed.mp4", "trimmed.glb"}).exit_code, 0);
+}
+
 TEST_F(AnimateTest, DrawingsAreFramesInTheirOwnSize)
 {
     fs::create_directory(directory() / "drawn");

@@ -16,6 +16,7 @@
 #include "droplet/picture/picture.h"
 #include "droplet/version.h"
 #include "support/command.h"
+#include "support/hostile_drawings.h"
 #include "support/paths.h"
 
 namespace droplet {
@@ -220,6 +221,19 @@ TEST_F(BatchTest, OutOfMemoryIsOnePicturesFault)
     EXPECT_EQ(result.exit_code, 6) << result.error;
     EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
     EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("memory"));
+}
+
+TEST_F(BatchTest, DrawingThatBreaksItsProgramIsOnePicturesFault)
+{
+    const auto drawings = testing::hostileDrawings();
+    const auto drawing = std::find_if(drawings.begin(), drawings.end(),
+                                      [](const testing::HostileDrawing& one) { return one.name == "convolution"; });
+    writeFile(directory() / "masks/b.SVG", drawing->text());
+    const auto result = batch({"--keep-going"});
+    EXPECT_EQ(result.exit_code, 6) << result.error;
+    EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
+    EXPECT_EQ(manifest()["items"][1]["exit_code"], 3);
+    EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("b.SVG: SVG image "));
 }
 
 TEST_F(BatchTest, WhatStandsIsNotMadeAgain)

@@ -509,6 +509,20 @@ TEST(Outline, NothingOrOnlySpecksIsInvalidInput)
     }
 }
 
+TEST(Outline, RefusesBordersOutOfProportion)
+{
+    // A picture of 3 KB, if it is stored well, of which each pixel would take 300 bytes.
+    const Mask stripes = testing::hardMask(2900, 2900, [](Vec2 p) { return static_cast<int>(p.x) % 2 == 0; });
+    try {
+        trace(stripes);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        EXPECT_THAT(error.what(),
+                    ::testing::HasSubstr("borders are 8412900 pixels long, more than the limit of 8388608"));
+    }
+}
+
 TEST(Outline, RefusesOptionsOutOfRange)
 {
     const Mask mask = drawnMask("....\n.##.\n.##.\n....");

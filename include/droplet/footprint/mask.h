@@ -30,6 +30,8 @@ struct MaskOptions {
     std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
     std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
     int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
+    double vector_seconds = 10.0;  ///< that drawing an SVG may take, by the clock and of processor time
+    std::size_t vector_memory = std::size_t{1} << 30;  ///< that drawing an SVG may take beside its pixels [B], ≥ 64 MiB
 };
 
 /// How much of every pixel liquid covers, and how that was decided.
@@ -68,7 +70,8 @@ struct Mask {
 /// vector_long_side pixels or one more, or as many as max_pixels and 32767 a side admit; more if the shorter side would
 /// have fewer than 16. The page is that of the SVG's width and height, at 96 px to the inch, or its viewBox, or just
 /// what is drawn. Nothing the image refers to is read, neither from disk nor from the network, but what it holds itself
-/// as data: URLs. Text depends on the fonts installed.
+/// as data: URLs. Text depends on the fonts installed. A process of its own draws, which ends with the call: whatever a
+/// drawing does to it is an error here. The host's threads, signals and descriptors are left alone.
 ///
 /// The size in the file's header is checked before any pixel is decoded or memory for it taken. Levels are those
 /// stored: 8-bit v is 257 v of 65535, luma is ITU-R BT.601 of the image in front of black, so that transparent
@@ -92,7 +95,8 @@ struct Mask {
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, of a kind not read, codecs not
 ///                 installed, no alpha where alpha was asked;
 ///                 no mask, whichever way it is taken, unless insist; nothing of the colour;
-///                 SVG: no area, over 64 MiB, 250 000 tags or 500 000 references, librsvg missing
+///                 SVG: no area; over 64 MiB, 250 000 tags, 500 000 references, vector_seconds or vector_memory;
+///                 nested too deeply; librsvg or the program that draws with it missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
 
 /// The bytes of an image's file, for decodeMask. Of a file that does not begin like an image only the beginning.

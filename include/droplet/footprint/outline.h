@@ -61,7 +61,8 @@ double pixelSize(const Mask& mask, const TraceOptions& options);
 /// the number of pixels.
 /// @param mask     valid
 /// @param options  threshold, physical size, speck size
-/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only
+/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only, or if its
+///                 borders are longer than 2²³ sides of pixels
 Outline trace(const Mask& mask, const TraceOptions& options = {});
 
 }  // namespace droplet

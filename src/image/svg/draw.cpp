@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// After: Scalable Vector Graphics 2 (W3C), 8.2 and 8.12 (the size of a page); CSS Values and Units 3, 5.2.
+//
+// The program that draws SVG with librsvg; see image/svg_drawing.h. It stands alone, so that a drawing that breaks
+// librsvg, or takes more than it may, takes nothing else along.
+//
+// Without a base URI librsvg loads nothing but data: URLs, no file and nothing from the network; it runs no scripts.
+#include <dlfcn.h>
+#include <librsvg/rsvg.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "droplet/units.h"
+#include "image/svg_drawing.h"
+#include "number_text.h"
+
+// NOLINTNEXTLINE(readability-identifier-naming): Cairo's name
+extern "C" cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cairo_matrix_t* size,
+                                                         const cairo_matrix_t* place,
+                                                         const cairo_font_options_t* options);
+
+namespace droplet {
+namespace {
+
+constexpr std::size_t kStackOfTag = 8 << 10;  // 7 kB were measured (patterns and masks)
+constexpr std::size_t kLeastStack = 8 << 20;
+constexpr double kDotsPerInch = 96.0;  // of CSS
+constexpr double kInch = 25.4 * kMillimetre;
+constexpr int kLongestSide = 32767;  // of Cairo's images
+
+/// What the library is told in place of a drawing.
+class Refusal : public std::runtime_error {
+public:
+    Refusal(SvgOutcome outcome, const std::string& problem) : std::runtime_error(problem), outcome(outcome) {}
+
+    SvgOutcome outcome;
+};
+
+/// The fonts that were asked for.
+struct Fonts {
+    struct Asked {
+        double size;
+        double place;
+    };
+    std::vector<Asked> asked;
+    bool too_large = false;  ///< whether letters were wanted that FreeType cannot make
+};
+
+/// Cairo's functions are called with no place for a state.
+Fonts& fonts()
+{
+    static Fonts fonts;
+    return fonts;
+}
+
+/// Pango (1.50) asks for the measures of a font by one that is scaled twice. FreeType refuses more than 65535 pixels
+/// an em, whereupon Cairo refuses the font face for good, at any size: letters 20 high on a page of 24 × 24 could not
+/// be drawn. Such a font is refused here, before the face is touched; letters are drawn without its measures.
+cairo_scaled_font_t* scaledFont(cairo_font_face_t* face, const cairo_matrix_t& size, const cairo_matrix_t& place,
+                                const cairo_font_options_t* options)
+{
+    static auto* const create =
+        reinterpret_cast<decltype(&cairo_scaled_font_create)>(dlsym(RTLD_NEXT, "cairo_scaled_font_create"));
+    constexpr double kMostPixels = 65535.0;
+    const auto scale = [](const cairo_matrix_t& matrix) {
+        return std::sqrt(std::abs(matrix.xx * matrix.yy - matrix.xy * matrix.yx));
+    };
+    const Fonts::Asked now{scale(size), scale(place)};
+    if (now.size * now.place < kMostPixels) {
+        fonts().asked.push_back(now);
+        return create(face, &size, &place, options);
+    }
+    const auto has_measures_here = [&](const Fonts::Asked& before) {
+        constexpr double kMostOfPango = 1 << 21;  // pixels in its units, 1024 of them
+        constexpr double kRounding = 1e-2;
+        const double twice = std::min(before.size * before.place, kMostOfPango / now.place);
+        return std::abs(before.place / now.place - 1.0) < kRounding && std::abs(twice / now.size - 1.0) < kRounding;
+    };
+    Fonts& all = fonts();
+    all.too_large = all.too_large || std::none_of(all.asked.begin(), all.asked.end(), has_measures_here);
+    // A face without a name is in error from the start, and so is its font.
+    return create(cairo_toy_font_face_create(nullptr, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL), &size, &place,
+                  options);
+}
+
+/// Where the page is as large as what is drawn on it, that is moved into place.
+struct Page {
+    double width = 0.0;   ///< [CSS px]
+    double height = 0.0;  ///< [CSS px]
+    bool as_drawn = false;
+    std::optional<double> physical_width;  ///< [m]
+};
+
+/// A grid of pixels over a page. It is exactly as wide as the page, and less than a pixel higher.
+struct Raster {
+    int width = 1;
+    int height = 1;
+    double scale = 1.0;  ///< pixels per CSS px
+};
+
+class Document {
+public:
+    explicit Document(std::span<const std::byte> text)
+    {
+        GError* error = nullptr;
+        handle_ = rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(text.data()), text.size(), &error);
+        if (handle_ == nullptr) {
+            throw Refusal(SvgOutcome::Damaged, taken(error));
+        }
+        rsvg_handle_set_dpi(handle_, kDotsPerInch);
+    }
+
+    ~Document() { g_object_unref(handle_); }
+
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+
+    Page page()
+    {
+        gboolean has_width = FALSE;
+        gboolean has_height = FALSE;
+        gboolean has_box = FALSE;
+        RsvgLength width{};
+        RsvgLength height{};
+        RsvgRectangle box{};
+        rsvg_handle_get_intrinsic_dimensions(handle_, &has_width, &width, &has_height, &height, &has_box, &box);
+        Page page;
+        if (rsvg_handle_get_intrinsic_size_in_pixels(handle_, &page.width, &page.height) != FALSE) {
+            page.physical_width = metres(width);
+        } else if (has_box != FALSE) {
+            // One of the two may be stated; the other, like both, is that of the box.
+            const double aspect = box.width / box.height;
+            page.physical_width = metres(width);
+            if (const auto physical_height = metres(height); physical_height && !page.physical_width) {
+                page.physical_width = *physical_height * aspect;
+            }
+            page.width = page.physical_width           ? *page.physical_width / kInch * kDotsPerInch
+                         : width.unit == RSVG_UNIT_PX  ? width.length
+                         : height.unit == RSVG_UNIT_PX ? height.length * aspect
+                                                       : box.width;
+            page.height = page.width / aspect;
+        } else {
+            page.as_drawn = true;
+            RsvgRectangle ink{};
+            GError* error = nullptr;
+            if (rsvg_handle_get_geometry_for_element(handle_, nullptr, &ink, nullptr, &error) == FALSE) {
+                throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + taken(error));
+            }
+            page.width = ink.width;
+            page.height = ink.height;
+        }
+        if (!(page.width > 0.0 && page.height > 0.0 && std::isfinite(page.width) && std::isfinite(page.height))) {
+            throw Refusal(SvgOutcome::Refused,
+                          page.as_drawn ? "states no size and draws nothing" : "has a page without area");
+        }
+        return page;
+    }
+
+    /// Into premultiplied colours, row by row; the page lies at the top left and is `scale` times as large.
+    void draw(const Page& page, const Raster& raster, unsigned char* pixels)
+    {
+        cairo_surface_t* const surface = cairo_image_surface_create_for_data(pixels, CAIRO_FORMAT_ARGB32, raster.width,
+                                                                             raster.height, 4 * raster.width);
+        cairo_t* const context = cairo_create(surface);
+        const RsvgRectangle place{0.0, 0.0, page.width * raster.scale, page.height * raster.scale};
+        GError* error = nullptr;
+        const bool drawn = (page.as_drawn ? rsvg_handle_render_element(handle_, context, nullptr, &place, &error)
+                                          : rsvg_handle_render_document(handle_, context, &place, &error)) != FALSE;
+        const bool failed = cairo_status(context) != CAIRO_STATUS_SUCCESS;
+        cairo_surface_flush(surface);
+        cairo_destroy(context);
+        cairo_surface_destroy(surface);
+        if (!drawn || failed) {
+            throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + (drawn ? "Cairo fails" : taken(error)));
+        }
+        if (fonts().too_large) {
+            throw Refusal(SvgOutcome::Refused, "has letters of more than 65535 pixels, larger than can be drawn");
+        }
+    }
+
+private:
+    /// What went wrong, in one line; the error is freed.
+    std::string taken(GError* error) const
+    {
+        std::string message = error == nullptr ? "unknown error" : error->message;
+        if (error != nullptr) {
+            g_error_free(error);
+        }
+        // "Error domain 1 code 77 on line 1 column 134 of data: ..." is libxml2's.
+        if (const auto from = message.find("Error domain "), to = message.find("on line ", from);
+            from != std::string::npos && to != std::string::npos) {
+            message.erase(from, to - from);
+        }
+        while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) {
+            message.pop_back();
+        }
+        std::replace_if(
+            message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
+            '?');
+        return message;
+    }
+
+    static std::optional<double> metres(const RsvgLength& length)
+    {
+        switch (length.unit) {
+            case RSVG_UNIT_IN:
+                return length.length * kInch;
+            case RSVG_UNIT_CM:
+                return length.length * 10.0 * kMillimetre;
+            case RSVG_UNIT_MM:
+                return length.length * kMillimetre;
+            case RSVG_UNIT_PT:
+                return length.length * kInch / 72.0;
+            case RSVG_UNIT_PC:
+                return length.length * kInch / 6.0;
+            default:
+                return std::nullopt;
+        }
+    }
+
+    RsvgHandle* handle_ = nullptr;
+};
+
+Raster rasterOf(const Page& page, const SvgRequest& request)
+{
+    // A page as narrow as a hair is drawn larger than asked for rather than as a row of pixels.
+    constexpr double kShortSide = 16.0;
+    const double most = static_cast<double>(request.max_pixels);
+    const double long_side = std::clamp(request.long_side, 1, kLongestSide);
+    double scale = std::max(long_side / std::max(page.width, page.height),
+                            std::min(kShortSide, long_side) / std::min(page.width, page.height));
+    scale =
+        std::min({scale, kLongestSide / std::max(page.width, page.height), std::sqrt(most / page.width / page.height)});
+    double width = std::max(1.0, std::round(page.width * scale));
+    const auto height = [&] {
+        constexpr double kRounding = 1e-6;
+        return std::max(1.0, std::ceil(page.height / page.width * width - kRounding));
+    };
+    while (width > 1.0 && (width * height() > most || height() > kLongestSide)) {
+        width -= 1.0;
+    }
+    if (!(height() <= kLongestSide && width * height() <= most)) {
+        throw Refusal(SvgOutcome::Refused, "has a page of " + numberText(page.width) + " x " + numberText(page.height) +
+                                               ", too narrow to be drawn in " + std::to_string(request.max_pixels) +
+                                               " pixels");
+    }
+    return {static_cast<int>(width), static_cast<int>(height()), width / page.width};
+}
+
+/// Draws the text on the request's page into the file that is our standard output.
+void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing& drawing)
+{
+    Document document(text);
+    const Page page = document.page();
+    const Raster raster = rasterOf(page, request);
+    const std::size_t size =
+        kSvgPixels + std::size_t{4} * static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
+    void* const file = ftruncate(STDOUT_FILENO, static_cast<off_t>(size)) == 0
+                           ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, STDOUT_FILENO, 0)
+                           : MAP_FAILED;
+    if (file == MAP_FAILED) {
+        throw std::bad_alloc();
+    }
+    document.draw(page, raster, static_cast<unsigned char*>(file) + kSvgPixels);
+    drawing = {SvgOutcome::Drawn, raster.width, raster.height, raster.scale, page.physical_width.value_or(0.0), {}};
+}
+
+/// What is asked for takes no more than it says, and ends with the thread that asks.
+void limit(const SvgRequest& request)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    const rlimit memory{request.memory, request.memory};
+    setrlimit(RLIMIT_DATA, &memory);
+    itimerval time{};
+    time.it_value.tv_sec = static_cast<time_t>(request.seconds);
+    time.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (request.seconds - std::floor(request.seconds)));
+    setitimer(ITIMER_PROF, &time, nullptr);
+    // Filters run in threads, each with a stack; on large machines those alone would be too much.
+    setenv("RAYON_NUM_THREADS", "4", 0);
+}
+
+/// What there is to do.
+struct Task {
+    const SvgRequest& request;
+    std::span<const std::byte> text;
+    SvgDrawing& drawing;
+};
+
+void tell(SvgDrawing& drawing, SvgOutcome outcome, const std::string& problem)
+{
+    drawing.outcome = outcome;
+    problem.copy(drawing.problem.data(), drawing.problem.size() - 1);
+}
+
+void* drawOrTell(void* argument)
+{
+    const Task& task = *static_cast<const Task*>(argument);
+    try {
+        draw(task.text, task.request, task.drawing);
+    } catch (const Refusal& refusal) {
+        tell(task.drawing, refusal.outcome, refusal.what());
+    } catch (const std::exception& error) {
+        tell(task.drawing, SvgOutcome::Refused, std::string("cannot be drawn: ") + error.what());
+    }
+    return nullptr;
+}
+
+/// Draws on a stack as deep as elements can refer to one another: none can refer to itself. Below it is a page that
+/// ends us.
+bool drawDeep(Task task)
+{
+    constexpr std::size_t kGuard = 1 << 16;
+    const std::size_t size =
+        std::min(kLeastStack + task.request.tags * kStackOfTag, task.request.memory / 4 / kGuard * kGuard);
+    void* const stack =
+        mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+    if (stack == MAP_FAILED) {
+        return false;
+    }
+    mprotect(stack, kGuard, PROT_NONE);
+    pthread_attr_t attributes;
+    pthread_t thread{};
+    pthread_attr_init(&attributes);
+    pthread_attr_setstack(&attributes, stack, size);
+    const bool started = pthread_create(&thread, &attributes, drawOrTell, &task) == 0;
+    pthread_attr_destroy(&attributes);
+    return started && pthread_join(thread, nullptr) == 0;
+}
+
+int start()
+{
+    struct stat size {};
+    void* const from =
+        fstat(STDIN_FILENO, &size) == 0 && size.st_size >= static_cast<off_t>(sizeof(SvgRequest))
+            ? mmap(nullptr, static_cast<std::size_t>(size.st_size), PROT_READ, MAP_SHARED, STDIN_FILENO, 0)
+            : MAP_FAILED;
+    void* const to = ftruncate(STDOUT_FILENO, kSvgPixels) == 0
+                         ? mmap(nullptr, kSvgPixels, PROT_READ | PROT_WRITE, MAP_SHARED, STDOUT_FILENO, 0)
+                         : MAP_FAILED;
+    if (from == MAP_FAILED || to == MAP_FAILED) {
+        return 2;  // not started by the library
+    }
+    const auto& request = *static_cast<const SvgRequest*>(from);
+    auto& drawing = *new (to) SvgDrawing();
+    limit(request);
+    const std::span<const std::byte> whole(static_cast<const std::byte*>(from), static_cast<std::size_t>(size.st_size));
+    if (!drawDeep({request, whole.subspan(sizeof request), drawing})) {
+        tell(drawing, SvgOutcome::Refused, "needs more memory than there is");
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace droplet
+
+// Cairo's own is called from here alone: a program's functions stand before those of its libraries.
+cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cairo_matrix_t* size,
+                                              const cairo_matrix_t* place, const cairo_font_options_t* options)
+{
+    return droplet::scaledFont(face, *size, *place, options);
+}
+
+int main()
+{
+    _exit(droplet::start());  // without the destructors of what the libraries keep
+}
