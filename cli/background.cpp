@@ -28,6 +28,11 @@ Background::Background(const BackgroundOptions& options) : options_(options)
     width_ = options_.width.value_or(kWidth);
     height_ = options_.height.value_or(kHeight);
     if (!options_.path) {
+        droplet::ViewOptions view;
+        view.width = width_;
+        view.height = height_;
+        view.field_of_view = options_.field_of_view;
+        road_.emplace(view);
         return;
     }
     const std::string& path = *options_.path;
@@ -39,7 +44,7 @@ Background::Background(const BackgroundOptions& options) : options_(options)
     if (isPicture(path)) {
         first = droplet::readPicture(path);
     } else {
-        video_ = std::make_unique<Video>(path);
+        video_ = std::make_unique<Video>(path, options_.frames_per_second);
         first = videoFrame();
     }
     constexpr int kLeast = 16;
@@ -83,7 +88,7 @@ Picture Background::videoFrame()
     if (!bytes) {
         const bool is_empty = video_width_ == 0;
         if (!is_empty) {
-            video_ = std::make_unique<Video>(*options_.path);
+            video_ = std::make_unique<Video>(*options_.path, options_.frames_per_second);
             bytes = video_->next();
         }
         if (!bytes) {
@@ -110,11 +115,7 @@ std::optional<Picture> Background::next(double travelled)
     if (options_.path) {
         return std::exchange(picture_, std::nullopt);
     }
-    droplet::ViewOptions view;
-    view.width = width_;
-    view.height = height_;
-    view.field_of_view = options_.field_of_view;
-    return droplet::defaultBackground(view, travelled);
+    return road_->at(travelled);
 }
 
 void Background::skip(std::size_t frames)

@@ -16,12 +16,13 @@ struct BackgroundOptions {
     std::optional<std::string> path;  ///< empty: the evening road
     std::optional<int> width;         ///< of the frame, if it is asked for [px]
     std::optional<int> height;
-    bool fit = false;            ///< scale and crop to it
-    double field_of_view = 0.0;  ///< of the made-up road [rad]
+    bool fit = false;                 ///< scale and crop to it
+    double frames_per_second = 30.0;  ///< at which a video is shown, at its own speed
+    double field_of_view = 0.0;       ///< of the made-up road [rad]
 };
 
-/// What is behind the glass, frame by frame: a picture stays, a video begins again when it has ended, and the evening
-/// road goes by.
+/// What is behind the glass, frame by frame: a picture stays, a video goes on at its own speed and begins again when it
+/// has ended, and the evening road goes by.
 class Background {
 public:
     /// Reads the picture, or the video's first frame.
@@ -49,6 +50,7 @@ private:
     BackgroundOptions options_;
     int width_ = 0;
     int height_ = 0;
+    std::optional<droplet::DefaultBackground> road_;
     std::optional<droplet::Picture> picture_;  ///< that stays, until it has been seen
     std::unique_ptr<Video> video_;
     std::optional<droplet::Picture> ahead_;  ///< of the video, read to know its size

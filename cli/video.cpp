@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -97,12 +99,17 @@ Video::Announced announcedBy(const std::string& path)
 
 }  // namespace
 
-Video::Video(const std::string& path) : path_(path), announced_(announcedBy(path))
+Video::Video(const std::string& path, std::optional<double> played_at) : path_(path), announced_(announcedBy(path))
 {
-    const Process process =
-        startReading({"ffmpeg", "-nostdin", "-v", "error", "-xerror", "-i", plainName(path), "-map", "0:v:0",
-                      "-fps_mode", "passthrough", "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"},
-                     path);
+    std::vector<std::string> command{"ffmpeg",        "-nostdin", "-v",    "error",     "-xerror",    "-i",
+                                     plainName(path), "-map",     "0:v:0", "-fps_mode", "passthrough"};
+    if (played_at) {
+        // A frame takes the first place that is not before it: the last of those due is shown.
+        announced_.frames.reset();  // another number of frames will come
+        command.insert(command.end(), {"-vf", fmt::format("fps={:.12g}:round=up", *played_at)});
+    }
+    command.insert(command.end(), {"-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"});
+    const Process process = startReading(command, path);
     process_ = process.id;
     frames_ = process.output;
     words_ = process.words;

@@ -15,8 +15,10 @@ namespace cli {
 class Video {
 public:
     /// Starts ffmpeg, and asks ffprobe for the rate and the number of frames.
+    /// @param played_at       frames per second to give: at each time the one that is shown then, however unevenly the
+    ///                        video's own come; empty: every frame once
     /// @throws droplet::Error InvalidInput if one of them is not there or cannot read the file
-    explicit Video(const std::string& path);
+    explicit Video(const std::string& path, std::optional<double> played_at = {});
     /// Ends ffmpeg.
     ~Video();
     Video(const Video&) = delete;

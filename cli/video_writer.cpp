@@ -5,12 +5,15 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <ostream>
 #include <regex>
 #include <sstream>
+#include <vector>
 
 #include "droplet/error.h"
 #include "option_values.h"
@@ -53,6 +56,36 @@ Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const 
                         std::strerror(started.failure) + "; ask for frames instead, as in out/%05d.png");
     }
     return started.process;
+}
+
+/// Qualities from 100 down are steps of the quantiser from 0 up, each codec's own.
+std::vector<std::string> qualityOf(const std::string& codec, double quality)
+{
+    const auto steps = [&](double most) { return std::to_string(std::lround(most * (1.0 - quality / 100.0))); };
+    if (codec == "libx264" || codec == "libx265") {
+        return {"-crf", steps(51.0)};
+    }
+    if (codec == "libvpx-vp9" || codec == "libaom-av1" || codec == "libsvtav1") {
+        return {"-crf", steps(63.0), "-b:v", "0"};
+    }
+    return {"-q:v", steps(31.0)};
+}
+
+std::vector<std::string> commandOf(const VideoWriterOptions& options)
+{
+    std::vector<std::string> command{"ffmpeg", "-nostdin", "-v", "error"};
+    const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
+    add({"-f", "rawvideo", "-pix_fmt", "rgb24"});
+    add({"-s", std::to_string(options.width) + "x" + std::to_string(options.height)});
+    add({"-r", fmt::format("{:.12g}", options.frames_per_second), "-i", "-", "-an"});
+    add({"-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format=yuv420p"});
+    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+    add({"-c:v", options.codec});
+    const std::vector<std::string> quality = qualityOf(options.codec, options.quality);
+    command.insert(command.end(), quality.begin(), quality.end());
+    add({"-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
+    add({"-f", containerOf(options.path)->format, "-y", "/dev/fd/3"});
+    return command;
 }
 
 }  // namespace
@@ -113,38 +146,7 @@ VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path
         throw Error(ErrorCode::OutputFailed, path_ + ": no room for a temporary file: " + std::strerror(errno));
     }
     try {
-        process_ = startFfmpeg({"ffmpeg",
-                                "-nostdin",
-                                "-v",
-                                "error",
-                                "-f",
-                                "rawvideo",
-                                "-pix_fmt",
-                                "rgb24",
-                                "-s",
-                                std::to_string(options.width) + "x" + std::to_string(options.height),
-                                "-r",
-                                fmt::format("{:.12g}", options.frames_per_second),
-                                "-i",
-                                "-",
-                                "-an",
-                                "-c:v",
-                                options.codec,
-                                "-pix_fmt",
-                                "yuv420p",
-                                "-threads",
-                                "2",
-                                "-fflags",
-                                "+bitexact",
-                                "-flags:v",
-                                "+bitexact",
-                                "-map_metadata",
-                                "-1",
-                                "-f",
-                                containerOf(path_)->format,
-                                "-y",
-                                "/dev/fd/3"},
-                               Piped::Input, path_, ::fileno(video_));
+        process_ = startFfmpeg(commandOf(options), Piped::Input, path_, ::fileno(video_));
     } catch (...) {
         std::fclose(video_);
         throw;

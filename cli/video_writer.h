@@ -10,12 +10,16 @@
 
 namespace cli {
 
+/// Looks like the frames themselves.
+inline constexpr double kVideoQuality = 65.0;
+
 struct VideoWriterOptions {
     std::string path;   ///< whose extension tells the container: isVideo(path)
     std::string codec;  ///< as ffmpeg calls its encoder
     int width = 0;      ///< [px]
     int height = 0;     ///< [px]
     double frames_per_second = 30.0;
+    double quality = kVideoQuality;  ///< 1 … 100, where 100 is the best that the codec has
 };
 
 /// Whether we write videos of that name: .mp4, .mkv, .mov or .webm.
@@ -32,7 +36,8 @@ void checkCodec(const std::string& codec, const std::string& path);
 /// @throws droplet::Error InvalidArgument, naming --codec, with ffmpeg's words
 void tryVideo(const VideoWriterOptions& options);
 
-/// A video on its way, encoded by the program ffmpeg into a file without a name.
+/// A video on its way, encoded by the program ffmpeg into a file without a name, in the colours of BT.709, and marked
+/// so.
 class VideoWriter {
 public:
     /// @throws droplet::Error OutputFailed

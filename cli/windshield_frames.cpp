@@ -34,6 +34,7 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
         behind.height = options.view.height;
     }
     behind.fit = options.fit;
+    behind.frames_per_second = options.frames_per_second;
     behind.field_of_view = options.view.field_of_view;
     return behind;
 }
@@ -59,8 +60,9 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
 void WindshieldFrames::begin()
 {
     if (options_.is_video) {
-        const VideoWriterOptions video{options_.output, codec_, view_options_.width, view_options_.height,
-                                       options_.frames_per_second};
+        const VideoWriterOptions video{
+            options_.output, codec_, view_options_.width, view_options_.height, options_.frames_per_second,
+            options_.quality};
         tryVideo(video);
         video_ = std::make_unique<VideoWriter>(video);
     }

@@ -104,14 +104,19 @@ void declare(CommandLine& line)
     line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
     line.add(kLooks, "--samples", "N", "rays a pixel across and down, 1 to 4 [2]");
+    line.add(kLooks, "--exposure", "STOPS", "of all that is seen: 1 is twice the light, -1 half [0]");
+    line.add(kLooks, "--highlight-boost", "NUMBER",
+             "lamps are up to 1 + so many times as bright as the\nbackground shows them: 0 to 4 [3, by daylight less]");
     line.addFlag(kLooks, "--layer", "frames of the droplets alone, with alpha");
     line.add(kLooks, "--codec", "NAME", "ffmpeg's encoder [libx264, libvpx-vp9 of .webm]");
+    line.add(kLooks, "--quality", "NUMBER", "of a video, 1 to 100 [65]");
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
              "textures of the whole glass, as maps/%05d.png: three\n"
              "files a frame, -normal, -thickness and -velocity");
     line.add(kOut, "--map-width", "N", "of those, in pixels [2048]");
     line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
+    line.addFlag(kOut, "--moving-only", "of those, only droplets that move");
     line.add(kOut, "--model", "FILE", "droplets as an animated .glb");
     line.add(kOut, "--json", "FILE", "write a report, with the water's balance every second;\n- is standard output");
     constexpr const char* kRun = "Run";
@@ -233,6 +238,12 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     if (const auto samples = line.value("--samples")) {
         options.view.samples = static_cast<int>(count(*samples, 4, "4"));
     }
+    if (const auto exposure = line.value("--exposure")) {
+        options.view.exposure = number(*exposure, {-8.0, 8.0, "a number from -8 to 8"});
+    }
+    if (const auto boost = line.value("--highlight-boost")) {
+        options.view.highlight_boost = number(*boost, {0.0, 4.0, "a number from 0 to 4"});
+    }
     options.view.shape.contact_angle = options.parameters.forces.wetting.contact_angle;
     options.map.shape = options.view.shape;
     options.layer = line.flag("--layer");
@@ -267,6 +278,12 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     if (options.codec && !options.is_video) {
         refuse("--codec is of videos; OUTPUT is '" + options.output + "'");
     }
+    if (const auto quality = line.value("--quality")) {
+        if (!options.is_video) {
+            refuse("--quality is of videos; OUTPUT is '" + options.output + "'");
+        }
+        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
+    }
     if (const auto maps = line.value("--maps")) {
         options.maps = NumberedPath::of(maps->text, "--maps");
         if (!options.maps) {
@@ -282,6 +299,10 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
             refuse(*droplets, "a file that ends in .csv or .json");
         }
         options.droplets = droplets->text;
+    }
+    options.moving_only = line.flag("--moving-only");
+    if (options.moving_only && !options.droplets) {
+        refuse("--moving-only needs --droplets");
     }
     if (const auto model = line.value("--model")) {
         if (std::filesystem::path(model->text).extension() != ".glb") {
@@ -327,7 +348,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.quiet = line.flag("--quiet");
     // Options that tell how to go about it, or how far, are no part of what is shown.
     const std::set<std::string> beside{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
-                                       "--config", "--json",   "--droplets",   "--model"};
+                                       "--config", "--json",   "--droplets",   "--model",   "--moving-only"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (beside.count(name) == 0) {

@@ -11,6 +11,7 @@
 #include "droplet/view/view.h"
 #include "droplet/windshield/windshield.h"
 #include "numbered_path.h"
+#include "video_writer.h"
 
 namespace cli {
 
@@ -31,12 +32,14 @@ struct WindshieldOptions {
     bool fit = false;  ///< scale and crop the background
     bool layer = false;
     std::optional<std::string> codec;
+    double quality = kVideoQuality;  ///< of a video, 1 … 100
     std::optional<NumberedPath> maps;
     droplet::GlassMapOptions map;
     std::optional<double> duration;  ///< [s]
     double warm_up = 10.0;           ///< [s]
     double frames_per_second = 30.0;
     std::optional<std::string> droplets;
+    bool moving_only = false;  ///< no rows of droplets at rest
     std::optional<std::string> model;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;

@@ -212,7 +212,8 @@ void WindshieldRun::run()
             travel();
         }
         if (table_) {
-            table_->add(played_ + 1, state_);
+            table_->add(played_ + 1, state_,
+                        options_.moving_only ? droplet::DropletRows::Moving : droplet::DropletRows::All);
         }
         if (scene_) {
             scene_->add(state_);

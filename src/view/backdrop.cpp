@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 
 #include "picture/tone.h"
@@ -10,19 +11,45 @@
 namespace droplet {
 namespace {
 
-/// Lamps saturate a picture; how bright they are is lost. Through a droplet, which makes them small, they would look
-/// dull: levels from four fifths up are taken for up to four times as bright, by eye. By the sum of four levels: pixels
-/// of the first level are means of neighbours, which differ little, so their levels may be averaged in place of light.
+/// Pixels of the first level are means of four neighbours, which differ little, so their levels may be averaged in
+/// place of light: by their sum.
 constexpr std::size_t kSums = 4 * 255 + 1;
+using Sums = std::array<float, kSums>;
 
-std::array<float, kSums> brightened()
+const Sums& lightOfSums()
 {
-    std::array<float, kSums> light{};
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        const float level = static_cast<float>(i) / static_cast<float>(kSums - 1);
-        light[i] = toLinear(level) * (1.0F + 3.0F * smoothstep(0.8F, 1.0F, level));
-    }
+    static const Sums light = [] {
+        Sums made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            made[i] = toLinear(static_cast<float>(i) / static_cast<float>(kSums - 1));
+        }
+        return made;
+    }();
     return light;
+}
+
+/// How much of a highlight a level is: from four fifths up, by eye.
+float highlight(float level)
+{
+    return smoothstep(0.8F, 1.0F, level);
+}
+
+/// Lamps saturate a picture; how bright they are is lost. Through a droplet, which makes them small, they would look
+/// dull: they are taken for brighter. Lamps are few; where much of the picture is bright, that is daylight, which
+/// saturates nothing.
+float boostFor(const Picture& picture)
+{
+    constexpr std::size_t kEvery = 8;
+    const auto width = static_cast<std::size_t>(picture.width);
+    double bright = 0.0;
+    std::size_t count = 0;
+    for (std::size_t y = kEvery / 2; y < static_cast<std::size_t>(picture.height); y += kEvery) {
+        for (std::size_t x = kEvery / 2; x < width; x += kEvery, ++count) {
+            const std::uint8_t* const at = picture.rgb.data() + 3 * (y * width + x);
+            bright += static_cast<double>(highlight(static_cast<float>(std::max({at[0], at[1], at[2]})) / 255.0F));
+        }
+    }
+    return 3.0F * (1.0F - smoothstep(0.04F, 0.2F, static_cast<float>(bright / static_cast<double>(count))));
 }
 
 }  // namespace
@@ -43,10 +70,15 @@ Backdrop::Backdrop(int width, int height, float half_width, float half_height)
     } while (w > 1 || h > 1);
 }
 
-void Backdrop::take(const Picture& picture)
+void Backdrop::take(const Picture& picture, float exposure, std::optional<double> boost)
 {
-    static const std::array<float, kSums> sums = brightened();
-    const float* const light = sums.data();
+    const float* const light = lightOfSums().data();
+    const float most = boost ? static_cast<float>(*boost) : boostFor(picture);
+    // By its brightest channel, times which all light of a pixel is taken.
+    Sums times{};
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        times[i] = exposure * (1.0F + most * highlight(static_cast<float>(i) / static_cast<float>(kSums - 1)));
+    }
     const auto width = static_cast<std::size_t>(picture.width);
     const auto height = static_cast<std::size_t>(picture.height);
     const Level& first = levels_.front();
@@ -65,10 +97,14 @@ void Backdrop::take(const Picture& picture)
         for (std::size_t x = 0; x < static_cast<std::size_t>(first.width); ++x) {
             const std::size_t a = 6 * x;
             const std::size_t b = 2 * x + 1 < width ? a + 3 : a;
-            const auto mean = [&](std::size_t c) {
-                return light[std::size_t{upper[a + c]} + upper[b + c] + lower[a + c] + lower[b + c]];
+            const auto sum = [&](std::size_t c) {
+                return std::size_t{upper[a + c]} + upper[b + c] + lower[a + c] + lower[b + c];
             };
-            to[x] = Four{mean(0), mean(1), mean(2), 1.0F};
+            const std::size_t red = sum(0);
+            const std::size_t green = sum(1);
+            const std::size_t blue = sum(2);
+            const float share = times[std::max({red, green, blue})];
+            to[x] = Four{share * light[red], share * light[green], share * light[blue], 1.0F};
         }
     });
     for (std::size_t k = 1; k < levels_.size(); ++k) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "droplet/picture/picture.h"
@@ -33,7 +34,9 @@ public:
     /// @param half_width, half_height  of the picture: tangents
     Backdrop(int width, int height, float half_width, float half_height);
 
-    void take(const Picture& picture);
+    /// @param exposure  times which all light is taken, > 0
+    /// @param boost     as ViewOptions::highlight_boost
+    void take(const Picture& picture, float exposure, std::optional<double> boost);
 
     /// Where a direction ends: x right, y ahead, z up.
     [[nodiscard]] PlaceInPicture placeOf(Vec3f direction) const

@@ -13,6 +13,7 @@
 #include "picture/optics.h"
 #include "picture/tone.h"
 #include "require.h"
+#include "view/backdrop.h"
 
 namespace droplet {
 namespace {
@@ -57,39 +58,34 @@ float scattered(std::uint32_t n)
     return static_cast<float>(n >> 8) / 16777216.0F;
 }
 
-class Road {
+/// What stays as it is wherever the car is: sky, verges, road and the lines along it.
+class Scenery {
 public:
-    Road(double field_of_view, double travelled)
-        : travelled_(std::fmod(static_cast<float>(std::fmod(travelled, 1e5)), 1e5F)),
-          spread_(static_cast<float>(2.0 * kSpread * std::tan(0.5 * field_of_view)))
-    {
-        light();
-    }
+    /// @param spread  radius of a point's light, a tangent
+    explicit Scenery(float spread) : spread_(spread) {}
 
     [[nodiscard]] Vec3f seen(Tangents at) const
     {
-        Vec3f colour = mix(ground(at), sky(at), smoothstep(-0.6F * spread_, 0.6F * spread_, at.up - skyline(at.right)));
-        for (const Streak& streak : streaks_) {
-            const float x = (at.right - streak.at.right) / streak.width;
-            const float y = (at.up - streak.at.up) / streak.length;
-            const float far2 = x * x + y * y;
-            if (far2 < 9.0F) {
-                colour = colour + std::exp(-2.0F * far2) * streak.radiance;
-            }
-        }
-        for (const Disc& disc : discs_) {
-            const float x = at.right - disc.at.right;
-            const float y = at.up - disc.at.up;
-            const float far2 = x * x + y * y;
-            if (far2 < 1.44F * disc.radius * disc.radius) {
-                const float far = std::sqrt(far2) / disc.radius;
-                // Lenses gather a little more light at the rim of what they do not focus.
-                const float inside = (1.0F - smoothstep(0.88F, 1.08F, far)) * (0.8F + 0.35F * far * far);
-                colour = colour + inside * disc.radiance;
-            }
-        }
-        return colour;
+        return mix(ground(at), sky(at), smoothstep(-0.6F * spread_, 0.6F * spread_, at.up - skyline(at.right)));
     }
+
+    /// Share of the paint's light beside a line along the road that is `across` to the right.
+    [[nodiscard]] float line(Tangents at, float across) const
+    {
+        const float depth = depthOf(at);
+        // Both square to the line, which runs to where the road meets the horizon: the lens blurs it all around.
+        const float slope = across / kEye;
+        const float square = 1.0F / std::sqrt(1.0F + slope * slope);
+        const float distance = square * std::abs(at.right + slope * at.up);
+        const float half = 0.5F * square * kLineWidth / depth;
+        const auto within = [&](float from) { return smoothstep(-spread_, spread_, half + from); };
+        return (within(distance) + within(-distance) - 1.0F) * (1.0F - smoothstep(60.0F, 160.0F, depth));
+    }
+
+    static float depthOf(Tangents at) { return std::min(kEye / std::max(-at.up, 1e-4F), kFarthest); }
+
+    /// Light of wet paint on road that has a light of its own.
+    static Vec3f paintOn(Vec3f road) { return grey(0.16F) + 0.5F * road; }
 
 private:
     /// How high what stands at the horizon reaches: hills, with trees on them.
@@ -121,18 +117,10 @@ private:
     static constexpr Vec3f kNearVerge{0.012F, 0.016F, 0.014F};
     static constexpr Vec3f kFarVerge{0.05F, 0.045F, 0.05F};
 
-    /// Share of a stripe's light, `width` wide in tangents, at a distance from its middle.
-    [[nodiscard]] float stripe(float distance, float width) const
-    {
-        const float blur = 0.7F * spread_;
-        const float reach = 0.5F * width + blur;
-        return width / (width + 1.4F * blur) * (1.0F - smoothstep(0.5F * reach, 1.25F * reach, std::abs(distance)));
-    }
-
     [[nodiscard]] Vec3f ground(Tangents at) const
     {
         const float down = std::max(-at.up, 1e-4F);
-        const float depth = std::min(kEye / down, kFarthest);
+        const float depth = depthOf(at);
         const float across = at.right * depth;
         // Verges are dark; the wet road mirrors the sky.
         // Far verges fade into what stands at the horizon.
@@ -142,17 +130,41 @@ private:
         const float edge = (spread_ + 0.02F) * depth;
         const float on_road = smoothstep(-1.5F * kLane - 0.6F - edge, -1.5F * kLane - 0.6F + edge, across) *
                               (1.0F - smoothstep(0.5F * kLane + 0.6F - edge, 0.5F * kLane + 0.6F + edge, across));
-        const float thin = kLineWidth / depth;
-        const Vec3f paint = grey(0.16F) + 0.5F * road;
-        float painted =
-            std::max(stripe(at.right - 0.5F * kLane / depth, thin), stripe(at.right + 1.5F * kLane / depth, thin));
-        const float phase = std::fmod(depth + travelled_, 3.0F * kDash);
+        const float painted = std::max(line(at, 0.5F * kLane), line(at, -1.5F * kLane));
+        return mix(verge, mix(road, paintOn(road), painted), on_road);
+    }
+
+    float spread_;
+};
+
+/// What moves as the car does, as it is at one place.
+class Lights {
+public:
+    Lights(float spread, double travelled) : travelled_(travelled), spread_(spread) { light(); }
+
+    [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
+    [[nodiscard]] const std::vector<Streak>& streaks() const { return streaks_; }
+
+    /// Share of a depth that the dashes of the line in the road's middle cover.
+    [[nodiscard]] float dashes(float depth) const
+    {
+        constexpr float kPeriod = 3.0F * kDash;
+        // As much of the way as the lens blurs into one, less what is not painted of it.
         const float soft = 0.2F + spread_ * depth * depth / kEye;
-        const float dash = smoothstep(-soft, soft, phase) * (1.0F - smoothstep(kDash - soft, kDash + soft, phase)) +
-                           smoothstep(3.0F * kDash - soft, 3.0F * kDash + soft, phase);
-        painted = std::max(painted, std::min(dash, 1.0F) * stripe(at.right + 0.5F * kLane / depth, thin));
-        road = mix(road, paint, painted * (1.0F - smoothstep(60.0F, 160.0F, depth)));
-        return mix(verge, road, on_road);
+        const auto painted = [](float way) {
+            const float whole = std::floor(way / kPeriod);
+            return kDash * whole + std::min(way - kPeriod * whole, kDash);
+        };
+        const float middle = depth + passed(kPeriod);
+        return (painted(middle + soft) - painted(middle - soft)) / (2.0F * soft);
+    }
+
+private:
+    /// The way since what comes again and again came last.
+    [[nodiscard]] float passed(double period, double times = 1.0) const
+    {
+        const double way = std::fmod(times * travelled_, period);
+        return static_cast<float>(way < 0.0 ? way + period : way);
     }
 
     /// A light in the open, and what the road shows of it.
@@ -179,7 +191,7 @@ private:
         // Lamps stand 36 m apart on both sides.
         constexpr float kLamps = 36.0F;
         for (int k = 1; k < 12; ++k) {
-            const float depth = kLamps * static_cast<float>(k) - std::fmod(travelled_, kLamps);
+            const float depth = kLamps * static_cast<float>(k) - passed(kLamps);
             const float dim = (1.0F - smoothstep(250.0F, kFarthest, depth)) * smoothstep(9.0F, 14.0F, depth);
             if (dim > 0.0F) {
                 add(4.6F, 7.5F, depth, 0.12F, dim * sodium, 0.16F);
@@ -194,7 +206,7 @@ private:
             }
         }
         for (const float place : {38.0F, 71.0F, 140.0F}) {
-            const float gap = std::fmod(place - 1.9F * std::fmod(travelled_, kTrain) + 2.0F * kTrain, kTrain);
+            const float gap = std::fmod(place - passed(kTrain, 1.9) + kTrain, kTrain);
             const float depth = gap + 9.0F;
             const float near = smoothstep(9.0F, 13.0F, depth) * (1.0F - smoothstep(140.0F, 158.0F, depth));
             for (const float side : {-0.66F, 0.66F}) {
@@ -206,8 +218,7 @@ private:
         constexpr float kVillage = 320.0F;
         for (std::uint32_t k = 0; k < kWindows; ++k) {
             const float depth =
-                24.0F +
-                std::fmod(kVillage * scattered(7 * k + 1) - std::fmod(travelled_, kVillage) + kVillage, kVillage);
+                24.0F + std::fmod(kVillage * scattered(7 * k + 1) - passed(kVillage) + kVillage, kVillage);
             const float side = k % 2 == 0 ? 1.0F : -1.0F;
             const float across = side * (9.0F + 16.0F * scattered(7 * k + 2)) - 1.7F;
             const float warm = scattered(7 * k + 4);
@@ -224,35 +235,234 @@ private:
         add(-6.9F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.12F);
     }
 
-    float travelled_;
-    float spread_;  ///< radius of a point's light, a tangent
+    double travelled_;
+    float spread_;
     std::vector<Disc> discs_;
     std::vector<Streak> streaks_;
 };
 
+/// Levels of light as film takes it, in steps of 1/8192.
+class Film {
+public:
+    Film() : levels_(kSteps * kBrightest + 1)
+    {
+        for (std::size_t i = 0; i < levels_.size(); ++i) {
+            levels_[i] = encoded(1.0F - std::exp(-1.15F * static_cast<float>(i) / static_cast<float>(kSteps)));
+        }
+    }
+    [[nodiscard]] std::uint8_t at(float light) const
+    {
+        return levels_[static_cast<std::size_t>(nearest(static_cast<float>(kSteps) * light, levels_.size() - 1))];
+    }
+
+private:
+    static constexpr std::size_t kSteps = 8192;
+    static constexpr std::size_t kBrightest = 6;
+    std::vector<std::uint8_t> levels_;
+};
+
+/// Pixels from `first` to before `last`.
+struct Run {
+    int first = 0;
+    int last = 0;
+};
+
+/// A row of pixels whose light is that of the scenery until it is touched.
+class LitRow {
+public:
+    explicit LitRow(std::size_t width) : light_(width), touched_((width + kBlock - 1) / kBlock) {}
+
+    void begin(const Four* scenery)
+    {
+        scenery_ = scenery;
+        std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+    }
+
+    /// Light to change within a run that is in the row.
+    Four* touch(Run run)
+    {
+        for (std::size_t b = static_cast<std::size_t>(run.first) / kBlock;
+             b * kBlock < static_cast<std::size_t>(run.last); ++b) {
+            if (touched_[b] == 0) {
+                touched_[b] = 1;
+                const std::size_t end = std::min((b + 1) * kBlock, light_.size());
+                std::copy(scenery_ + b * kBlock, scenery_ + end, light_.data() + b * kBlock);
+            }
+        }
+        return light_.data();
+    }
+
+    /// Writes the levels of what was touched.
+    void develop(const Film& film, std::uint8_t* row) const
+    {
+        for (std::size_t b = 0; b < touched_.size(); ++b) {
+            for (std::size_t x = b * kBlock; touched_[b] != 0 && x < std::min((b + 1) * kBlock, light_.size()); ++x) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    row[3 * x + c] = film.at(light_[x][static_cast<int>(c)]);
+                }
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t kBlock = 16;
+    std::vector<Four> light_;
+    std::vector<std::uint8_t> touched_;
+    const Four* scenery_ = nullptr;
+};
+
+Four lightOf(Vec3f colour)
+{
+    return Four{colour.x, colour.y, colour.z, 0.0F};
+}
+
 }  // namespace
 
-Picture defaultBackground(const ViewOptions& options, double travelled)
+struct DefaultBackground::Content {
+    explicit Content(const ViewOptions& options)
+        : pixel(static_cast<float>(2.0 * std::tan(0.5 * options.field_of_view) / options.width)),
+          spread(static_cast<float>(2.0 * kSpread * std::tan(0.5 * options.field_of_view))),
+          scenery(spread),
+          still{options.width, options.height, {}}
+    {
+        const auto width = static_cast<std::size_t>(options.width);
+        light.resize(width * static_cast<std::size_t>(options.height));
+        still.rgb.resize(3 * light.size());
+        tbb::parallel_for(0, options.height, [&](int y) {
+            LitRow row(width);
+            row.begin(light.data() + width * static_cast<std::size_t>(y));
+            for (int x = 0; x < options.width; ++x) {
+                light[width * static_cast<std::size_t>(y) + static_cast<std::size_t>(x)] =
+                    lightOf(scenery.seen({rightOf(x), upOf(y)}));
+            }
+            row.touch({0, options.width});
+            row.develop(film, still.rgb.data() + 3 * width * static_cast<std::size_t>(y));
+        });
+    }
+
+    [[nodiscard]] float rightOf(int x) const
+    {
+        return pixel * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(still.width));
+    }
+    [[nodiscard]] float upOf(int y) const
+    {
+        return pixel * (0.5F * static_cast<float>(still.height) - static_cast<float>(y) - 0.5F);
+    }
+
+    /// Pixels of the frame whose middles are within so much of a place.
+    [[nodiscard]] Run within(float right, float reach) const
+    {
+        const auto column = [&](float at) {
+            const float x = at / pixel + 0.5F * static_cast<float>(still.width) - 0.5F;
+            return static_cast<int>(std::ceil(std::clamp(x, 0.0F, static_cast<float>(still.width))));
+        };
+        return {column(right - reach), column(right + reach)};
+    }
+
+    void paintDashes(LitRow& row, float up, const Lights& lights) const
+    {
+        const float depth = Scenery::depthOf({0.0F, up});
+        const float share = up < 0.0F && depth < 160.0F ? lights.dashes(depth) : 0.0F;
+        if (share <= 0.0F) {
+            return;
+        }
+        constexpr float kAcross = -0.5F * kLane;
+        const Run run = within(kAcross / depth, 0.5F * kLineWidth / depth + spread * std::hypot(1.0F, kAcross / kEye));
+        Four* const at = row.touch(run);
+        for (int x = run.first; x < run.last; ++x) {
+            const Four paint = lightOf(Scenery::paintOn({at[x][0], at[x][1], at[x][2]}));
+            at[x] += four(share * scenery.line({rightOf(x), up}, kAcross)) * (paint - at[x]);
+        }
+    }
+
+    void paintStreak(LitRow& row, float up, const Streak& streak) const
+    {
+        constexpr float kReach = 2.2F;  // beyond it there is less than a level
+        const float y = (up - streak.at.up) / streak.length;
+        if (std::abs(y) > kReach) {
+            return;
+        }
+        const Run run = within(streak.at.right, kReach * streak.width);
+        const Four light = four(std::exp(-2.0F * y * y)) * lightOf(streak.radiance);
+        // e^(−2x²) by its ratio from pixel to pixel, and that by its own.
+        const float step = pixel / streak.width;
+        const float x = (rightOf(run.first) - streak.at.right) / streak.width;
+        float share = std::exp(-2.0F * x * x);
+        float ratio = std::exp(-2.0F * step * (2.0F * x + step));
+        const float turn = std::exp(-4.0F * step * step);
+        Four* const at = row.touch(run);
+        for (int k = run.first; k < run.last; ++k) {
+            at[k] += four(share) * light;
+            share *= ratio;
+            ratio *= turn;
+        }
+    }
+
+    void paintDisc(LitRow& row, float up, const Disc& disc) const
+    {
+        const float y = (up - disc.at.up) / disc.radius;
+        constexpr float kReach = 1.08F;
+        if (std::abs(y) >= kReach) {
+            return;
+        }
+        const Run run = within(disc.at.right, disc.radius * std::sqrt(kReach * kReach - y * y));
+        const Four light = lightOf(disc.radiance);
+        Four* const at = row.touch(run);
+        for (int k = run.first; k < run.last; ++k) {
+            const float x = (rightOf(k) - disc.at.right) / disc.radius;
+            const float far2 = x * x + y * y;
+            // Lenses gather a little more light at the rim of what they do not focus.
+            at[k] += four((1.0F - smoothstep(0.88F, kReach, std::sqrt(far2))) * (0.8F + 0.35F * far2)) * light;
+        }
+    }
+
+    float pixel;   ///< a tangent
+    float spread;  ///< radius of a point's light, a tangent
+    Scenery scenery;
+    Film film;
+    std::vector<Four> light;  ///< of the scenery
+    Picture still;            ///< the scenery alone
+};
+
+DefaultBackground::DefaultBackground(const ViewOptions& options)
 {
     options.validate();
+    content_ = std::make_unique<const Content>(options);
+}
+
+DefaultBackground::~DefaultBackground() = default;
+DefaultBackground::DefaultBackground(DefaultBackground&&) noexcept = default;
+DefaultBackground& DefaultBackground::operator=(DefaultBackground&&) noexcept = default;
+
+Picture DefaultBackground::at(double travelled) const
+{
     require(std::isfinite(travelled), "travelled", travelled, "finite");
-    const Road road(options.field_of_view, travelled);
-    Picture picture{options.width, options.height, {}};
-    const auto width = static_cast<std::size_t>(options.width);
-    picture.rgb.resize(3 * width * static_cast<std::size_t>(options.height));
-    const auto pixel = static_cast<float>(2.0 * std::tan(0.5 * options.field_of_view) / options.width);
-    tbb::parallel_for(0, options.height, [&](int y) {
-        std::uint8_t* at = picture.rgb.data() + 3 * width * static_cast<std::size_t>(y);
-        for (int x = 0; x < options.width; ++x) {
-            const Vec3f light =
-                road.seen({pixel * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(options.width)),
-                           pixel * (0.5F * static_cast<float>(options.height) - static_cast<float>(y) - 0.5F)});
-            for (const float level : {light.x, light.y, light.z}) {
-                *at++ = encoded(1.0F - std::exp(-1.15F * level));
+    const Content& content = *content_;
+    const Lights lights(content.spread, travelled);
+    Picture picture = content.still;
+    const auto width = static_cast<std::size_t>(picture.width);
+    constexpr int kRowsWorthAThread = 8;
+    tbb::parallel_for(tbb::blocked_range<int>(0, picture.height, kRowsWorthAThread), [&](const auto& rows) {
+        LitRow row(width);
+        for (int y = rows.begin(); y < rows.end(); ++y) {
+            const float up = content.upOf(y);
+            row.begin(content.light.data() + width * static_cast<std::size_t>(y));
+            content.paintDashes(row, up, lights);
+            for (const Streak& streak : lights.streaks()) {
+                content.paintStreak(row, up, streak);
             }
+            for (const Disc& disc : lights.discs()) {
+                content.paintDisc(row, up, disc);
+            }
+            row.develop(content.film, picture.rgb.data() + 3 * width * static_cast<std::size_t>(y));
         }
     });
     return picture;
+}
+
+Picture defaultBackground(const ViewOptions& options, double travelled)
+{
+    return DefaultBackground(options).at(travelled);
 }
 
 }  // namespace droplet

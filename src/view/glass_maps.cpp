@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "require.h"
@@ -18,8 +19,35 @@ struct Drop {
     Vec2 position;
     Vec2 along{1.0, 0.0};  ///< unit
     Vec2 velocity;
+    double volume = 0.0;
     RunningShape shape;
     bool may_run = false;
+
+    [[nodiscard]] double reach() const { return shape.half_length + shape.silhouette(); }
+};
+
+/// The water over a place.
+struct Water {
+    double thickness = 0.0;
+    Vec2 slope;       ///< of the outward unit normal, its parts along the glass
+    double up = 0.0;  ///< and out of it
+};
+
+/// What a pixel holds, each times its share of the pixel's area.
+struct Pixel {
+    double thickness = 0.0;
+    double cover = 0.0;
+    Vec2 slope;
+    double up = 0.0;
+    double runs = 0.0;  ///< cover of what may run
+    Vec2 velocity;      ///< of that
+
+    void add(const Water& water, double share)
+    {
+        cover += share;
+        slope = slope + share * water.slope;
+        up += share * water.up;
+    }
 };
 
 std::uint16_t unsignedLevel(double share)
@@ -30,6 +58,110 @@ std::uint16_t unsignedLevel(double share)
 std::uint16_t signedLevel(double value)
 {
     return unsignedLevel(0.5 * (value + 1.0));
+}
+
+/// The glass as rows of pixels, square but for what their number is rounded by, and places in them at which droplets
+/// are looked at.
+class Raster {
+public:
+    Raster(const Glass& glass, int width)
+        : width_(width),
+          pixel_(glass.width() / width),
+          height_(std::max(static_cast<int>(std::lround(glass.height() / pixel_)), 1)),
+          top_(glass.height()),
+          down_(top_ / height_)
+    {
+    }
+
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+    /// First and last row that a droplet reaches into; the last before the first where there is none.
+    [[nodiscard]] std::pair<int, int> rowsOf(const Drop& drop) const
+    {
+        const auto row = [&](double y) { return std::floor((top_ - y) / down_); };
+        return {static_cast<int>(std::max(row(drop.position.y + drop.reach()), 0.0)),
+                static_cast<int>(std::clamp(row(drop.position.y - drop.reach()), -1.0, height_ - 1.0))};
+    }
+
+    /// Places across a pixel, so close that seven lie across the droplet.
+    [[nodiscard]] double placesAcross(const Drop& drop) const
+    {
+        return std::max(std::ceil(3.5 * std::max(pixel_, down_) / drop.shape.silhouette()), 2.0);
+    }
+
+    /// Calls take(column, row, water) for all places at which there is some of the droplet.
+    template <typename Take>
+    void forPlaces(const Drop& drop, std::pair<int, int> rows, const Take& take) const
+    {
+        const RunningShape& shape = drop.shape;
+        const double wide = shape.silhouette();
+        const double n = placesAcross(drop);
+        const double apart = pixel_ / n;
+        const double rows_apart = down_ / n;
+        const auto first = [](double at, double pitch) {
+            return static_cast<std::int64_t>(std::ceil(at / pitch - 0.5));
+        };
+        const auto columns = static_cast<std::int64_t>(n) * width_;
+        const std::int64_t left = std::max<std::int64_t>(first(drop.position.x - drop.reach(), apart), 0);
+        const std::int64_t right = std::min(first(drop.position.x + drop.reach(), apart), columns);
+        const std::int64_t top = std::max(first(top_ - drop.position.y - drop.reach(), rows_apart),
+                                          static_cast<std::int64_t>(n) * rows.first);
+        const std::int64_t bottom = std::min(first(top_ - drop.position.y + drop.reach(), rows_apart),
+                                             static_cast<std::int64_t>(n) * (rows.second + 1));
+        const double r2 = shape.radius * shape.radius;
+        for (std::int64_t j = top; j < bottom; ++j) {
+            for (std::int64_t i = left; i < right; ++i) {
+                const Vec2 from{(static_cast<double>(i) + 0.5) * apart - drop.position.x,
+                                top_ - (static_cast<double>(j) + 0.5) * rows_apart - drop.position.y};
+                const double a = dot(drop.along, from);
+                const double b = cross(drop.along, from);
+                const double end = std::copysign(std::max(std::abs(a) - shape.half_length, 0.0), a);
+                const double far2 = end * end + b * b;
+                if (far2 >= wide * wide) {
+                    continue;
+                }
+                const double up = std::sqrt(r2 - far2);
+                const Vec2 slope = end * drop.along + b * Vec2{-drop.along.y, drop.along.x};
+                // Where it overhangs its contact there is air below.
+                take(static_cast<int>(i / static_cast<std::int64_t>(n)),
+                     static_cast<int>(j / static_cast<std::int64_t>(n)),
+                     Water{std::min(up + shape.centre_height, 2.0 * up), (1.0 / shape.radius) * slope,
+                           up / shape.radius});
+            }
+        }
+    }
+
+    /// All water of a droplet, in thicknesses of a pixel, over the sum of those that are looked at: the map has neither
+    /// more nor less than the glass, whatever falls between places or over the edge.
+    [[nodiscard]] double shareOf(const Drop& drop) const
+    {
+        double sum = 0.0;
+        forPlaces(drop, rowsOf(drop), [&](int, int, const Water& water) { sum += water.thickness; });
+        return sum > 0.0 ? drop.volume / (pixel_ * down_ * sum) : 0.0;
+    }
+
+private:
+    int width_;
+    double pixel_;
+    int height_;
+    double top_;
+    double down_;  ///< height of a pixel [m]
+};
+
+std::vector<Drop> dropsOf(const WindshieldState& state, const ShapeOptions& options)
+{
+    std::vector<Drop> drops;
+    for (const StillDroplet& still : state.still.all()) {
+        drops.push_back(
+            {still.position, {1.0, 0.0}, {}, still.volume, runningShape(still.volume, 0.0, options), false});
+    }
+    for (const RunningDroplet& running : state.droplets) {
+        const double speed = length(running.velocity);
+        drops.push_back({running.position, speed > 0.0 ? (1.0 / speed) * running.velocity : Vec2{1.0, 0.0},
+                         running.velocity, running.volume, runningShape(running.volume, speed, options), true});
+    }
+    return drops;
 }
 
 }  // namespace
@@ -45,92 +177,74 @@ void GlassMapOptions::validate() const
 GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
 {
     options.validate();
-    const int width = options.width;
-    const double pixel = glass.width() / width;
-    const int height = std::max(static_cast<int>(std::lround(glass.height() / pixel)), 1);
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const Raster raster(glass, options.width);
+    const int width = raster.width();
+    const int height = raster.height();
     require(height <= 8192, "height", height, "at most 8192: ask for less width");
-
-    std::vector<Drop> drops;
-    for (const StillDroplet& still : state.still.all()) {
-        drops.push_back({still.position, {1.0, 0.0}, {}, runningShape(still.volume, 0.0, options.shape), false});
-    }
-    for (const RunningDroplet& running : state.droplets) {
-        const double speed = length(running.velocity);
-        drops.push_back({running.position, speed > 0.0 ? (1.0 / speed) * running.velocity : Vec2{1.0, 0.0},
-                         running.velocity, runningShape(running.volume, speed, options.shape), true});
-    }
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::vector<Drop> drops = dropsOf(state, options.shape);
+    std::vector<double> shares(drops.size());
+    tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t k) { shares[k] = raster.shareOf(drops[k]); });
     // Bands of rows, each with the droplets that reach into it.
     constexpr int kBand = 32;
     const int bands = (height + kBand - 1) / kBand;
     std::vector<std::vector<std::uint32_t>> in_band(static_cast<std::size_t>(bands));
-    const auto row_of = [&](double y) { return (glass.height() - y) / pixel - 0.5; };
     for (std::size_t k = 0; k < drops.size(); ++k) {
-        const double reach = drops[k].shape.half_length + drops[k].shape.silhouette();
-        const double top = row_of(drops[k].position.y + reach);
-        const double bottom = row_of(drops[k].position.y - reach);
-        if (bottom < 0.0 || top > height - 1) {
-            continue;
-        }
-        for (int band = static_cast<int>(std::max(top, 0.0)) / kBand;
-             band <= static_cast<int>(std::min<double>(bottom, height - 1)) / kBand; ++band) {
+        const auto [first, last] = raster.rowsOf(drops[k]);
+        for (int band = first / kBand; first <= last && band <= last / kBand; ++band) {
             in_band[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
         }
     }
-
-    constexpr std::uint16_t kMiddle = 32768;
     GlassMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
-    maps.normal.levels.assign(3 * pixels, kMiddle);
-    maps.thickness.levels.assign(pixels, 0);
-    maps.velocity.levels.assign(3 * pixels, kMiddle);
-    for (std::size_t i = 2; i < 3 * pixels; i += 3) {
-        maps.normal.levels[i] = 65535;
-        maps.velocity.levels[i] = 0;
-    }
+    maps.normal.levels.resize(3 * pixels);
+    maps.thickness.levels.resize(pixels);
+    maps.velocity.levels.resize(3 * pixels);
     tbb::parallel_for(0, bands, [&](int band) {
-        std::vector<double> thickest(static_cast<std::size_t>(width) * kBand, 0.0);
+        const int top = band * kBand;
+        const int bottom = std::min(top + kBand, height) - 1;
+        std::vector<Pixel> sums(static_cast<std::size_t>(width) * kBand);
         for (const std::uint32_t k : in_band[static_cast<std::size_t>(band)]) {
             const Drop& drop = drops[k];
-            const RunningShape& shape = drop.shape;
-            const double reach = shape.half_length + shape.silhouette();
-            const int left = std::max(static_cast<int>(std::ceil((drop.position.x - reach) / pixel - 0.5)), 0);
-            const int right =
-                std::min(static_cast<int>(std::floor((drop.position.x + reach) / pixel - 0.5)), width - 1);
-            const int top = std::max(static_cast<int>(std::ceil(row_of(drop.position.y + reach))), band * kBand);
-            const int bottom = std::min(static_cast<int>(std::floor(row_of(drop.position.y - reach))),
-                                        std::min((band + 1) * kBand, height) - 1);
-            for (int row = top; row <= bottom; ++row) {
-                for (int column = left; column <= right; ++column) {
-                    const Vec2 from{(column + 0.5) * pixel - drop.position.x,
-                                    glass.height() - (row + 0.5) * pixel - drop.position.y};
-                    const double a = dot(drop.along, from);
-                    const double b = cross(drop.along, from);
-                    const double end = std::copysign(std::max(std::abs(a) - shape.half_length, 0.0), a);
-                    const double far2 = end * end + b * b;
-                    if (far2 >= shape.silhouette() * shape.silhouette()) {
-                        continue;
+            const auto [first, last] = raster.rowsOf(drop);
+            const double place = 1.0 / std::pow(raster.placesAcross(drop), 2);
+            raster.forPlaces(
+                drop, {std::max(first, top), std::min(last, bottom)}, [&](int column, int row, const Water& water) {
+                    Pixel& pixel = sums[static_cast<std::size_t>(row - top) * static_cast<std::size_t>(width) +
+                                        static_cast<std::size_t>(column)];
+                    pixel.thickness += shares[k] * water.thickness;
+                    pixel.add(water, place);
+                    if (drop.may_run) {
+                        pixel.runs += place;
+                        pixel.velocity = pixel.velocity + place * drop.velocity;
                     }
-                    const double up = std::sqrt(shape.radius * shape.radius - far2);
-                    // Where it overhangs its contact there is air below.
-                    const double thickness = std::min(up + shape.centre_height, 2.0 * up);
-                    double& most =
-                        thickest[static_cast<std::size_t>(row - band * kBand) * static_cast<std::size_t>(width) +
-                                 static_cast<std::size_t>(column)];
-                    if (thickness <= most) {
-                        continue;
-                    }
-                    most = thickness;
-                    const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                           static_cast<std::size_t>(column);
-                    const Vec2 slope = end * drop.along + b * Vec2{-drop.along.y, drop.along.x};
-                    maps.normal.levels[3 * at] = signedLevel(slope.x / shape.radius);
-                    maps.normal.levels[3 * at + 1] = signedLevel(slope.y / shape.radius);
-                    maps.normal.levels[3 * at + 2] = signedLevel(up / shape.radius);
-                    maps.thickness.levels[at] = unsignedLevel(thickness / options.full_thickness);
-                    maps.velocity.levels[3 * at] = signedLevel(drop.velocity.x / options.full_speed);
-                    maps.velocity.levels[3 * at + 1] = signedLevel(drop.velocity.y / options.full_speed);
-                    maps.velocity.levels[3 * at + 2] = drop.may_run ? 65535 : 0;
+                });
+        }
+        for (int row = top; row <= bottom; ++row) {
+            // What rounding leaves over goes to the next wet pixel of the row, lest thin water vanish.
+            double left_over = 0.0;
+            for (int column = 0; column < width; ++column) {
+                const Pixel& pixel = sums[static_cast<std::size_t>(row - top) * static_cast<std::size_t>(width) +
+                                          static_cast<std::size_t>(column)];
+                const std::size_t at =
+                    static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+                std::uint16_t* const normal = &maps.normal.levels[3 * at];
+                const double up = pixel.up + std::max(1.0 - pixel.cover, 0.0);
+                const double size = std::sqrt(dot(pixel.slope, pixel.slope) + up * up);
+                normal[0] = signedLevel(pixel.slope.x / size);
+                normal[1] = signedLevel(pixel.slope.y / size);
+                normal[2] = signedLevel(up / size);
+                if (pixel.thickness > 0.0) {
+                    const double wanted = pixel.thickness + left_over;
+                    maps.thickness.levels[at] = unsignedLevel(wanted / options.full_thickness);
+                    const double held = maps.thickness.levels[at] / 65535.0 * options.full_thickness;
+                    left_over =
+                        std::clamp(wanted - held, -options.full_thickness / 65535.0, options.full_thickness / 65535.0);
                 }
+                const Vec2 velocity = pixel.runs > 0.0 ? (1.0 / pixel.runs) * pixel.velocity : Vec2{};
+                std::uint16_t* const motion = &maps.velocity.levels[3 * at];
+                motion[0] = signedLevel(velocity.x / options.full_speed);
+                motion[1] = signedLevel(velocity.y / options.full_speed);
+                motion[2] = unsignedLevel(pixel.runs);
             }
         }
     });

@@ -33,6 +33,10 @@ void ViewOptions::validate() const
     shape.validate();
     require(ior >= 1.0 && ior <= 2.0, "ior", ior, "from 1 to 2");
     requireWithin("samples", samples, 1, 4);
+    require(exposure >= -8.0 && exposure <= 8.0, "exposure", exposure, "from -8 to 8");
+    if (highlight_boost) {
+        require(*highlight_boost >= 0.0 && *highlight_boost <= 4.0, "highlight_boost", *highlight_boost, "from 0 to 4");
+    }
     for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
         require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
     }
@@ -48,6 +52,12 @@ struct DriversView::Content {
         const std::array<double, 3> shares{options.glass_colour.x, options.glass_colour.y, options.glass_colour.z};
         for (std::size_t i = 0; i < through_pane.size(); ++i) {
             through_pane[i] = static_cast<std::uint16_t>(std::lround(256.0 * std::pow(shares[i % 3], 1.0 / 2.4)));
+        }
+        for (std::size_t c = 0; c < exposed.size() && options.exposure != 0.0; ++c) {
+            for (std::size_t level = 0; level < 256; ++level) {
+                exposed[c][level] =
+                    encoded(static_cast<float>(shares[c] * std::exp2(options.exposure)) * displayLevels()[level]);
+            }
         }
         pane = Four{static_cast<float>(options.glass_colour.x), static_cast<float>(options.glass_colour.y),
                     static_cast<float>(options.glass_colour.z), 1.0F};
@@ -101,7 +111,9 @@ struct DriversView::Content {
                         const Four& pixel = light[pixelInTile(x, y)];
                         const std::uint32_t alpha = level8(pixel[3]);
                         if (alpha > 0) {
-                            const Four straight = four(1.0F / pixel[3]) * pixel;
+                            // What is brighter than white keeps its hue.
+                            const float most = std::max({pixel[0], pixel[1], pixel[2], pixel[3]});
+                            const Four straight = four(1.0F / most) * pixel;
                             take(sight.eye.at(x, y), encoded(straight[0], levels), encoded(straight[1], levels),
                                  encoded(straight[2], levels), alpha);
                         }
@@ -115,7 +127,8 @@ struct DriversView::Content {
     StillSamples stills;
     RunningRays running;
     Picture bare;
-    std::array<std::uint16_t, 48> through_pane{};  ///< of levels, in 256ths, for 16 pixels
+    std::array<std::uint16_t, 48> through_pane{};            ///< of levels, in 256ths, for 16 pixels
+    std::array<std::array<std::uint8_t, 256>, 3> exposed{};  ///< of each level and colour, where there is an exposure
     Four pane{};
     Four cabin{0.0F, 0.0F, 0.0F, 1.0F};  ///< light of what is inside
 };
@@ -140,7 +153,8 @@ void DriversView::lookAt(const Picture& picture)
                                                     std::to_string(content.sight.eye.width()) + " by " +
                                                     std::to_string(content.sight.eye.height()));
     }
-    content.sight.backdrop.take(picture);
+    const ViewOptions& options = content.sight.options;
+    content.sight.backdrop.take(picture, static_cast<float>(std::exp2(options.exposure)), options.highlight_boost);
     // As dark as it is behind the eye, by eye: a tenth of what is ahead.
     content.cabin = Four{0.1F, 0.1F, 0.1F, 1.0F} * content.sight.backdrop.mean();
     const std::array<std::uint16_t, 48> shares = content.through_pane;
@@ -149,6 +163,18 @@ void DriversView::lookAt(const Picture& picture)
     constexpr std::size_t kRun = 48;  // as many as are done at once
     constexpr std::size_t kRunsWorthAThread = 512;
     const std::size_t runs = picture.rgb.size() / kRun;
+    if (options.exposure != 0.0) {
+        const auto& levels = content.exposed;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.rgb.size() / 3, kRun * kRunsWorthAThread),
+                          [&](const auto& range) {
+                              for (std::size_t at = range.begin(); at < range.end(); ++at) {
+                                  for (std::size_t c = 0; c < 3; ++c) {
+                                      to[3 * at + c] = levels[c][from[3 * at + c]];
+                                  }
+                              }
+                          });
+        return;
+    }
     const auto dim = [&](std::size_t at, std::size_t k) {
         to[at + k] = static_cast<std::uint8_t>((from[at + k] * shares[k] + 128) >> 8);
     };

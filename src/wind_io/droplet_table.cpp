@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <ostream>
 #include <string>
 
@@ -39,14 +40,18 @@ DropletTable::DropletTable(std::ostream& out, TableFormat format, const ShapeOpt
     out_ << head << (is_json ? "],\n\"rows\":[" : "\n");
 }
 
-void DropletTable::add(std::size_t frame, const WindshieldState& state)
+void DropletTable::add(std::size_t frame, const WindshieldState& state, DropletRows which)
 {
     std::string rows;
+    const double time = std::round(1e9 * state.time) / 1e9;
     for (const RunningDroplet& droplet : state.droplets) {
+        if (which == DropletRows::Moving && droplet.velocity == Vec2{}) {
+            continue;
+        }
         const RunningShape shape = runningShape(droplet.volume, length(droplet.velocity), shape_);
         std::string row = format_ == TableFormat::Json ? "[" : "";
         append(row, frame);
-        append(row, state.time);
+        append(row, time);
         append(row, droplet.id);
         for (const double number :
              {droplet.position.x, droplet.position.y, droplet.velocity.x, droplet.velocity.y, droplet.volume,

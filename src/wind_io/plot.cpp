@@ -53,7 +53,10 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
             ErrorCode::InvalidArgument,
             fmt::format("a chart of {} slopes and hystereses is over the limit of {} panels", count, kMostPanels));
     }
-    const std::size_t columns = count < 2 ? 1 : count < 5 ? 2 : 3;
+    // Of many slopes and many hystereses each slope has a row of its own.
+    const std::size_t slopes = swept.slopes.size();
+    const bool is_table = slopes > 1 && count > slopes;
+    const std::size_t columns = is_table ? count / slopes : count < 2 ? 1 : count < 5 ? 2 : 3;
     const std::size_t rows = (count + columns - 1) / columns;
     drawing.width = 2.0 * kMargin + static_cast<double>(columns) * (kPanelWidth + kGap) - kGap;
     drawing.height = kHead + static_cast<double>(rows) * (kPanelHeight + kGap) - kGap + kMargin;
@@ -65,8 +68,9 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
         }
         std::stable_sort(panel.cases.begin(), panel.cases.end(),
                          [](const TunnelCase* a, const TunnelCase* b) { return a->cap.volume < b->cap.volume; });
-        const std::size_t row = p / columns;
-        panel.corner = {kMargin + static_cast<double>(p % columns) * (kPanelWidth + kGap),
+        const std::size_t row = is_table ? p % slopes : p / columns;
+        const std::size_t column = is_table ? p / slopes : p % columns;
+        panel.corner = {kMargin + static_cast<double>(column) * (kPanelWidth + kGap),
                         kHead + static_cast<double>(row) * (kPanelHeight + kGap)};
     }
     return panels;

@@ -107,6 +107,7 @@ public:
         std::optional<Column> time;
         std::optional<Column> speed;
         std::size_t empty = 0;  // the first empty line since the last row
+        std::size_t headings = 0;
         for (std::size_t row = 1; !text.empty(); ++row) {
             const std::size_t end = text.find('\n');
             std::string_view line = text.substr(0, end);
@@ -127,7 +128,12 @@ public:
                     refuse(row, "needs the headings time_s and speed_m_per_s, speed_km_per_h or speed_mph");
                 }
                 empty = 0;
+                headings = fields.size();
                 continue;
+            }
+            if (fields.size() > headings) {
+                refuse(row, "has " + std::to_string(fields.size()) + " cells, the header " + std::to_string(headings) +
+                                ": a decimal comma or an unquoted one makes two of one");
             }
             if (empty != 0) {
                 refuse(empty, "is empty: the drive cycle has a gap");

@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "picture/lettering.h"
 #include "wind_io/plot.h"
 
 namespace droplet {
@@ -16,6 +18,7 @@ namespace {
 
 constexpr Colour kDown{62, 124, 177};
 constexpr Colour kUp{66, 153, 118};
+constexpr Colour kTorn{146, 98, 150};
 
 /// Volumes in µL: 1, 2, 5, 10 …, or powers of ten where those would crowd.
 std::vector<Tick> volumeTicks(const Scale& scale)
@@ -86,6 +89,7 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
 /// What is between two edges, and what it is called.
 struct Region {
     const char* name;
+    const char* short_name;
     Colour colour;
     std::function<double(const Level&)> from;
     std::function<double(const Level&)> to;
@@ -104,18 +108,26 @@ void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
     plot.area(std::move(outline), region.colour, 0.3);
 }
 
-/// Its name, near the middle of where it is widest, clear of upright lines and of the one of shedding.
-void name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights)
+/// A name as it may be written.
+struct Lettering {
+    const char* words;
+    double size;
+};
+
+/// A region's name, near the middle of where it is widest, within it and clear of upright lines.
+/// @return  whether there is room for it
+bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights,
+          const Lettering& as)
 {
-    constexpr double kHalfWord = 47.0;
+    const double half_word = 0.5 * textWidth(as.words, as.size) + 6.0;
     constexpr double kHalfLine = 10.0;
     const auto width = [&](const Level& level) { return region.to(level) - region.from(level); };
     double widest = 0.0;
     for (const Level& level : levels) {
         widest = std::max(widest, width(level));
     }
-    if (widest < 2.0 * kHalfWord) {
-        return;
+    if (widest < 2.0 * half_word) {
+        return false;
     }
     // Half the heights at which it is nearly as wide lie above the middle.
     std::vector<double> heights;
@@ -128,17 +140,16 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     std::optional<Vec2> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Level& level : levels) {
-        const double first = region.from(level) + kHalfWord;
-        const double last = region.to(level) - kHalfWord;
+        const double first = region.from(level) + half_word;
+        const double last = region.to(level) - half_word;
         for (int k = 0; first + 6.0 * k <= last; ++k) {
             const double x = first + 6.0 * k;
-            const bool fits = level.y > plot.top() + 46.0 && level.y < plot.bottom() - 14.0;
-            const auto clear = [&](double line) { return std::abs(line - x) > kHalfWord; };
+            const bool fits = level.y > plot.top() + 28.0 && level.y < plot.bottom() - 14.0;
+            const auto clear = [&](double line) { return std::abs(line - x) > half_word; };
             const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&
                                   std::all_of(levels.begin(), levels.end(), [&](const Level& other) {
                                       return std::abs(other.y - level.y) > kHalfLine ||
-                                             ((!other.has_shedding || clear(other.shedding)) &&
-                                              x - kHalfWord > region.from(other) && x + kHalfWord < region.to(other));
+                                             (x - half_word > region.from(other) && x + half_word < region.to(other));
                                   });
             const double off = std::hypot(x - 0.5 * (region.from(level) + region.to(level)), level.y - middle);
             if (fits && is_clear && off < least) {
@@ -147,39 +158,29 @@ void name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
             }
         }
     }
-    if (best) {
-        Colour deep{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            deep[c] = static_cast<std::uint8_t>(region.colour[c] * 0.62);
-        }
-        plot.text({region.name, *best + Vec2{0.0, 5.0}, 10.5, deep, Anchor::Middle, true});
+    if (!best) {
+        return false;
     }
+    Colour deep{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        deep[c] = static_cast<std::uint8_t>(region.colour[c] * 0.62);
+    }
+    plot.text({as.words, *best + Vec2{0.0, 5.0}, as.size, deep, Anchor::Middle, true});
+    return true;
 }
 
-/// The wind that would tear droplets off, as far as it is on the map.
-void drawShedding(Plot& plot, const std::vector<Level>& levels, bool is_below)
+/// A line along levels that have it.
+template <typename Has>
+void drawEdge(Plot& plot, const std::vector<Level>& levels, double Level::*edge, const Has& has)
 {
     std::vector<Vec2> line;
     for (const Level& level : levels) {
-        if (level.has_shedding) {
-            line.push_back({level.shedding, level.y});
+        if (has(level)) {
+            line.push_back({level.*edge, level.y});
         }
     }
     if (line.size() > 1) {
-        plot.line(line, kSoft, 1.2, 3.5);
-        // Beside its upper end, above the regimes' names and below that of the measured band.
-        constexpr double kName = 100.0;
-        constexpr double kRow = 16.0;
-        const double y = plot.top() + 13.0 + (is_below ? kRow : 0.0);
-        const auto at = std::min_element(line.begin(), line.end(), [&](const Vec2& a, const Vec2& b) {
-            return std::abs(a.y - y) < std::abs(b.y - y);
-        });
-        const bool is_right = at->x + kName > plot.right();
-        plot.text({"torn off, We 7.5",
-                   {at->x + (is_right ? -10.0 : 10.0), at->y},
-                   kSmallLetters,
-                   kSoft,
-                   is_right ? Anchor::End : Anchor::Start});
+        edge == &Level::shedding ? plot.line(line, kSoft, 1.2, 3.5) : plot.line(line, kInk, 1.8);
     }
 }
 
@@ -218,35 +219,35 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
         const std::vector<Level> levels = levelsOf(model, first.slope, x, y);
         const auto left = [&](const Level&) { return plot.left(); };
         const auto right = [&](const Level&) { return plot.right(); };
-        const auto lower = [](const Level& level) { return level.lower; };
-        const auto upper = [](const Level& level) { return level.upper; };
-        const std::array<Region, 3> regions{
-            {{"runs down", kDown, left, lower}, {"still", kStill, lower, upper}, {"climbs", kUp, upper, right}}};
+        const auto lower = [](const Level& level) { return std::min(level.lower, level.shedding); };
+        const auto upper = [](const Level& level) { return std::min(level.upper, level.shedding); };
+        const auto torn = [](const Level& level) { return level.shedding; };
+        const std::array<Region, 4> regions{{{"runs down", "runs down", kDown, left, lower},
+                                             {"still", "still", kStill, lower, upper},
+                                             {"climbs", "climbs", kUp, upper, torn},
+                                             {"torn off, We 7.5", "torn off", kTorn, torn, right}}};
         for (const Region& region : regions) {
             fill(plot, levels, region);
         }
         plot.rulers(x, x_ticks, y, y_ticks, {255, 255, 255});
-        const auto draw_edge = [&](double Level::*edge, bool Level::*has) {
-            std::vector<Vec2> line;
-            for (const Level& level : levels) {
-                if (level.*has) {
-                    line.push_back({level.*edge, level.y});
-                }
-            }
-            if (line.size() > 1) {
-                plot.line(line, kInk, 1.8);
-            }
+        const auto before_shedding = [](double Level::*edge, bool Level::*has) {
+            return [=](const Level& level) { return level.*has && level.*edge <= level.shedding; };
         };
-        draw_edge(&Level::lower, &Level::has_lower);
-        draw_edge(&Level::upper, &Level::has_upper);
-        drawShedding(plot, levels, options.measured.has_value());
+        drawEdge(plot, levels, &Level::lower, before_shedding(&Level::lower, &Level::has_lower));
+        drawEdge(plot, levels, &Level::upper, before_shedding(&Level::upper, &Level::has_upper));
+        drawEdge(plot, levels, &Level::shedding, [](const Level& level) { return level.has_shedding; });
         std::vector<double> uprights;
         if (options.measured) {
             plot.measured(x, *options.measured);
             uprights = {x.at(options.measured->from), x.at(options.measured->to)};
         }
         for (const Region& region : regions) {
-            name(plot, levels, region, uprights);
+            for (const Lettering& as : std::initializer_list<Lettering>{
+                     {region.name, 10.5}, {region.name, kSmallLetters}, {region.short_name, kSmallLetters}}) {
+                if (name(plot, levels, region, uprights, as)) {
+                    break;
+                }
+            }
         }
         plot.axes(x, x_ticks, y, y_ticks);
         plot.heads(captionOf(swept, first), "volume, µL");

@@ -109,7 +109,9 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"height_px", report.view.height},
                     {"field_of_view_deg", report.view.field_of_view / kDegree},
                     {"eye_distance_m", report.view.eye_distance},
-                    {"ior", report.view.ior}};
+                    {"ior", report.view.ior},
+                    {"exposure", report.view.exposure},
+                    {"highlight_boost", orNull(report.view.highlight_boost)}};
     json["balance"] = ReportJson::array();
     double worst = 0.0;
     for (const BalanceRow& row : report.balance) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -316,6 +317,86 @@ TEST_F(WindshieldCommand, VideosComeAndGo)
     EXPECT_FALSE(std::filesystem::exists(path("x.mp4")) || std::filesystem::exists(path("x.webm")));
 }
 
+TEST_F(WindshieldCommand, BackgroundVideosRunAtTheirOwnSpeed)
+{
+    // Ten frames in a second, and the same with the second half of them twice as late.
+    const std::string grow = "color=black:s=64x36:r=10:d=1,format=gbrp,geq=r='24*N':g='24*N':b='24*N'";
+    for (const auto& [name, times] : {std::pair("even.mkv", "PTS"), {"late.mkv", "PTS+gte(N\\,5)*(PTS-0.5/TB)"}}) {
+        ASSERT_EQ(testing::runProgram({"ffmpeg", "-nostdin", "-v", "error", "-f", "lavfi", "-i", grow, "-vf",
+                                       std::string("setpts=") + times, "-fps_mode", "passthrough", "-c:v", "ffv1",
+                                       path(name)})
+                      .exit_code,
+                  0);
+    }
+    const auto shown = [&](const std::string& video, const char* rate) {
+        const std::string folder = video + rate;
+        std::filesystem::create_directory(path(folder));
+        EXPECT_EQ(play(path(folder + "/%d.png"),
+                       {"--background", path(video), "--fps", rate, "--rain", "0mm/h", "--time", "1.2s"})
+                      .exit_code,
+                  0);
+        std::vector<int> numbers;
+        for (int k = 1; std::filesystem::exists(path(folder) + "/" + std::to_string(k) + ".png"); ++k) {
+            const Picture frame = readPicture(path(folder) + "/" + std::to_string(k) + ".png");
+            numbers.push_back((frame.rgb[0] + 12) / 24);
+        }
+        return numbers;
+    };
+    EXPECT_THAT(shown("even.mkv", "10"), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1));
+    EXPECT_THAT(shown("even.mkv", "5"), ElementsAre(0, 2, 4, 6, 8, 0));
+    EXPECT_THAT(shown("even.mkv", "20"),
+                ElementsAre(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 0, 0, 1, 1));
+    EXPECT_THAT(shown("late.mkv", "10"), ElementsAre(0, 1, 2, 3, 4, 5, 5, 6, 6, 7, 7, 8));
+}
+
+TEST_F(WindshieldCommand, VideosKeepTheirColours)
+{
+    const std::vector<std::array<std::uint8_t, 3>> colours{{255, 0, 0},     {0, 255, 0},   {0, 0, 255},
+                                                           {255, 255, 255}, {12, 200, 90}, {250, 160, 20},
+                                                           {90, 30, 140},   {20, 22, 30}};
+    Picture flat{256, 32, {}};
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const auto& colour = colours[static_cast<std::size_t>(x / 32)];
+            flat.rgb.insert(flat.rgb.end(), colour.begin(), colour.end());
+        }
+    }
+    std::ostringstream bytes;
+    writePng(flat, bytes);
+    const std::string behind = stored("flat.png", bytes.str());
+    const auto dry = [&](const std::string& output, const std::string& quality) {
+        std::vector<std::string> options{"--background", behind, "--rain", "0mm/h", "--warm-up", "0s"};
+        if (!quality.empty()) {
+            options.insert(options.end(), {"--quality", quality});
+        }
+        return play(path(output), options).exit_code;
+    };
+    ASSERT_EQ(dry("dry.png", ""), 0);
+    ASSERT_EQ(dry("dry.mp4", ""), 0);
+    const std::string tags = testing::runProgram({"ffprobe", "-v", "error", "-show_entries",
+                                                  "stream=color_range,color_space,color_transfer,color_primaries",
+                                                  "-of", "default=nw=1:nk=1", path("dry.mp4")})
+                                 .output;
+    EXPECT_EQ(tags, "tv\nbt709\nbt709\nbt709\n");
+    ASSERT_EQ(testing::runProgram({"ffmpeg", "-nostdin", "-v", "error", "-i", path("dry.mp4"), "-frames:v", "1",
+                                   "-sws_flags", "accurate_rnd+full_chroma_int", path("back.png")})
+                  .exit_code,
+              0);
+    const Picture sent = readPicture(path("dry.png"));
+    const Picture back = readPicture(path("back.png"));
+    for (std::size_t x = 16; x < 256; x += 32) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = 3 * (16 * 256 + x) + c;
+            EXPECT_NEAR(back.rgb[at], sent.rgb[at], 2) << "colour " << x / 32 << ", channel " << c;
+        }
+    }
+    // Coarser is smaller.
+    ASSERT_EQ(dry("coarse.mp4", "5"), 0);
+    EXPECT_LT(std::filesystem::file_size(path("coarse.mp4")), std::filesystem::file_size(path("dry.mp4")));
+    EXPECT_EQ(dry("x.mp4", "101"), 2);
+    EXPECT_EQ(dry("x.png", "50"), 2);
+}
+
 TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
 {
     const std::string cycle = stored("cycle.csv", "time_s,speed_km_per_h\n0,36\n0.5,72\n");
@@ -446,6 +527,9 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--resume"}, 2, "--resume is of frames");
     expectRefused({"--maps", "m.png"}, 2, "%d");
     expectRefused({"--droplets", "d.txt"}, 2, ".csv or .json");
+    expectRefused({"--moving-only"}, 2, "--moving-only needs --droplets");
+    expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
+    expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
     expectRefused({"--fit"}, 2, "--background");
     expectRefused({"--samples", "5"}, 2, "from 1 to 4");
     expectRefused({"--size", "10x10"}, 2, "WIDTHxHEIGHT");

@@ -7,10 +7,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "droplet/error.h"
 #include "droplet/view/glass_maps.h"
+#include "picture/tone.h"
 #include "view/still_map.h"
 
 namespace droplet {
@@ -338,6 +341,83 @@ TEST(View, LotusTracksAreBare)
     EXPECT_LT(wet(), before);
 }
 
+// A bright sky is blue in the droplets, too: neither its highlights nor what is brighter than white change hue.
+TEST(View, DropletsKeepTheHueOfWhatIsBehind)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const WindshieldState state = rained(parameters, 60);
+    const std::array<std::uint8_t, 3> sky{115, 165, 252};
+    const auto light = [](std::uint8_t level) { return static_cast<double>(displayLevels()[level]); };
+    for (const auto& boost : {std::optional<double>(), std::optional(0.0), std::optional(1.0), std::optional(4.0)}) {
+        ViewOptions options = small();
+        options.glass_colour = {1.0, 1.0, 1.0};
+        options.highlight_boost = boost;
+        DriversView view(parameters.glass, options);
+        view.lookAt(filled(160, 90, sky, sky));
+        view.show(state);
+        const Layer layer = view.layer();
+        std::size_t bright = 0;
+        double most = 0.0;
+        for (std::size_t i = 0; i < layer.rgba.size(); i += 4) {
+            const std::uint8_t* const at = &layer.rgba[i];
+            most = std::max(most, light(at[2]));
+            if (at[3] > 200 && at[2] > 120) {
+                EXPECT_NEAR(light(at[0]) / light(at[2]), light(sky[0]) / light(sky[2]), 0.02);
+                EXPECT_NEAR(light(at[1]) / light(at[2]), light(sky[1]) / light(sky[2]), 0.02);
+                ++bright;
+            }
+        }
+        EXPECT_GT(bright, 20U);
+        if (!boost) {
+            EXPECT_LE(most, light(sky[2])) << "by day droplets are no brighter than what they show";
+        }
+    }
+}
+
+TEST(View, LampsByNightAreBrighterThanTheirPixels)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const WindshieldState state = rained(parameters, 60);
+    Picture night = filled(160, 90, {12, 14, 20}, {8, 8, 8});
+    for (const int x : {40, 41, 42, 43, 120, 121, 122, 123}) {
+        for (const int y : {30, 31, 32, 33}) {
+            std::copy_n(std::array<std::uint8_t, 3>{255, 190, 90}.data(), 3, &night.rgb[3U * (160U * y + x)]);
+        }
+    }
+    const auto brightness = [&](std::optional<double> boost) {
+        ViewOptions options = small();
+        options.highlight_boost = boost;
+        DriversView view(parameters.glass, options);
+        view.lookAt(night);
+        view.show(state);
+        const Layer layer = view.layer();
+        return std::accumulate(layer.rgba.begin(), layer.rgba.end(), 0.0);
+    };
+    EXPECT_GT(brightness(3.0), brightness(0.0));
+    EXPECT_EQ(brightness({}), brightness(3.0));
+}
+
+TEST(View, AStopIsTwiceTheLight)
+{
+    const WindshieldParameters parameters = heavyRain();
+    const WindshieldState state = rained(parameters, 40);
+    const auto light = [&](double exposure) {
+        ViewOptions options = small();
+        options.exposure = exposure;
+        DriversView view(parameters.glass, options);
+        view.lookAt(filled(160, 90, {70, 90, 120}, {60, 50, 40}));
+        view.show(state);
+        double sum = 0.0;
+        for (const std::uint8_t level : view.frame().rgb) {
+            sum += static_cast<double>(displayLevels()[level]);
+        }
+        return sum;
+    };
+    EXPECT_NEAR(light(1.0) / light(0.0), 2.0, 0.03);
+    EXPECT_NEAR(light(-1.0) / light(0.0), 0.5, 0.02);
+    EXPECT_THROW(light(9.0), Error);
+}
+
 TEST(View, RefusesWhatCannotBeSeen)
 {
     const Glass glass;
@@ -360,18 +440,28 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
     parameters.tear_off_weber = std::numeric_limits<double>::infinity();
     const WindshieldState state = rained(parameters, 20);
     GlassMapOptions options;
-    options.width = 3000;
-    // Whatever the contact angle; but for what overlaps or reaches over the edge, more where droplets lie flat.
-    for (const double angle : {150.0, 120.0, 90.0, 60.0}) {
-        options.shape.contact_angle = angle * kDegree;
+    const WaterBalance all = balanceOf(state);
+    const auto share = [&] {
         const GlassMaps held = glassMaps(parameters.glass, state, options);
+        const double area = parameters.glass.width() * parameters.glass.height();
         double water = 0.0;
         for (const std::uint16_t level : held.thickness.levels) {
-            water += level / 65535.0 * options.full_thickness * std::pow(parameters.glass.width() / options.width, 2);
+            water +=
+                level / 65535.0 * options.full_thickness * area / static_cast<double>(held.thickness.levels.size());
         }
-        const WaterBalance all = balanceOf(state);
-        EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.001) << angle;
+        return water / (all.on_glass_still + all.on_glass_running);
+    };
+    // At any width, and whatever the contact angle.
+    for (const int width : {16, 33, 64, 200, 1024, 3000}) {
+        options.width = width;
+        EXPECT_NEAR(share(), 1.0, 0.005) << width;
     }
+    for (const double angle : {150.0, 120.0, 60.0}) {
+        options.width = 256;
+        options.shape.contact_angle = angle * kDegree;
+        EXPECT_NEAR(share(), 1.0, 0.005) << angle;
+    }
+    options.width = 1000;
     options.shape.contact_angle = 90.0 * kDegree;
     const GlassMaps maps = glassMaps(parameters.glass, state, options);
     for (std::size_t i = 0; i < maps.thickness.levels.size(); i += 7) {
@@ -380,6 +470,32 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
         if (maps.thickness.levels[i] == 0 && maps.velocity.levels[3 * i + 2] == 0) {
             EXPECT_NEAR(value(2), 1.0, 1e-3);
         }
+    }
+}
+
+// What is smaller than a texel shows as smooth glass, not as the normal at its middle.
+TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.05});
+    WindshieldState state = startWindshield(parameters);
+    RunningDroplet droplet;
+    droplet.volume = 1e-9;
+    // In the middle of a texel of 10 mm, and off it: the texel's own middle lies on its slope.
+    for (const double x : {0.035, 0.0355}) {
+        state.droplets = {droplet};
+        state.droplets[0].position = {x, 0.025};
+        const GlassMaps coarse = glassMaps(parameters.glass, state, {.width = 16});
+        for (std::size_t i = 0; i < coarse.normal.levels.size(); i += 3) {
+            EXPECT_NEAR(coarse.normal.levels[i], 32768, 400);
+            EXPECT_GT(coarse.normal.levels[i + 2], 65500);
+        }
+        // A mean of finer texels is the coarser one.
+        const GlassMaps fine = glassMaps(parameters.glass, state, {.width = 64});
+        const auto water = [](const GlassMaps& maps) {
+            return std::accumulate(maps.thickness.levels.begin(), maps.thickness.levels.end(), 0.0);
+        };
+        EXPECT_NEAR(water(fine) / 16.0, water(coarse), 0.01 * water(coarse));
     }
 }
 
@@ -421,6 +537,55 @@ TEST(View, ItsDefaultBackgroundGoesByAndNothingElse)
     EXPECT_NE(here, defaultBackground(small(), 3.0));
     EXPECT_THROW(defaultBackground({.width = 0}), Error);
     EXPECT_THROW(defaultBackground(small(), std::nan("")), Error);
+}
+
+TEST(DefaultBackgroundOf, MovesOnlyWhatIsOnTheRoad)
+{
+    ViewOptions options;
+    options.width = 640;
+    options.height = 360;
+    const DefaultBackground road(options);
+    const Picture here = road.at(0.0);
+    EXPECT_EQ(here, defaultBackground(options));
+    EXPECT_EQ(here, road.at(0.0)) << "nothing of one picture is left in the next";
+    const Picture there = road.at(7.0);
+    EXPECT_EQ(there, defaultBackground(options, 7.0));
+    // Lights and dashes lie in a quarter of the picture; sky, verges and the lines along the road stay.
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < here.rgb.size(); i += 3) {
+        changed += std::equal(&here.rgb[i], &here.rgb[i] + 3, &there.rgb[i]) ? 0 : 1;
+    }
+    EXPECT_GT(changed, here.rgb.size() / 3 / 100);
+    EXPECT_LT(changed, here.rgb.size() / 3 / 4);
+    const auto sample = [&](double travelled) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+        return road.at(travelled);
+    };
+    EXPECT_EQ(there, sample(7.0));
+}
+
+// The lens blurs the lines along the road all around, whichever way they run, as it does the lights.
+TEST(DefaultBackgroundOf, LinesAlongTheRoadAreSoft)
+{
+    ViewOptions options;
+    options.width = 1280;
+    options.height = 720;
+    const Picture road = defaultBackground(options);
+    const auto level = [&](int x, int y) { return int{road.rgb[static_cast<std::size_t>(3 * (1280 * y + x) + 2)]}; };
+    // 1.75 m to the right and 5.25 m to the left of an eye 1.2 m over the road, below all lights.
+    for (const double across : {1.75, -5.25}) {
+        double steepest = 0.0;
+        double brightest = 0.0;
+        for (int y = 460; y < 680; ++y) {
+            const int x = static_cast<int>(639.5 + across / 1.2 * (y + 0.5 - 360.0));
+            for (int j = y - 18; x > 40 && x < 1240 && j < y + 18; ++j) {
+                steepest = std::max(steepest, std::hypot(level(x, j + 1) - level(x, j), level(x + 1, j) - level(x, j)));
+                brightest = std::max(brightest, 1.0 * level(x, y) - level(x, y + 18));
+            }
+        }
+        EXPECT_GT(brightest, 10.0) << across;
+        EXPECT_LT(steepest, 6.0) << across;
+    }
 }
 
 }  // namespace

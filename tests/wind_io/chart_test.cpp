@@ -197,13 +197,13 @@ double areaOf(const std::vector<Vec2>& points)
     return std::abs(0.5 * twice);
 }
 
-TEST(RegimeMap, PartsThePlaneIntoThreeRegimes)
+TEST(RegimeMap, PartsThePlaneIntoFourRegimes)
 {
     for (const char* preset : {"thesis", "hashimoto"}) {
         const TunnelSweep what = sweptPreset(preset);
         const Drawing drawing = regimeMap(what, sweep(what));
         const auto areas = marksOf<Area>(drawing);
-        ASSERT_THAT(areas, SizeIs(3));
+        ASSERT_THAT(areas, SizeIs(4));
         Vec2 low = areas[0].points[0];
         Vec2 high = low;
         double all = 0.0;
@@ -218,6 +218,7 @@ TEST(RegimeMap, PartsThePlaneIntoThreeRegimes)
         for (const char* words : {"runs down", "still", "climbs", "volume, µL"}) {
             EXPECT_THAT(textsOf(drawing), Contains(words));
         }
+        EXPECT_THAT(textsOf(drawing), Contains(::testing::StartsWith("torn off")));
     }
 }
 
@@ -245,11 +246,15 @@ TEST(RegimeMap, AreasHoldTheRegimesOfTheModel)
         }
         return is_inside;
     };
-    int seen[3] = {};
+    int seen[4] = {};
     for (const double volume : {3e-9, 7e-9, 12e-9, 31e-9, 90e-9, 170e-9}) {
         const DropletForces forces = forcesOn(what.model, volume);
         for (double wind = 0.3; wind < 16.0; wind += 0.71) {
-            const auto regime = static_cast<std::size_t>(regimeOf(forces, drivingForce(forces, what.slopes[0], wind)));
+            const CapSize cap = capOf(volume, what.model.wetting.contact_angle);
+            const auto regime =
+                wind > sheddingWind(what.model, cap).value()
+                    ? 3U
+                    : static_cast<std::size_t>(regimeOf(forces, drivingForce(forces, what.slopes[0], wind)));
             double x = 0.0;
             for (double step = 1000.0; step > 1e-9; step *= 0.5) {
                 x += windAt(drawing, x + step) < wind ? step : 0.0;
@@ -260,6 +265,31 @@ TEST(RegimeMap, AreasHoldTheRegimesOfTheModel)
         }
     }
     EXPECT_THAT(seen, Each(::testing::Gt(5)));
+}
+
+TEST(Charts, KeepARowForEachSlope)
+{
+    TunnelSweep what = sweptPreset("thesis");
+    what.slopes = {0.2, 0.5, 0.9};
+    what.hystereses = {0.05, 0.2, 0.5, 1.0};
+    const Tunnel tunnel = sweep(what);
+    for (const Drawing& drawing : {accelerationChart(what, tunnel), regimeMap(what, tunnel)}) {
+        std::map<std::string, double> rows;
+        std::map<std::string, double> columns;
+        std::size_t panels = 0;
+        for (const Text& text : marksOf<Text>(drawing)) {
+            if (const std::size_t comma = text.text.find(", hysteresis"); comma != std::string::npos) {
+                const double row = rows.emplace(text.text.substr(0, comma), text.at.y).first->second;
+                const double column = columns.emplace(text.text.substr(comma), text.at.x).first->second;
+                EXPECT_EQ(text.at.y, row) << text.text;
+                EXPECT_EQ(text.at.x, column) << text.text;
+                ++panels;
+            }
+        }
+        EXPECT_EQ(panels, 12U);
+        EXPECT_THAT(rows, SizeIs(3));
+        EXPECT_THAT(columns, SizeIs(4));
+    }
 }
 
 TEST(Charts, OfTooManyPanelsAreRefused)

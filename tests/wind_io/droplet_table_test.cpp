@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -50,7 +51,7 @@ TEST(DropletTable, CsvReadsBackToTheSameNumbers)
         }
         ASSERT_EQ(row.size(), 10U);
         EXPECT_EQ(row[0], rows < 2 ? "1" : "3");
-        EXPECT_EQ(std::stod(row[1]), 1.0 / 3.0);
+        EXPECT_EQ(row[1], "0.333333333");
         EXPECT_EQ(std::stod(row[3]), 0.1 + 0.2);
         EXPECT_EQ(std::stod(row[4]), 1e-17);
         EXPECT_EQ(std::stod(row[7]), 1.0 / 7e9);
@@ -62,6 +63,39 @@ TEST(DropletTable, CsvReadsBackToTheSameNumbers)
         EXPECT_EQ(std::stod(row[9]), 2.0 * (shape.half_length + shape.contact_radius));
     }
     EXPECT_EQ(rows, 4);
+}
+
+TEST(DropletTable, TimesAreTimes)
+{
+    const auto time = [](double value) {
+        std::ostringstream out;
+        DropletTable table(out, TableFormat::Csv, {});
+        WindshieldState state = twoDroplets();
+        state.time = value;
+        table.add(1, state);
+        const std::string text = out.str();
+        const std::size_t begin = text.find("\n1,") + 3;
+        return text.substr(begin, text.find(',', begin) - begin);
+    };
+    double sum = 0.0;
+    for (int k = 0; k < 600; ++k) {
+        sum += 1.0 / 60.0;
+    }
+    ASSERT_NE(sum, 10.0);
+    EXPECT_EQ(time(sum), "10");
+    EXPECT_EQ(time(2.05), "2.05");
+    EXPECT_EQ(time(86400.0 + 1.0 / 3.0), "86400.333333333");
+}
+
+TEST(DropletTable, OnlyMovingDropletsAreToldIfSoAskedFor)
+{
+    std::ostringstream out;
+    DropletTable table(out, TableFormat::Csv, {});
+    table.add(7, twoDroplets(), DropletRows::Moving);
+    table.finish();
+    const std::string text = out.str();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << "the header and one row";
+    EXPECT_NE(text.find("\n7,0.333333333,2,"), std::string::npos);
 }
 
 TEST(DropletTable, JsonHasTheSameRows)

@@ -55,6 +55,8 @@ TEST(ReadDriveCycle, RefusesWhatItWouldHaveToGuess)
     EXPECT_THAT(refusalOf(head + "0.5,3\n"), AllOf(HasSubstr("row 4"), HasSubstr("after 1 s")));
     EXPECT_THAT(refusalOf(head + "1,3\n"), HasSubstr("after 1 s"));
     EXPECT_THAT(refusalOf(head + "2,-3\n"), AllOf(HasSubstr("row 4"), HasSubstr("-3 m/s")));
+    EXPECT_THAT(refusalOf(head + "2,3,5\n"), AllOf(HasSubstr("row 4"), HasSubstr("3 cells, the header 2")));
+    EXPECT_THAT(refusalOf(head + "2,3,\n"), HasSubstr("3 cells"));
     EXPECT_THAT(refusalOf("0,1\n1,2\n"), AllOf(HasSubstr("row 1"), HasSubstr("time_s")));
     EXPECT_THAT(refusalOf("time_s,speed\n0,1\n"), HasSubstr("speed_m_per_s"));
     EXPECT_THAT(refusalOf("time_s,speed_m_per_s\n"), HasSubstr("at least one row"));

@@ -10,7 +10,7 @@ namespace droplet {
 
 /// How maps of the glass are drawn.
 struct GlassMapOptions {
-    int width = 2048;              ///< [px] 16 … 8192; the height follows, so that pixels are square
+    int width = 2048;  ///< [px] 16 … 8192; the height follows, so that pixels are as square as whole ones can be
     ShapeOptions shape = {};       ///< of droplets
     double full_thickness = 5e-3;  ///< what the highest level stands for [m], > 0; more is cut off
     double full_speed = 2.0;       ///< [m/s], > 0; more is cut off
@@ -25,15 +25,17 @@ struct GlassMapOptions {
 struct GlassMaps {
     /// Outward unit normal of the water in the glass's tangent frame: red x, to the driver's right; green y, up the
     /// glass; blue z, out of it; each (n + 1)/2 of 65535. Bare glass is (32768, 32768, 65535). +Y up, as OpenGL has it.
+    /// The mean over the pixel, of length 1 again: what is smaller than a pixel does not glitter.
     DeepPicture normal;
-    /// Grey: the water's thickness over full_thickness; 0: bare.
+    /// Grey: the water's mean thickness over full_thickness; 0: bare. Added up over all pixels it is the water on the
+    /// glass, at any width, but for what is cut off.
     DeepPicture thickness;
-    /// Red and green: velocity along x and y, (v/full_speed + 1)/2 of 65535; blue: 65535 where a droplet runs or may
-    /// run, 0 elsewhere. At rest (32768, 32768).
+    /// Red and green: velocity along x and y of what runs or may run there, (v/full_speed + 1)/2 of 65535; at rest
+    /// (32768, 32768). Blue: the share of the pixel that it covers, of 65535.
     DeepPicture velocity;
 };
 
-/// Draws them. Where droplets overlap, the thicker is there.
+/// Draws them: means over the areas of pixels. Where droplets overlap, so does their water.
 ///
 /// Guarantees: the same bytes from the same arguments, at any number of threads.
 /// @param state    of this glass

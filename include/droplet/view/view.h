@@ -15,14 +15,18 @@ namespace droplet {
 
 /// How the driver looks through the glass; defaults as in the thesis, section 3.2.3.
 struct ViewOptions {
-    int width = 1280;                      ///< [px] 16 … 8192
-    int height = 720;                      ///< [px] 16 … 8192
-    double field_of_view = 45 * kDegree;   ///< of the width [rad], 1° … 150°
-    double eye_distance = 0.5;             ///< from the glass, straight ahead [m], 0.01 … 100
-    std::optional<Vec2> aim = {};          ///< place on the glass that is straight ahead [m]; empty: its middle
-    ShapeOptions shape = {};               ///< of droplets
-    double ior = 1.333;                    ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
-    int samples = 2;                       ///< rays a pixel and droplet, across and down; 1 … 4
+    int width = 1280;                     ///< [px] 16 … 8192
+    int height = 720;                     ///< [px] 16 … 8192
+    double field_of_view = 45 * kDegree;  ///< of the width [rad], 1° … 150°
+    double eye_distance = 0.5;            ///< from the glass, straight ahead [m], 0.01 … 100
+    std::optional<Vec2> aim = {};         ///< place on the glass that is straight ahead [m]; empty: its middle
+    ShapeOptions shape = {};              ///< of droplets
+    double ior = 1.333;                   ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
+    int samples = 2;                      ///< rays a pixel and droplet, across and down; 1 … 4
+    double exposure = 0.0;                ///< of all that is seen, in stops: 1 is twice the light; −8 … 8
+    /// Lamps saturate a picture: its brightest pixels are taken for up to 1 + this times as bright, in their own hue;
+    /// 0 … 4. Empty: 3 where few are bright, as by night, and less the more are, down to 0 by day.
+    std::optional<double> highlight_boost = {};
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
 
     /// @throws Error InvalidArgument
@@ -30,11 +34,28 @@ struct ViewOptions {
 };
 
 /// What is behind the glass where nobody brings a picture: a made-up road on a wet evening, out of focus. What stands
-/// still comes nearer as the car travels.
+/// still comes nearer as the car travels. What looks the same wherever the car is, is painted once.
 ///
 /// Guarantees: the same bytes from the same arguments, at any number of threads; as large as the frame.
-/// @param travelled  how far the car has come [m], finite
-/// @throws Error     InvalidArgument
+class DefaultBackground {
+public:
+    /// @throws Error InvalidArgument
+    explicit DefaultBackground(const ViewOptions& options);
+    ~DefaultBackground();
+    DefaultBackground(DefaultBackground&&) noexcept;
+    DefaultBackground& operator=(DefaultBackground&&) noexcept;
+
+    /// @param travelled  how far the car has come [m], finite
+    /// @throws Error     InvalidArgument
+    [[nodiscard]] Picture at(double travelled) const;
+
+private:
+    struct Content;
+    std::unique_ptr<const Content> content_;
+};
+
+/// One picture of DefaultBackground.
+/// @throws Error  InvalidArgument
 Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 
 /// What the driver sees: an eye behind the glass that looks straight ahead, and a picture so far away that only the

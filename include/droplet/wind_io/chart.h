@@ -18,7 +18,7 @@ struct ChartOptions {
     double most = 0.0;   ///< and up to which [m/s²]
 };
 
-/// The most slopes and hystereses that charts show, a panel for each of both.
+/// The most slopes and hystereses that charts show, a panel for each of both; of several of both a row for each slope.
 inline constexpr std::size_t kMostPanels = 12;
 
 /// Acceleration at rest over wind speed, a curve for each volume, in the manner of the thesis' figure 3.5: where each
@@ -29,7 +29,8 @@ inline constexpr std::size_t kMostPanels = 12;
 Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options = {});
 
 /// What droplets do over wind and volume: where they run down, stay still and climb, parted by the roots U₋ and U₊ of
-/// many volumes. A dashed line is the wind that would tear droplets off, by their height alone (sheddingWind).
+/// many volumes, up to the wind that tears droplets off, by their height alone (sheddingWind): beyond that dashed line
+/// they are torn off.
 /// @throws Error  InvalidArgument: over kMostPanels panels
 Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options = {});
 

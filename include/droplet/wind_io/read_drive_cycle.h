@@ -13,8 +13,8 @@ namespace droplet {
 /// `speed (km/h)` and the like mean the same), then a row for every time. Other columns are passed over, empty lines at
 /// the end too; lines end in LF or CRLF, fields may be quoted.
 ///
-/// Nothing is guessed: fields that are empty or no number, NaN, times that do not rise, negative speeds and gaps are
-/// refused. A gap is an empty line between rows, or, where at least ten rows come at even intervals, an interval of 1.5
+/// Nothing is guessed: fields that are empty or no number, NaN, times that do not rise, negative speeds, rows with more
+/// cells than the header and gaps are refused. A gap is an empty line between rows, or, where at least ten rows come at even intervals, an interval of 1.5
 /// of those or more.
 /// @param text   UTF-8, with or without a byte order mark
 /// @param name   of the file, for messages
