@@ -25,6 +25,7 @@
 #include "progress_display.h"
 #include "shape_command.h"
 #include "stage_clock.h"
+#include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
 
@@ -55,6 +56,9 @@ void check(const AnimateOptions& options, const Frames& frames)
         const std::vector<std::size_t> numbers = frames.numbers();
         for (const std::size_t number : numbers.empty() ? std::vector<std::size_t>{1} : numbers) {
             outputs.push_back({"OUTPUT", options.files->at(number)});
+            if (const auto material = materialFile(outputs.back().path, options.format)) {
+                outputs.push_back({"OUTPUT's material", *material});
+            }
         }
     } else {
         outputs.push_back({"OUTPUT", options.output});
@@ -153,13 +157,16 @@ private:
         if (options_.files) {
             progress_(Stage::Write);
             report.output = options_.files->at(picture.number);
-            report_.bytes += droplet::writeWhole(
-                *report.output,
-                [&](std::ostream& out) {
-                    writeSurface(frame_->droplet.surface, out, options_.format,
-                                 {options_.settings.material, report.closed});
-                },
+            std::uint64_t bytes = 0;
+            writeTogether(
+                surfaceFiles(
+                    frame_->droplet.surface,
+                    {*report.output,
+                     options_.format,
+                     {.material = options_.settings.material, .closed = report.closed, .unit = options_.settings.unit}},
+                    bytes),
                 options_.run.files);
+            report_.bytes += bytes;
         } else {
             animation_->add(frame_->droplet.surface, frame_->continues);
         }

@@ -62,15 +62,11 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
         refuse(named + " has no extension to tell the format; an animation is a .glb");
     }
     options.format = forOption(named, [&] { return droplet::formatNamed(extension); });
-    const bool gltf = options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
     if (!options.files && options.format != droplet::Format::Glb) {
         refuse(named + " must be a .glb to hold an animation, or have a place for the frame's number, as in out/%04d" +
                extension);
     }
-    if (const auto material = line.value("--material"); material && !gltf) {
-        options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
-                                            droplet::name(options.format) + " files carry no material");
-    }
+    warnOfFormat(line, options.format, false, options.settings);
     if (line.value("--fps") && options.files) {
         options.settings.warnings.push_back("--fps has no effect: every frame has a file of its own");
     }
@@ -129,7 +125,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     const std::vector<Given> files = line.values("FILES");
     if (files.size() < 2) {
-        refuse(files.empty() ? "INPUT is missing" : "OUTPUT is missing");
+        refuse(std::string(files.empty() ? "INPUT" : "OUTPUT") + " is missing; usage: " + commandText().name + " " +
+               commandText().usage);
     }
     for (std::size_t i = 0; i + 1 < files.size(); ++i) {
         options.inputs.push_back(files[i].text);

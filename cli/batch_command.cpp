@@ -17,6 +17,7 @@
 #include "output_pattern.h"
 #include "shape_command.h"
 #include "shape_options.h"
+#include "surface_files.h"
 #include "surroundings.h"
 
 namespace cli {
@@ -151,6 +152,20 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
     return fingerprintOf(parts);
 }
 
+/// Whether a path is rather where droplets go than a picture or a folder of them.
+bool namesDroplets(const std::string& path)
+{
+    if (path.find('{') != std::string::npos) {
+        return true;
+    }
+    try {
+        (void)droplet::formatNamed(fs::path(path).extension().string());
+        return true;
+    } catch (const droplet::Error&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 int runBatch(int argc, const char* const* argv)
@@ -164,6 +179,10 @@ int runBatch(int argc, const char* const* argv)
     }
     const auto output = line.value("--output");
     if (!output || output->text.empty() || isStream(output->text)) {
+        const std::vector<Given> inputs = line.values("INPUT");
+        if (!output && !inputs.empty() && namesDroplets(inputs.back().text)) {
+            refuse("--output is missing; did you mean -o '" + inputs.back().text + "'?");
+        }
         refuse("--output is missing, or no path: where each droplet goes, such as -o 'out/{stem}.glb'");
     }
     const auto report = line.value("--json");
@@ -171,6 +190,7 @@ int runBatch(int argc, const char* const* argv)
     named.output = output->text;
     const ShapeOptions shared = readShapes(line, std::move(named), "--output");
     BatchOptions options = readBatch(line, shared.run, output->text);
+    options.material = shared.settings.material;
     for (const auto& path : {shared.settings.ground.path, shared.settings.onto}) {
         if (path) {
             options.read.push_back(*path);
@@ -189,6 +209,9 @@ int runBatch(int argc, const char* const* argv)
         item.output = filled(*output, values, kPlaceholders);
         if (report) {
             item.others.push_back(filled(*report, values, kPlaceholders));
+        }
+        if (const auto material = materialFile(item.output, shared.format)) {
+            item.others.push_back(*material);
         }
         ShapeOptions job = shared;
         job.input = item.input;

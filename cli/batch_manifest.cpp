@@ -6,8 +6,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "content_hash.h"
 #include "droplet/error.h"
@@ -74,6 +76,44 @@ std::optional<MadeFile> fileIn(const Json& row)
     return file;
 }
 
+/// Whether what stands between a manifest's stem and its extension is that of a shard, as in -2-of-8.
+bool isShard(std::string_view text)
+{
+    const auto skip = [&](std::string_view word) {
+        const bool found = text.substr(0, word.size()) == word;
+        text.remove_prefix(found ? word.size() : 0);
+        return found;
+    };
+    const auto skip_number = [&] {
+        const auto digits = std::min(text.find_first_not_of("0123456789"), text.size());
+        text.remove_prefix(digits);
+        return digits > 0;
+    };
+    return skip("-") && skip_number() && skip("-of-") && skip_number() && text.empty();
+}
+
+/// The manifest and those of shards beside it, as far as there are any.
+std::vector<fs::path> manifestsOf(const fs::path& manifest)
+{
+    std::vector<fs::path> found;
+    std::error_code failure;
+    if (fs::is_regular_file(manifest, failure)) {  // a device may be endless
+        found.push_back(manifest);
+    }
+    const std::string stem = manifest.stem().string();
+    const std::string extension = manifest.extension().string();
+    const fs::path folder = manifest.has_parent_path() ? manifest.parent_path() : fs::path(".");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() > stem.size() + extension.size() && name.compare(0, stem.size(), stem) == 0 &&
+            entry.path().extension() == extension && entry.is_regular_file(failure) &&
+            isShard(std::string_view(name).substr(stem.size(), name.size() - stem.size() - extension.size()))) {
+            found.push_back(entry.path());
+        }
+    }
+    return found;
+}
+
 /// A text as it comes back from JSON, in which everything is UTF-8.
 std::string inJson(const std::string& text)
 {
@@ -128,10 +168,20 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
 
 EarlierRun::EarlierRun(const std::string& manifest)
 {
+    // The later a file was written, the more it knows.
+    std::vector<std::pair<fs::file_time_type, fs::path>> found;
     std::error_code failure;
-    if (!fs::is_regular_file(manifest, failure)) {
-        return;  // none yet, or a device, which may be endless
+    for (const fs::path& path : manifestsOf(manifest)) {
+        found.emplace_back(fs::last_write_time(path, failure), path);
     }
+    std::sort(found.begin(), found.end());
+    for (const auto& [time, path] : found) {
+        read(path.string(), path == fs::path(manifest));
+    }
+}
+
+void EarlierRun::read(const std::string& manifest, bool is_replaced)
+{
     const std::string text = textOf(manifest);
     if (text.empty()) {
         return;
@@ -147,7 +197,9 @@ EarlierRun::EarlierRun(const std::string& manifest)
             }
         }
     } catch (const std::exception&) {
-        refuse("--manifest: " + manifest + " exists and is no " + kSchema + "; name another file, or remove it");
+        if (is_replaced) {
+            refuse("--manifest: " + manifest + " exists and is no " + kSchema + "; name another file, or remove it");
+        }
     }
 }
 

@@ -41,7 +41,7 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
 /// What the manifest of an earlier run says.
 class EarlierRun {
 public:
-    /// Knows of nothing if there is no such file.
+    /// Reads that manifest and those that shards have left beside it; knows of nothing if there are none.
     /// @throws droplet::Error InvalidArgument if it is something else, which must not be replaced; InvalidInput if it
     ///                        cannot be read
     explicit EarlierRun(const std::string& manifest);
@@ -50,6 +50,8 @@ public:
     [[nodiscard]] std::optional<MadeFile> at(const BatchItem& item) const;
 
 private:
+    void read(const std::string& manifest, bool is_replaced);
+
     std::unordered_map<std::string, MadeFile> files_;  ///< by output
 };
 

@@ -51,10 +51,10 @@ fs::path manifestBeside(const std::string& output_pattern)
 
 std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLine& line)
 {
-    static const std::set<std::string> others{"--config",   "--help",       "--json",      "--keep-going",
-                                              "--manifest", "--no-clobber", "--no-resume", "--output",
-                                              "--progress", "--quiet",      "--recursive", "--shard",
-                                              "--threads",  "--verbose",    "--version",   "--contact-sheet"};
+    static const std::set<std::string> others{
+        "--config",    "--help",    "--json",     "--keep-going",    "--manifest",  "--no-clobber",
+        "--no-resume", "--output",  "--progress", "--quiet",         "--recursive", "--shard",
+        "--threads",   "--verbose", "--version",  "--contact-sheet", "--one-scale"};
     std::vector<std::pair<std::string, std::string>> decisive;
     for (const auto& [name, value] : line.given()) {
         if (others.count(name) == 0) {
@@ -76,6 +76,7 @@ void declareBatch(CommandLine& line)
              "what became of every item, as JSON\n"
              "[manifest.json in the folder of all outputs]");
     line.add(kGroup, "--contact-sheet", "FILE", "draw all of them on one picture, PNG");
+    line.addFlag(kGroup, "--one-scale", "as large on it as they are, none enlarged");
 }
 
 BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern)
@@ -88,18 +89,19 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
     }
     const auto manifest = line.value("--manifest");
     options.manifest = ofShard(manifest ? fs::path(manifest->text) : manifestBeside(output_pattern), options.shard);
+    if (line.flag("--one-scale") && !line.value("--contact-sheet")) {
+        refuse("--one-scale goes with --contact-sheet");
+    }
     if (const auto sheet = line.value("--contact-sheet")) {
         if (fs::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png");
         }
         options.contact_sheet = ofShard(sheet->text, options.shard);
+        options.one_scale = line.flag("--one-scale");
         const auto format = line.value("--format");
         if (format && fs::path(output_pattern).extension() != "." + format->text) {
             refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);
         }
-    }
-    if (const auto material = line.value("--material")) {
-        options.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
     }
     options.told = decisiveOptions(line);
     if (run.config) {

@@ -36,6 +36,7 @@ struct BatchOptions {
     bool resume = true;  ///< skip items whose files are there already, made from the same input and options
     std::optional<BatchShard> shard;
     std::optional<std::string> contact_sheet;  ///< path of a picture of all that was made, or stood already
+    bool one_scale = false;                    ///< of it
     droplet::Material material = droplet::Material::Water;  ///< what they are drawn in there
     std::optional<std::size_t> threads;                     ///< items worked on at one time [all cores]
     Verbosity verbosity = Verbosity::Normal;

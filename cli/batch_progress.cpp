@@ -55,16 +55,27 @@ void BatchProgress::tell(const BatchItem& item, const ManifestRow& row)
     }
 }
 
-void BatchProgress::drawBar(std::size_t ended)
+void BatchProgress::tellDrawn(std::size_t drawn, std::size_t count)
+{
+    drawn_tiles_ = drawn;
+    if (options_.progress == ProgressMode::Json) {
+        std::cerr << Json{{"drawn", drawn}, {"of", count}, {"elapsed_s", std::round(1e3 * elapsed()) / 1e3}}.dump()
+                  << std::endl;
+        return;
+    }
+    drawBar("contact sheet: ", drawn, count);
+}
+
+void BatchProgress::drawBar(const char* what, std::size_t ended, std::size_t count)
 {
     constexpr double kRefresh = 0.1;  // [s]
     if (!bar_ || secondsSince(drawn_at_) < kRefresh) {
         return;
     }
     constexpr std::size_t kCells = 28;
-    const std::size_t full = ended * kCells / std::max<std::size_t>(1, items_);
-    std::cerr << kEraseLine << "[" << std::string(full, '#') << std::string(kCells - full, '.') << "] " << ended
-              << " of " << items_ << std::flush;
+    const std::size_t full = ended * kCells / std::max<std::size_t>(1, count);
+    std::cerr << kEraseLine << "[" << std::string(full, '#') << std::string(kCells - full, '.') << "] " << what << ended
+              << " of " << count << std::flush;
     drawn_ = true;
     drawn_at_ = Clock::now();
 }
@@ -99,12 +110,16 @@ void BatchProgress::summarise(const std::vector<ManifestRow>& rows)
     tell_some(with(ItemStatus::Skipped), " skipped: they stand as they would be made");
     tell_some(with(ItemStatus::Failed), " failed");
     tell_some(with(ItemStatus::NotStarted), " not started");
-    text << "; " << std::fixed << std::setprecision(1) << elapsed() << " s\n";
+    text << "; " << std::fixed << std::setprecision(1) << made_after_ << " s\n";
     if (warned > 0) {
         text << paint("warnings", Colour::Yellow) << "   on " << warned << (warned == 1 ? " item" : " items") << "\n";
     }
     if (!options_.left_out.empty()) {
         text << paint("left out", Colour::Bold) << "   " << options_.left_out.size() << ", the manifest says why\n";
+    }
+    if (drawn_tiles_ > 0) {
+        text << paint("sheet", Colour::Bold) << "      " << oneLine(*options_.contact_sheet) << ": " << drawn_tiles_
+             << (drawn_tiles_ == 1 ? " droplet" : " droplets") << "; " << elapsed() - made_after_ << " s\n";
     }
     text << paint("manifest", Colour::Bold) << "   " << oneLine(options_.manifest) << "\n";
     std::cerr << text.str() << std::flush;

@@ -104,10 +104,24 @@ public:
     int finish()
     {
         settle();
+        progress_.endMaking();
         writeManifest(rows_, items_, options_, progress_.elapsed());
-        progress_.summarise(rows_);
         return std::any_of(rows_.begin(), rows_.end(), hasFailed) ? kSomeFailed : 0;
     }
+
+    /// Draws what stands, if asked for.
+    void drawSheet()
+    {
+        if (!options_.contact_sheet) {
+            return;
+        }
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadsOf(options_));
+        const ContactSheet sheet{*options_.contact_sheet, options_.material, options_.one_scale, outputs()};
+        writeContactSheet(sheet, options_.files,
+                          [&](std::size_t drawn) { progress_.tellDrawn(drawn, sheet.droplets.size()); });
+    }
+
+    void summarise() { progress_.summarise(rows_); }
 
 private:
     static bool hasFailed(const ManifestRow& row) { return row.status == ItemStatus::Failed; }
@@ -277,13 +291,17 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
         signal = Interruption::asked();
     }
     if (signal != 0) {
+        batch.summarise();
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
-    if (options.contact_sheet) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadsOf(options));
-        writeContactSheet({*options.contact_sheet, options.material, batch.outputs()}, options.files);
+    try {
+        batch.drawSheet();
+    } catch (...) {
+        batch.summarise();
+        throw;
     }
+    batch.summarise();
     return code;
 }
 

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,23 +15,6 @@
 
 namespace cli {
 namespace {
-
-/// Changes of one letter that turn one word into the other (Levenshtein).
-std::size_t distance(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 class HelpFormatter : public CLI::Formatter {
 public:
@@ -214,18 +196,13 @@ private:
 
     [[nodiscard]] std::string nearest(const std::string& unknown) const
     {
-        constexpr std::size_t kFarthest = 2;  // a slip or two; more is another word
-        std::string best;
-        std::size_t least = kFarthest + 1;
+        std::vector<std::string> names;
         for (const CLI::Option* option : app_.get_options()) {
             for (const std::string& name : option->get_lnames()) {
-                if (distance("--" + name, unknown) < least) {
-                    least = distance("--" + name, unknown);
-                    best = "--" + name;
-                }
+                names.push_back("--" + name);
             }
         }
-        return best;
+        return nearestName(unknown, names);
     }
 
     void refuseExtras() const
@@ -236,6 +213,11 @@ private:
         if (option != extras.end()) {
             const std::string name = option->substr(0, option->find('='));
             const std::string known = nearest(name);
+            const bool is_output = name == "-o" || name == "--output";
+            if (is_output && text_.usage.find(" OUTPUT") != std::string::npos) {
+                refuse("unknown option " + name + ": OUTPUT stands without one, as in " + text_.name + " " +
+                       text_.usage);
+            }
             refuse("unknown option " + name + (known.empty() ? "" : ", did you mean " + known + "?") +
                    (known.empty() ? "; " + text_.name + " --help lists all" : ""));
         }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 
 #include "droplet/io/read_surface.h"
 #include "droplet/picture/contact_sheet.h"
@@ -25,29 +26,62 @@ double meanHeight(const droplet::Surface& surface)
     return area > 0.0 ? std::abs(droplet::enclosedVolume(surface)) / area : 0.0;
 }
 
+/// Boxes of one size, each on the ground around the middle of its droplet.
+std::vector<droplet::ViewBox> boxesOfOneSize(const std::vector<std::string>& droplets)
+{
+    std::vector<droplet::ViewBox> boxes(droplets.size());
+    tbb::parallel_for(std::size_t{0}, droplets.size(), [&](std::size_t i) {
+        boxes[i] = droplet::around(droplet::readSurface(droplets[i]).surface).value();
+    });
+    droplet::Vec3 most;
+    for (const auto& [low, high] : boxes) {
+        most = {std::max(most.x, high.x - low.x), std::max(most.y, high.y - low.y), std::max(most.z, high.z - low.z)};
+    }
+    for (auto& [low, high] : boxes) {
+        const droplet::Vec3 middle = 0.5 * (low + high);
+        const droplet::Vec3 half = 0.5 * most;
+        low = {middle.x - half.x, middle.y - half.y, low.z};
+        high = {middle.x + half.x, middle.y + half.y, low.z + most.z};
+    }
+    return boxes;
+}
+
 }  // namespace
 
-void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& options)
+void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& options,
+                       const std::function<void(std::size_t)>& drawn)
 {
-    if (sheet.droplets.empty()) {
+    const std::size_t count = sheet.droplets.size();
+    if (count == 0) {
         return;
     }
-    // About as many pixels on the sheet, however many share them.
+    // As many pixels as a large screen shows, however many share them.
     constexpr int kWidest = 320;
     constexpr int kNarrowest = 48;
-    constexpr double kSheet = 7200.0;
-    const int width = std::clamp(static_cast<int>(kSheet / std::sqrt(static_cast<double>(sheet.droplets.size()))),
-                                 kNarrowest, kWidest);
+    constexpr double kSheet = 3200.0;
+    const int width = std::clamp(static_cast<int>(kSheet / std::sqrt(static_cast<double>(count))), kNarrowest, kWidest);
     const droplet::ContactSheetOptions layout{.tile_width = width, .tile_height = 3 * width / 4};
-    std::vector<droplet::Tile> tiles(sheet.droplets.size());
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    const droplet::TileSize size = droplet::tileSize(count, layout);
+    std::vector<droplet::ViewBox> boxes;
+    if (sheet.one_scale) {
+        boxes = boxesOfOneSize(sheet.droplets);
+    }
+    std::mutex mutex;
+    std::size_t done = 0;
+    std::vector<droplet::Tile> tiles(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         droplet::Surface surface = droplet::readSurface(sheet.droplets[i]).surface;
         surface.mean_height = meanHeight(surface);
         droplet::RenderOptions render;
-        render.width = layout.tile_width;
-        render.height = layout.tile_height;
+        render.width = size.width;
+        render.height = size.height;
         render.look = droplet::lookOf(sheet.material);
+        if (!boxes.empty()) {
+            render.framed = boxes[i];
+        }
         tiles[i] = {droplet::render(surface, render), std::filesystem::path(sheet.droplets[i]).stem().string()};
+        const std::lock_guard lock(mutex);
+        drawn(++done);
     });
     const droplet::Picture picture = droplet::contactSheet(tiles, layout);
     droplet::writeWhole(

@@ -18,6 +18,12 @@ _droplet_shape()
         --model) choices='linear exact' ;;
         --liquid) choices='water ethanol glycerol mercury honey' ;;
         --material) choices='water ink mercury honey plain' ;;
+        --background)
+            if [[ ${COMP_WORDS[1]} != windshield ]]; then
+                choices='ground none'
+            fi
+            ;;
+        --unit) choices='m cm mm' ;;
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
         --volume-mode) choices='total track' ;;
@@ -50,7 +56,7 @@ _droplet_shape()
         --width | --pixel-size | --threshold | --speck-size | --smooth | --fill-holes | --keep | --contact-angle | --volume | --height | \
             --surface-tension | --density | --gravity | --tilt | --tilt-direction | --surface-depth | \
             --tolerance | --volume-tolerance | --normal-tolerance | --advancing | --receding | --triangles | --edge | \
-            --fill-range | --fps | --preview-size | --face-index | --axis | --text | --charset | --em | \
+            --fill-range | --fps | --preview-size | --camera | --face-index | --axis | --text | --charset | --em | \
             --line-spacing | --shard | --turntable | --slope | --hysteresis | --falling-angle | \
             --falling-volume | --kinetic-fraction | --drag-coefficient | --boundary-layer | --profile-exponent | \
             --air-density | --measured | --time | --trace-step | --initial-speed | --gust | --gust-period | \
@@ -61,28 +67,29 @@ _droplet_shape()
             COMPREPLY=()
             return
             ;;
-        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | --mask-out | \
-            --picture | --chart | --map | --trace | --drive-cycle | --background | --maps | \
+        --surface | --onto | --font | --output | -o | --manifest | --contact-sheet | --preview | --ground | --mask-out | --environment | \
+            --picture | --chart | --map | --trace | --drive-cycle | --maps | \
             --droplets | --model | --json | --html | --export-evolver | --config) ;;
         *)
             if [[ $word == -* ]]; then
                 local making='--contact-angle --volume --height --fill
                     --liquid --surface-tension --density --model
                     --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto
-                    --advancing --receding --triangles --edge --grading --open --material'
+                    --advancing --receding --triangles --edge --grading --open --material --unit'
                 local running='--no-clobber --solver --threads --quiet --verbose --progress --config --help --version'
-                local showing='--preview --view --preview-size --ground --preview-colour --turntable'
+                local showing='--preview --view --camera --preview-size --ground --environment --background --preview-colour
+                    --turntable'
                 local picture='--width --pixel-size --channel --threshold --invert --speck-size --segment --colour
                     --smooth --fill-holes --keep'
                 case ${COMP_WORDS[1]} in
                     animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --json" ;;
                     batch)
                         choices="$picture $making $running --format --fill-range --json
-                            --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet"
+                            --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet --one-scale"
                         ;;
                     glyphs) choices="$making $running $showing --colour --format --fill-range --json --html --font --face-index
                         --axis --text --charset --all --list --output --em --tolerance --align --line-spacing
-                        --equal-height --keep-going --no-resume --shard --manifest --contact-sheet" ;;
+                        --equal-height --keep-going --no-resume --shard --manifest --contact-sheet --one-scale" ;;
                     compare) choices='--tolerance --volume-tolerance --normal-tolerance --picture --json --no-clobber
                         --threads --quiet --config --help --version' ;;
                     wind-tunnel) choices='--preset --volume --wind --slope --hysteresis --falling-angle

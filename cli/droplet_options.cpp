@@ -261,8 +261,13 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
             choice<int>(*grading, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
     }
     settings.droplet.open = line.flag("--open");
-    if (const auto material = line.value("--material")) {
-        settings.material = forOption(material->subject, [&] { return droplet::materialNamed(material->text); });
+    const auto material = line.value("--material");
+    settings.material = material ? forOption(material->subject, [&] { return droplet::materialNamed(material->text); })
+                                 : droplet::materialOf(settings.droplet.solve.liquid);
+    if (const auto unit = line.value("--unit")) {
+        using droplet::LengthUnit;
+        settings.unit = choice<LengthUnit>(
+            *unit, {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
     }
     if (const auto solver = line.value("--solver")) {
         if (solver->text == "cholmod") {
@@ -353,7 +358,9 @@ void declareSurface(CommandLine& line)
              "edges far from the rim up to N times as long as there:\n"
              "1, 2, 4, 8, 16, 32, 64 [1]");
     line.addFlag(kGroup, "--open", "leave out the base");
-    line.add(kGroup, "--material", "NAME", "look in glTF: water, ink, mercury, honey, plain\n[water]");
+    line.add(kGroup, "--material", "NAME",
+             "look in glTF and pictures: water, ink, mercury, honey,\nplain [the liquid's own]");
+    line.add(kGroup, "--unit", "NAME", "length of 1 in obj and stl: m, cm, mm [mm]");
     line.exclude({"--triangles", "--edge"});
 }
 
@@ -427,6 +434,22 @@ DropletSettings readDroplet(const CommandLine& line)
     readGround(line, settings);
     readSurface(line, settings);
     return settings;
+}
+
+void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown, DropletSettings& settings)
+{
+    const auto warn = [&](const Given& given, const std::string& why) {
+        settings.warnings.push_back(given.subject + " " + given.text + " has no effect: " + droplet::name(format) +
+                                    " files " + why);
+    };
+    const bool has_unit = format == droplet::Format::Obj || format == droplet::Format::Stl;
+    const bool has_material = format != droplet::Format::Ply && format != droplet::Format::Stl;
+    if (const auto material = line.value("--material"); material && !has_material && !is_shown) {
+        warn(*material, "carry no material");
+    }
+    if (const auto unit = line.value("--unit"); unit && !has_unit) {
+        warn(*unit, "are in metres");
+    }
 }
 
 RunOptions readRun(const CommandLine& line)

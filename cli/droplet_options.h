@@ -42,7 +42,8 @@ struct DropletSettings {
     std::optional<std::string> onto;  ///< path of the object that is wetted
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
-    std::vector<std::string> warnings;  ///< about options that have no effect together
+    droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< of OBJ and STL
+    std::vector<std::string> warnings;                           ///< about options that have no effect together
 };
 
 enum class Verbosity { Quiet, Normal, Verbose };
@@ -81,5 +82,9 @@ FootprintOptions readFootprint(const CommandLine& line);
 /// Liquid, ground and surface.
 DropletSettings readDroplet(const CommandLine& line);
 RunOptions readRun(const CommandLine& line);
+
+/// Adds warnings of options that a format has no use for.
+/// @param is_shown  whether there is something beside the file that shows the material
+void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown, DropletSettings& settings);
 
 }  // namespace cli

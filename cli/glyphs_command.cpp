@@ -21,6 +21,7 @@
 #include "glyphs_options.h"
 #include "output_pattern.h"
 #include "shape_command.h"
+#include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
 
@@ -149,7 +150,8 @@ int makeText(const Font& font, GlyphsOptions options)
     checkShape(options.shape, "--font");
     makeAndTell(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read);
-        const Surroundings around = readSurroundings(options.shape.settings, groundPicture(options.shape));
+        const Surroundings around =
+            readSurroundings(options.shape.settings, groundPicture(options.shape), environmentPicture(options.shape));
         if (around.object && !options.sized) {
             options.type.glyph.em = emOn(*around.object, font, options);
         }
@@ -252,13 +254,16 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         if (set.json) {
             item.others.push_back(filled(*set.json, values, kPlaceholders));
         }
+        if (const auto material = materialFile(item.output, options.shape.format)) {
+            item.others.push_back(*material);
+        }
         item.open = [&, wanted, name, output = item.output, others = item.others] {
             BatchWork work;
             work.fingerprint = fingerprintOf({settings, std::to_string(wanted.glyph)});
             work.make = [&, wanted, name, output, others] {
                 ShapeOptions job = options.shape;
                 job.output = output;
-                job.json = others.empty() ? std::nullopt : std::optional(others.front());
+                job.json = set.json ? std::optional(others.front()) : std::nullopt;
                 DrawnFootprint footprint{droplet::glyphOutline(font, wanted.glyph, options.type.glyph), {}};
                 footprint.input.path = options.font;
                 footprint.input.type = describe(font, options);

@@ -174,7 +174,7 @@ void refuseOthers(const CommandLine& line, bool is_text)
         refuse(option + " goes with " + with);
     };
     if (is_text) {
-        for (const char* option : {"--keep-going", "--no-resume"}) {
+        for (const char* option : {"--keep-going", "--no-resume", "--one-scale"}) {
             if (line.flag(option)) {
                 clash(option, "--charset or --all, not with --text");
             }
@@ -186,8 +186,9 @@ void refuseOthers(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
-                               "--ground", "--preview-colour", "--colour", "--turntable", "--html"}) {
+    for (const char* option :
+         {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size", "--ground", "--camera",
+          "--environment", "--background", "--preview-colour", "--colour", "--turntable", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -228,6 +229,14 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
             "--output is missing, or no path: where " +
             std::string(text ? "the text goes, such as -o water.glb" : "each glyph goes, such as -o 'out/{name}.glb'"));
     }
+    if (text) {
+        for (const char* placeholder : {"{name}", "{gid}", "{codepoint}"}) {
+            if (output->text.find(placeholder) != std::string::npos) {
+                refuse("--output: '" + output->text + "' must name one file with --text; " + placeholder +
+                       " goes with --charset or --all");
+            }
+        }
+    }
     options.shape.input = options.font;
     options.shape.output = output->text;
     options.shape.html = readHtml(line);
@@ -249,6 +258,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         set.output = *output;
         set.json = json;
         set.batch = readBatch(line, options.shape.run, output->text);
+        set.batch.material = options.shape.settings.material;
         options.set = std::move(set);
     }
     readEqualHeight(line, options);

@@ -6,10 +6,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "animate_command.h"
@@ -18,6 +20,7 @@
 #include "droplet/error.h"
 #include "exit_code.h"
 #include "glyphs_command.h"
+#include "option_values.h"
 #include "shape_command.h"
 #include "terminal.h"
 #include "wind_tunnel_command.h"
@@ -70,6 +73,20 @@ const std::vector<Command>& commands()
     return all;
 }
 
+/// A word that is nearly a command's name, and no file, was meant for it.
+void refuseMisspelt(const std::string& word)
+{
+    std::vector<std::string> names;
+    for (const Command& command : commands()) {
+        names.emplace_back(command.name);
+    }
+    std::error_code ignored;
+    const std::string name = std::filesystem::exists(word, ignored) ? "" : cli::nearestName(word, names);
+    if (!name.empty()) {
+        cli::refuse("unknown command '" + word + "', did you mean " + name + "?");
+    }
+}
+
 int run(int argc, const char* const* argv)
 {
     for (const Command& command : commands()) {
@@ -77,6 +94,7 @@ int run(int argc, const char* const* argv)
             return command.run(argc - 1, argv + 1);
         }
     }
+    refuseMisspelt(argc > 1 ? argv[1] : "");
     return cli::runShape(argc, argv);
 }
 

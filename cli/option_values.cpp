@@ -7,9 +7,30 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <system_error>
 
 namespace cli {
+namespace {
+
+/// Changes of one letter that turn one word into the other (Levenshtein).
+std::size_t distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
 
 void refuse(const std::string& message)
 {
@@ -19,6 +40,21 @@ void refuse(const std::string& message)
 void refuse(const Given& given, const std::string& constraint)
 {
     refuse(fmt::format("{}: '{}' must be {}", given.subject, given.text, constraint));
+}
+
+std::string nearestName(std::string_view word, const std::vector<std::string>& names)
+{
+    constexpr std::size_t kFarthest = 2;  // a slip or two; more is another word
+    std::string best;
+    std::size_t least = kFarthest + 1;
+    for (const std::string& name : names) {
+        const std::size_t changes = distance(name, word);
+        if (changes < least) {
+            least = changes;
+            best = name;
+        }
+    }
+    return best;
 }
 
 double quantity(const Given& given, const Range& range)

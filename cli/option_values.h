@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "droplet/error.h"
 #include "droplet/units.h"
@@ -36,6 +37,9 @@ auto forOption(const std::string& subject, Function function)
         throw droplet::Error(error.code(), subject + ": " + error.what());
     }
 }
+
+/// The one of the names that a word is a slip or two away from; empty if there is none.
+std::string nearestName(std::string_view word, const std::vector<std::string>& names);
 
 /// What a quantity may be. Beyond these bounds a droplet is no droplet, and squares and single-precision files
 /// overflow; the words are what a message says.

@@ -40,6 +40,19 @@ void readSize(const Given& given, PreviewOptions& options)
     options.height = side(text.substr(times + 1));
 }
 
+droplet::CameraPlace cameraOf(const Given& given)
+{
+    constexpr Range kAzimuth{droplet::Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi,
+                             "from -360deg to 360deg"};
+    constexpr Range kElevation{droplet::Dimension::Angle, 0.0, 0.5 * std::numbers::pi, "from 0deg to 90deg"};
+    const auto comma = given.text.find(',');
+    if (comma == std::string::npos) {
+        refuse(given, "azimuth and elevation such as -60deg,30deg");
+    }
+    return {quantity({given.text.substr(0, comma), given.subject + ": azimuth"}, kAzimuth),
+            quantity({given.text.substr(comma + 1), given.subject + ": elevation"}, kElevation)};
+}
+
 /// `name-007.png` of `name.png`.
 std::string numbered(const std::string& path, std::size_t number, std::size_t count)
 {
@@ -67,6 +80,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.width = options.width;
     render.height = options.height;
     render.view = options.view;
+    render.camera = options.camera;
     if (options.turns) {
         render.azimuth = 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(*options.turns);
         render.fits_any_turn = true;
@@ -74,6 +88,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.look = droplet::lookOf(subject.material);
     render.extent = subject.extent;
     render.ground = subject.ground;
+    render.environment = subject.light;
     render.stand = subject.stand;
     render.frames_stand = subject.on_object;
     if (options.colouring == Colouring::Contours) {
@@ -90,10 +105,20 @@ void declarePreview(CommandLine& line)
 {
     line.add("Picture", "--preview", "FILE", "write a picture of it, PNG; - is standard output");
     line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
+    line.add("Picture", "--camera", "PLACE",
+             "or where the camera stands: azimuth from the picture's\n"
+             "right and elevation, such as -60deg,30deg");
+    line.exclude({"--view", "--camera"});
     line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
     line.add("Picture", "--ground", "PICTURE",
              "what it stands on: laid as the footprint's picture is,\n"
              "or on the object of --onto [a table with a ruling]");
+    line.add("Picture", "--environment", "FILE",
+             "what shines, in place of lamps: a picture of all around,\n"
+             "twice as wide as high; EXR and HDR as light");
+    line.add("Picture", "--background", "NAME",
+             "ground; or none: transparent but for the droplet and\n"
+             "its shadow [ground]");
     line.add("Picture", "--preview-colour", "NAME",
              "look; or contours of heights, or contact-angle along\n"
              "the rim, with a legend [look]");
@@ -111,8 +136,18 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
                                                      {"top", droplet::View::Top},
                                                      {"side", droplet::View::Side}});
     }
+    if (const auto camera = line.value("--camera")) {
+        options.camera = cameraOf(*camera);
+    }
+    const auto background = line.value("--background");
+    if (background) {
+        options.cut_out = choice<bool>(*background, {{"ground", false}, {"none", true}});
+    }
     if (const auto size = line.value("--preview-size")) {
         readSize(*size, options);
+    }
+    if (const auto environment = line.value("--environment")) {
+        options.environment = environment->text;
     }
     const auto ground = line.value("--ground");
     if (ground) {
@@ -136,7 +171,8 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     }
     const auto preview = line.value("--preview");
     if (!preview) {
-        for (const char* option : {"--view", "--preview-size", "--ground", "--turntable"}) {
+        for (const char* option :
+             {"--view", "--camera", "--preview-size", "--ground", "--environment", "--background", "--turntable"}) {
             if (line.value(option)) {
                 warnings.push_back(std::string(option) + " has no effect without --preview");
             }
@@ -155,6 +191,13 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     }
     if (isStream(options.path) && options.turns) {
         refuse("--turntable writes several files, and --preview - is one; name a file");
+    }
+    if (options.cut_out && ground && !line.value("--onto")) {
+        refuse("--background none and --ground exclude each other, give one of them");
+    }
+    if (options.cut_out && options.colouring != Colouring::Look) {
+        refuse("--background none and " + colour->subject + " " + colour->text +
+               " exclude each other: a legend needs a background");
     }
     if (options.colouring != Colouring::Look) {
         if (ground) {
@@ -184,7 +227,11 @@ std::vector<OutputFile> previewFiles(const PreviewOptions& options, const Previe
     for (std::size_t k = 0; k < names.size(); ++k) {
         files.push_back({names[k], [&options, &subject, k](std::ostream& out) {
                              const auto render = renderOptions(options, subject, k);
-                             droplet::writePng(droplet::render(subject.surface, render), out);
+                             if (options.cut_out) {
+                                 droplet::writePng(droplet::renderCutOut(subject.surface, render), out);
+                             } else {
+                                 droplet::writePng(droplet::render(subject.surface, render), out);
+                             }
                          }});
     }
     return files;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/picture/render.h"
 #include "droplet/surface/surface.h"
@@ -25,9 +26,12 @@ enum class Colouring {
 struct PreviewOptions {
     std::string path;  ///< or kStandardStream; of a turntable, numbers go before its extension
     droplet::View view = droplet::View::ThreeQuarter;
-    int width = 1280;                   ///< [px]
-    int height = 960;                   ///< [px]
-    std::optional<std::string> ground;  ///< path of a picture to lay below
+    std::optional<droplet::CameraPlace> camera;  ///< instead of the view's
+    bool cut_out = false;                        ///< without ground and backdrop
+    int width = 1280;                            ///< [px]
+    int height = 960;                            ///< [px]
+    std::optional<std::string> ground;           ///< path of a picture to lay below
+    std::optional<std::string> environment;      ///< path of a picture of what shines
     Colouring colouring = Colouring::Look;
     std::optional<std::size_t> turns;  ///< how many pictures a turntable has
 };
@@ -38,6 +42,7 @@ struct PreviewSubject {
     droplet::Material material;
     droplet::Vec2 extent;                        ///< of its picture [m]
     std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
+    std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read
     std::optional<droplet::TexturedMesh> stand;  ///< what it stands on if not level flat ground
     bool on_object = false;                      ///< and that is an object
 };

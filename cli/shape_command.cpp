@@ -27,6 +27,7 @@
 #include "progress_display.h"
 #include "stage_clock.h"
 #include "summary.h"
+#include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
 
@@ -185,7 +186,8 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 /// What pictures show.
 PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around)
 {
-    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent, around.below, around.object};
+    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent,
+                           around.below,    around.light,      around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
     subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
@@ -202,12 +204,13 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
     if (!slidesInPageAlone(options)) {
         droplet.surface.refill.swap(refill);
     }
-    std::vector<OutputFile> files;
-    files.push_back({options.output, [&](std::ostream& out) {
-                         report.output.bytes =
-                             droplet::writeSurface(droplet.surface, out, options.format,
-                                                   {options.settings.material, report.output.topology.closed});
-                     }});
+    std::vector<OutputFile> files = surfaceFiles(droplet.surface,
+                                                 {options.output,
+                                                  options.format,
+                                                  {.material = options.settings.material,
+                                                   .closed = report.output.topology.closed,
+                                                   .unit = options.settings.unit}},
+                                                 report.output.bytes);
     if (mask) {
         files.push_back(*mask);
     }
@@ -350,6 +353,11 @@ std::optional<std::string> groundPicture(const ShapeOptions& options)
     return options.preview ? options.preview->ground : std::nullopt;
 }
 
+std::optional<std::string> environmentPicture(const ShapeOptions& options)
+{
+    return options.preview ? options.preview->environment : std::nullopt;
+}
+
 std::vector<std::byte> readPicture(const ShapeOptions& options)
 {
     return isStream(options.input) ? readStandardInput(options.footprint.mask.max_pixels)
@@ -360,7 +368,7 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
 {
     Stages stages{{}, progress};
     stages.begin(Stage::Read);
-    const Surroundings around = readSurroundings(options.settings, groundPicture(options));
+    const Surroundings around = readSurroundings(options.settings, groundPicture(options), environmentPicture(options));
     return make(options, around, readPicture(options), stages);
 }
 
@@ -388,6 +396,9 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
 void checkShape(const ShapeOptions& options, const std::string& input_name)
 {
     std::vector<NamedFile> outputs{{"OUTPUT", options.output}};
+    if (const auto material = materialFile(options.output, options.format)) {
+        outputs.push_back({"OUTPUT's material", *material});
+    }
     if (options.json) {
         outputs.push_back({"--json", *options.json});
     }
@@ -417,6 +428,9 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     }
     if (const auto picture = groundPicture(options)) {
         inputs.push_back({"--ground", *picture});
+    }
+    if (const auto picture = environmentPicture(options)) {
+        inputs.push_back({"--environment", *picture});
     }
     checkFiles(inputs, outputs, options.run.files);
 }

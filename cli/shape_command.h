@@ -25,6 +25,8 @@ double coveredArea(const droplet::Outline& outline);
 
 /// The path of the picture that is to be seen below the droplets, where one is asked for.
 std::optional<std::string> groundPicture(const ShapeOptions& options);
+/// Path of the picture that shines, if there is one.
+std::optional<std::string> environmentPicture(const ShapeOptions& options);
 
 /// The bytes of the picture, from its file or standard input.
 /// @throws droplet::Error InvalidInput

@@ -87,12 +87,7 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
             forOption(subject + " '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
     }
 
-    if (const auto material = line.value("--material")) {
-        if (!inGltf(options) && !options.preview) {
-            options.settings.warnings.push_back("--material " + material->text + " has no effect: " +
-                                                droplet::name(options.format) + " files carry no material");
-        }
-    }
+    warnOfFormat(line, options.format, options.html || options.preview, options.settings);
 }
 
 /// A slider is made where the droplet is affine in its volume, and where a file can hold it.

@@ -37,9 +37,14 @@ std::string microlitres(double cubic_metres)
 {
     return digits(cubic_metres / droplet::kMicrolitre) + " µL";
 }
+/// To tenths; what rounds to nothing is 0, not −0.
+double tenthsOfDegrees(double radians)
+{
+    return std::round(10.0 * radians / droplet::kDegree) / 10.0 + 0.0;
+}
 std::string degrees(double radians)
 {
-    return fmt::format("{:.1f}°", std::round(10.0 * radians / droplet::kDegree) / 10.0 + 0.0);
+    return fmt::format("{:.1f}°", tenthsOfDegrees(radians));
 }
 
 std::string bytes(std::uint64_t count)
@@ -80,10 +85,20 @@ std::string picture(const droplet::InputReport& input)
     return text;
 }
 
+/// A text on one line, its line breaks as they are typed.
+std::string asTyped(const std::string& text)
+{
+    std::string typed;
+    for (const char c : text) {
+        typed += c == '\n' ? std::string("\\n") : std::string(1, c);
+    }
+    return oneLine(typed);
+}
+
 std::string type(const droplet::InputReport& input)
 {
     const droplet::TypeReport& type = *input.type;
-    std::string text = type.text ? "'" + oneLine(*type.text) + "'" : "glyph '" + oneLine(type.glyph_name) + "'";
+    std::string text = type.text ? "'" + asTyped(*type.text) + "'" : "glyph '" + oneLine(type.glyph_name) + "'";
     text += " in " + (type.family.empty() ? oneLine(input.path) : oneLine(type.family + " " + type.style));
     for (const auto& [tag, value] : type.axes) {
         text += ", " + oneLine(tag) + " " + digits(value);
@@ -114,7 +129,7 @@ std::string table(const Report& report)
         text += fmt::format("           {:7}  {:5}  {:13.4g}  {:9.4g}  {:9.4g}  {:7.1f}  {:11.4g}\n", i + 1,
                             droplet.holes, figures.footprint_area / (droplet::kMillimetre * droplet::kMillimetre),
                             figures.volume / droplet::kMicrolitre, figures.height_max / droplet::kMillimetre,
-                            figures.contact_angle.mean / droplet::kDegree, droplet.pressure);
+                            tenthsOfDegrees(figures.contact_angle.mean), droplet.pressure);
     }
     if (rows < report.droplets.size()) {
         text += fmt::format("           and {} more, all in the --json report\n", report.droplets.size() - rows);

@@ -12,7 +12,8 @@ namespace cli {
 using droplet::Error;
 using droplet::ErrorCode;
 
-Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below)
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below,
+                              const std::optional<std::string>& light)
 {
     Surroundings around;
     if (settings.ground.path) {
@@ -28,6 +29,9 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
     }
     if (below) {
         around.below = droplet::readPicture(*below);
+    }
+    if (light) {
+        around.light = droplet::readEnvironment(*light);
     }
     return around;
 }

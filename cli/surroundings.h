@@ -7,6 +7,7 @@
 #include "droplet/droplet.h"
 #include "droplet/image/height_map.h"
 #include "droplet/io/report.h"
+#include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/textured_mesh.h"
@@ -18,12 +19,15 @@ namespace cli {
 struct Surroundings {
     std::optional<droplet::HeightMap> map;
     std::optional<droplet::TexturedMesh> object;
-    std::optional<droplet::Picture> below;  ///< to be seen there
+    std::optional<droplet::Picture> below;      ///< to be seen there
+    std::optional<droplet::Environment> light;  ///< to be mirrored
 };
 
 /// @throws droplet::Error InvalidInput; InvalidArgument if --surface-depth is missing
 /// @param below  path of a picture to be seen below the droplets
-Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below = {});
+/// @param light  path of one of what is all around
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below = {},
+                              const std::optional<std::string>& light = {});
 
 /// What droplets are solved on.
 /// @param extent          of the picture, which a height map is stretched over [m]

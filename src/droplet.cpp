@@ -9,7 +9,6 @@
 #include "droplet/units.h"
 #include "number_text.h"
 #include "pipeline.h"
-#include "shape/cap.h"
 
 namespace droplet {
 namespace {
@@ -19,40 +18,30 @@ std::string rounded(double value)
     return numberText(value, 3);
 }
 
+/// A count as --triangles takes it, large ones rounded: 5300, 41.2k, 1.25M.
+std::string countText(std::size_t count)
+{
+    constexpr std::size_t kThousands = 10'000;
+    constexpr std::size_t kMillions = 999'500;
+    const auto number = static_cast<double>(count);
+    return count < kThousands  ? std::to_string(count)
+           : count < kMillions ? rounded(number / 1e3) + "k"
+                               : rounded(number / 1e6) + "M";
+}
+
 std::string percent(double share)
 {
-    return rounded(100.0 * share) + " %";
+    constexpr double kLeast = 1e-3;
+    return share < kLeast ? "less than 0.1 %" : numberText(100.0 * share, 2) + " %";
 }
 
-/// What the linear model's steepness does to its figures: to the height, or to the volume if the height is prescribed,
-/// as it would on a disc without gravity.
-std::string estimatedError(const ShapeFigures& figures, FillBy by)
+/// By how much the linear model errs that is known without the exact one: the area it takes for that of its own
+/// surface.
+std::string steepness(const ShapeFigures& total)
 {
-    const double linear = figures.contact_angle.mean;
-    switch (by) {
-        case FillBy::Volume: {
-            const double t = std::tan(0.5 * capAngleOfLinear(linear));
-            return "the height about " + percent(t * t / 3.0) + " too large";
-        }
-        case FillBy::Height: {
-            const double t = 0.5 * std::tan(linear);
-            return "the volume about " + percent(t * t / 3.0) + " too small";
-        }
-        case FillBy::ContactAngle:
-            return "the height about " + percent(0.5 * std::tan(linear) / std::tan(0.5 * linear) - 1.0) + " too large";
-    }
-    return {};
-}
-
-std::string steepness(const Droplet& droplet, const SolveOptions& options)
-{
-    const ShapeFigures& total = droplet.total;
-    const bool like_a_cap = options.ground.flat() && planeGravity(options).along == Vec2{};
     return "slopes pass 50 degrees on " + percent(total.steep_area / total.footprint_area) +
-           " of the footprint and reach " + rounded(total.slope_max / kDegree) +
-           "; the linear model takes the area there for " + percent(total.linear_area / total.liquid_area - 1.0) +
-           " of the whole too large" + (like_a_cap ? ", and " + estimatedError(total, options.fill.by) : "") +
-           " (model exact has no such error)";
+           " of the footprint: the linear model overstates the liquid's area by " +
+           percent(total.linear_area / total.liquid_area - 1.0) + ", --model exact does not";
 }
 
 /// How much of all rims liquid leaves at 89° or more, by length.
@@ -117,7 +106,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     std::vector<std::string> warnings;
     const ShapeFigures& total = droplet.total;
     if (options.solve.model == Model::Linear && total.steep_area > 0.0) {
-        warnings.push_back(steepness(droplet, options.solve));
+        warnings.push_back(steepness(total));
     }
     const double upright = options.solve.model == Model::Exact ? uprightShare(droplet) : 0.0;
     if (upright > 0.0) {
@@ -126,7 +115,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +
-                           rounded(total.depth_max / kMillimetre) + " mm; no-penetration keeps it above");
+                           rounded(total.depth_max / kMillimetre) + " mm; --no-penetration keeps it above");
     }
     std::size_t triangles = 0;
     for (const PlanarMesh& mesh : droplet.meshes) {
@@ -134,8 +123,8 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     }
     const auto wanted = static_cast<double>(options.mesh.triangles);
     if (!options.mesh.edge && std::abs(static_cast<double>(triangles) - wanted) > 0.1 * wanted) {
-        warnings.push_back("the footprint's detail takes " + std::to_string(triangles) + " triangles, not the " +
-                           std::to_string(options.mesh.triangles) + " asked for");
+        warnings.push_back("the footprint's detail takes " + countText(triangles) + " triangles, not the " +
+                           countText(options.mesh.triangles) + " asked for");
     }
     return warnings;
 }
@@ -155,13 +144,13 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
         case Termination::Unstable:
             return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
                    ", and at most " + numberText(report.critical_bond_number, 4) +
-                   " holds on this footprint; ask for less gravity or a smaller width";
+                   " holds on this footprint; ask for less --gravity or a smaller --width";
         case Termination::NotConverged:
         case Termination::Converged:
             break;
     }
     return which + "the equations could not be solved (residual " + rounded(report.residual) +
-           "); try another number of triangles";
+           "); try another number of --triangles";
 }
 
 }  // namespace

@@ -626,28 +626,52 @@ TEST(Droplet, WarnsOfSlopesBeyondTheModel)
     EXPECT_THAT(makeDroplet(mask, options).warnings, IsEmpty());
 }
 
-// On a disc the estimate is the error.
-TEST(Droplet, EstimatesTheErrorOfSlopesBeyondTheModel)
+// How far the height errs depends on the footprint (on discs of 40 to 60 degrees by 5 to 15 %, on ragged ones by more
+// than 40 %), so no figure for it is given; the area's error is measured on the surface itself.
+TEST(Droplet, SaysOnlyWhatIsKnownOfSlopesBeyondTheModel)
 {
-    const Mask mask = smoothMask(256, 256, disc({128.0, 128.0}, 100.0));
     DropletOptions options = plain();
-    options.mesh.triangles = 10'000;
-    options.solve.gravity = 0.0;
-    for (const FillBy by : {FillBy::ContactAngle, FillBy::Volume}) {
-        options.solve.model = Model::Linear;
-        options.solve.fill = {FillBy::ContactAngle, 60.0 * kDegree, FillSharing::Each};
-        const double volume = makeDroplet(mask, options).total.volume;
-        if (by == FillBy::Volume) {
-            options.solve.fill = {by, volume, FillSharing::Each};
+    options.mesh.triangles = 5'000;
+    options.solve.fill.amount = 60.0 * kDegree;
+    for (const Mask& mask : {smoothMask(64, 64, disc({32.0, 32.0}, 24.0)), sceneMask()}) {
+        const Droplet droplet = makeDroplet(mask, options);
+        ASSERT_EQ(droplet.warnings.size(), 1U);
+        const std::string& warning = droplet.warnings[0];
+        EXPECT_THAT(warning, ::testing::Not(::testing::ContainsRegex("height|volume")));
+        const double stated = std::stod(warning.substr(warning.find("area by ") + 8)) / 100.0;
+        const double error = droplet.total.linear_area / droplet.total.liquid_area - 1.0;
+        EXPECT_NEAR(stated / error, 1.0, 0.05) << warning;
+        EXPECT_THAT(warning, HasSubstr("--model exact"));
+        EXPECT_LT(warning.size(), 150U);
+    }
+}
+
+/// White noise: six pixels of ten are liquid.
+Mask noiseMask(std::uint32_t seed)
+{
+    return hardMask(64, 64, [&](Vec2) {
+        seed = seed * 1664525U + 1013904223U;
+        return (seed >> 16U) % 100U < 60U;
+    });
+}
+
+// On these rims recovered angles fall to -1 degree at single vertices.
+TEST(Droplet, LeavesNoRimDownwardWhereItIsNowhereBelowTheGround)
+{
+    for (const std::uint32_t seed : {9U, 11U}) {
+        DropletOptions options = plain();
+        options.solve.gravity = kStandardGravity;
+        options.solve.fill.amount = 15.0 * kDegree;
+        const Droplet droplet = makeDroplet(noiseMask(seed), options);
+        const std::vector<double> all = heights(droplet);
+        ASSERT_GE(*std::min_element(all.begin(), all.end()), 0.0);
+        EXPECT_GE(droplet.total.contact_angle.min, 0.0);
+        for (const ShapeFigures& figures : droplet.figures) {
+            EXPECT_NEAR(figures.contact_angle.mean / kDegree, 15.0, 1e-6);
         }
-        const Droplet linear = makeDroplet(mask, options);
-        options.solve.model = Model::Exact;
-        const double excess = linear.total.height_max / makeDroplet(mask, options).total.height_max - 1.0;
-        ASSERT_THAT(linear.warnings, ElementsAre(HasSubstr("the height about ")));
-        const std::string& warning = linear.warnings[0];
-        const double estimate = std::stod(warning.substr(warning.find("the height about ") + 17)) / 100.0;
-        EXPECT_GT(excess, 0.05);
-        EXPECT_NEAR(estimate / excess, 1.0, 0.02);
+        for (const HeightField& field : droplet.solution.droplets) {
+            EXPECT_GE(*std::min_element(field.rim_slope.begin(), field.rim_slope.end()), 0.0);
+        }
     }
 }
 

@@ -228,7 +228,7 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
     if (options.channel == Channel::Auto) {
         mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
     } else if (options.channel == Channel::Alpha && image.alpha.empty()) {
-        throw Error(ErrorCode::InvalidInput, "channel alpha was asked for, but the image has none");
+        throw Error(ErrorCode::InvalidInput, "--channel alpha was asked for, but the image has none");
     }
     mask.coverage = mask.channel == Channel::Alpha ? std::move(image.alpha) : lumaOverBlack(std::move(image));
     image = {};

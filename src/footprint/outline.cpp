@@ -485,7 +485,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const std::vector<Border> borders = followBorders(mask, level);
     if (borders.empty()) {
         throw Error(ErrorCode::InvalidInput,
-                    "no liquid in the mask: no pixel reaches threshold " + numberText(options.threshold));
+                    "no liquid in the mask: no pixel reaches --threshold " + numberText(options.threshold));
     }
 
     Outline outline;
@@ -529,8 +529,8 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     if (std::none_of(outline.loops.begin(), outline.loops.end(), [](const Loop& l) { return signedArea(l) > 0; })) {
         throw Error(ErrorCode::InvalidInput, "only specks in the mask: the largest of " +
                                                  std::to_string(outline.specks_dropped) + " has " +
-                                                 numberText(outline.largest_speck_px) + " px², and speck_size is " +
-                                                 numberText(options.speck_size) + " px²");
+                                                 numberText(outline.largest_speck_px, 3) +
+                                                 " px², less than --speck-size " + numberText(options.speck_size));
     }
     return outline;
 }

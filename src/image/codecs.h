@@ -34,6 +34,6 @@ Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, c
 
 /// The same of floating-point samples as they are, colours by their luma; none if they are integers.
 std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> encoded, ImageFormat format,
-                                                 std::size_t max_pixels);
+                                                 std::size_t max_pixels, bool keeps_colour);
 
 }  // namespace droplet

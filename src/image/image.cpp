@@ -224,7 +224,8 @@ Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& optio
                    header.orientation);
 }
 
-std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels)
+std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels,
+                                           bool keeps_colour)
 {
     constexpr std::uint16_t kTagSampleFormat = 339;
     constexpr std::uint64_t kUnsigned = 1;
@@ -232,7 +233,7 @@ std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, s
     const bool holds_floats =
         format == ImageFormat::OpenExr || format == ImageFormat::RadianceHdr ||
         (format == ImageFormat::Tiff && tiffField(encoded, kTagSampleFormat).value_or(kUnsigned) != kUnsigned);
-    return holds_floats ? decodeFloatsWithOpenCv(encoded, format, max_pixels) : std::nullopt;
+    return holds_floats ? decodeFloatsWithOpenCv(encoded, format, max_pixels, keeps_colour) : std::nullopt;
 }
 
 }  // namespace droplet

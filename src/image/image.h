@@ -70,12 +70,14 @@ std::vector<std::uint16_t> lumaOverBlack(Image image);
 struct FloatImage {
     int width = 0;
     int height = 0;
-    std::vector<float> samples;  ///< row by row from the top left, as stored; not all need be finite
+    std::vector<float> samples;                ///< row by row from the top left, as stored; not all need be finite
+    std::vector<std::array<float, 3>> colour;  ///< red, green, blue as stored, where that was asked
 };
 
 /// Decodes an image of floating-point samples, upright; none if the samples are integers. The size in its header is
 /// checked first.
 /// @throws Error InvalidInput
-std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels);
+std::optional<FloatImage> decodeFloatImage(std::span<const std::byte> encoded, std::size_t max_pixels,
+                                           bool keeps_colour = false);
 
 }  // namespace droplet

@@ -231,14 +231,14 @@ Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, c
 }
 
 std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> encoded, ImageFormat format,
-                                                 std::size_t max_pixels)
+                                                 std::size_t max_pixels, bool keeps_colour)
 {
     const Decoded decoded(encoded, format, max_pixels);
     if (!decoded.floats()) {
         return std::nullopt;
     }
     refuseMisread(encoded, format, decoded.picture());
-    FloatImage image{decoded.picture().width, decoded.picture().height, {}};
+    FloatImage image{decoded.picture().width, decoded.picture().height, {}, {}};
     image.samples.reserve(decoded.width() * decoded.height());
     const std::size_t channels = decoded.channels();
     std::vector<double> row;
@@ -249,6 +249,10 @@ std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> enco
             const double luma =
                 channels < 3 ? row[i] : row[i + 1] + 0.299 * (row[i] - row[i + 1]) + 0.114 * (row[i + 2] - row[i + 1]);
             image.samples.push_back(static_cast<float>(luma));
+            if (keeps_colour) {
+                const auto channel = [&](std::size_t k) { return static_cast<float>(row[channels < 3 ? i : i + k]); };
+                image.colour.push_back({channel(0), channel(1), channel(2)});
+            }
         }
     }
     return image;

@@ -6,6 +6,8 @@
 // its options in a global, STL prints on stderr; all drop triangles its half-edges cannot hold.
 #include "droplet/io/mesh_files.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -19,17 +21,13 @@
 #include "droplet/version.h"
 #include "io/axes.h"
 #include "io/byte_stream.h"
+#include "io/length_unit.h"
 
 namespace droplet {
 namespace {
 
 constexpr int kSignificantDigits = 9;  // as many as tell any two floats apart
 constexpr std::size_t kStlHeaderBytes = 80;
-
-Vec3 millimetres(Vec3 a)
-{
-    return (1.0 / kMillimetre) * a;
-}
 
 // Texture origin from the upper to the lower left.
 Vec2 fromBelow(Vec2 uv)
@@ -90,14 +88,19 @@ std::string signature()
 
 }  // namespace
 
-std::uint64_t writeObj(const Surface& surface, std::ostream& out)
+std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptions& options)
 {
     surface.validate();
+    const NamedUnit& unit = namedUnit(options.unit);
     const Welded welded = weldVertices(surface);
     ByteStream bytes(out);
-    bytes.text("# " + signature() + "\n# unit: millimetre, up: +Y, front: +Z\no droplet\n");
+    bytes.text("# " + signature() + "\n# unit: " + std::string(unit.name) + ", up: +Y, front: +Z\n");
+    if (options.material_file) {
+        bytes.text("mtllib " + *options.material_file + "\nusemtl " + lookOf(options.material).name + "\n");
+    }
+    bytes.text("o droplet\n");
     for (const std::uint32_t i : welded.first) {
-        const Vec3 at = yUp(millimetres(surface.positions[i]));
+        const Vec3 at = yUp((1.0 / unit.metres) * surface.positions[i]);
         writeLine(bytes, "v", at.x, at.y, at.z);
     }
     for (const Vec2& uv : surface.uvs) {
@@ -121,6 +124,31 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out)
         }
         bytes.u8('\n');
     }
+    return bytes.finish();
+}
+
+std::uint64_t writeMtl(Material material, std::ostream& out)
+{
+    // Of programs that know no refraction, liquid gets what light it lets pass by its opacity.
+    constexpr double kOpacity = 0.35;
+    constexpr double kGloss = 1000.0;
+    const Look look = lookOf(material);
+    const bool clear = look.transmission > 0.0;
+    const double mirror = (look.ior - 1.0) * (look.ior - 1.0) / ((look.ior + 1.0) * (look.ior + 1.0));
+    const auto colour = [](const char* key, Vec3 c) { return fmt::format("{} {:g} {:g} {:g}\n", key, c.x, c.y, c.z); };
+    const Vec3 specular = look.metallic > 0.0 ? look.colour : mirror * Vec3{1.0, 1.0, 1.0};
+    ByteStream bytes(out);
+    bytes.text("# " + signature() + "\nnewmtl " + look.name + "\n" + colour("Ka", {}) + colour("Kd", look.colour) +
+               colour("Ks", specular));
+    if (clear) {
+        bytes.text(colour("Tf", look.colour));
+    }
+    bytes.text(fmt::format("Ns {:g}\nNi {:g}\nd {:g}\nillum {}\nPr {:g}\nPm {:g}\n", kGloss * (1.0 - look.roughness),
+                           look.ior, clear ? kOpacity : 1.0,
+                           clear                 ? 7
+                           : look.metallic > 0.0 ? 3
+                                                 : 2,
+                           look.roughness, look.metallic));
     return bytes.finish();
 }
 
@@ -158,7 +186,7 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
     return bytes.finish();
 }
 
-std::uint64_t writeStl(const Surface& surface, std::ostream& out)
+std::uint64_t writeStl(const Surface& surface, std::ostream& out, LengthUnit unit)
 {
     surface.validate();
     if (surface.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -166,14 +194,17 @@ std::uint64_t writeStl(const Surface& surface, std::ostream& out)
                                                     " triangles; STL counts up to 4294967295");
     }
     ByteStream bytes(out);
-    std::string header = signature() + ", millimetres, z up";  // must not begin with "solid", the mark of text
+    const NamedUnit& named = namedUnit(unit);
+    const auto scaled = [&](std::uint32_t vertex) { return (1.0 / named.metres) * surface.positions[vertex]; };
+    std::string header =
+        signature() + ", " + std::string(named.name) + "s, z up";  // must not begin with "solid", the mark of text
     header.resize(kStlHeaderBytes, ' ');
     bytes.text(header);
     bytes.u32(surface.triangles.size());
     for (const auto& [a, b, c] : surface.triangles) {
-        const Vec3 at_a = millimetres(surface.positions[a]);
-        const Vec3 at_b = millimetres(surface.positions[b]);
-        const Vec3 at_c = millimetres(surface.positions[c]);
+        const Vec3 at_a = scaled(a);
+        const Vec3 at_b = scaled(b);
+        const Vec3 at_c = scaled(c);
         writeVec3(bytes, facetNormal(at_a, at_b, at_c));
         writeVec3(bytes, at_a);
         writeVec3(bytes, at_b);

@@ -456,11 +456,11 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
             return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
         }
         case Format::Obj:
-            return writeObj(surface, out);
+            return writeObj(surface, out, {options.unit, options.material, options.material_file});
         case Format::Ply:
             return writePly(surface, out);
         case Format::Stl:
-            return writeStl(surface, out);
+            return writeStl(surface, out, options.unit);
     }
     refuse(format);
 }

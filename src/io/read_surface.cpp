@@ -34,6 +34,7 @@
 #include "file_bytes.h"
 #include "io/axes.h"
 #include "io/gltf_scene.h"
+#include "io/length_unit.h"
 #include "io/vertex_normals.h"
 
 namespace droplet {
@@ -535,6 +536,21 @@ Surface surfaceOf(Content content, double unit)
     return surface;
 }
 
+/// The unit that a file of ours states, in the comment it begins with; others' are taken to be in millimetres.
+double unitIn(std::string_view text)
+{
+    constexpr std::size_t kComment = 160;
+    const std::string_view comment = text.substr(0, kComment);
+    for (const NamedUnit& unit : kLengthUnits) {
+        const std::string name(unit.name);
+        if (comment.find("# unit: " + name + ",") != std::string_view::npos ||
+            (comment.starts_with("droplet-shape ") && comment.find(", " + name + "s,") != std::string_view::npos)) {
+            return unit.metres;
+        }
+    }
+    return kMillimetre;
+}
+
 Surface readGltf(const std::filesystem::path& path, std::vector<std::string>& warnings)
 {
     SceneMesh scene = readScene(path);
@@ -571,9 +587,9 @@ ReadSurface readSurface(const std::filesystem::path& path)
         const Bytes bytes = readBytes(path, kMostBytes, [](std::byte) { return true; });
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         if (format == Format::Obj) {
-            result.surface = surfaceOf(ObjReader().read(text), kMillimetre);
+            result.surface = surfaceOf(ObjReader().read(text), unitIn(text));
         } else if (format == Format::Stl) {
-            result.surface = surfaceOf(readStl(text), kMillimetre);
+            result.surface = surfaceOf(readStl(text), unitIn(text));
         } else {
             result.surface = surfaceOf(readPly(text), 1.0);
         }

@@ -67,6 +67,34 @@ function groundText(ground) {
     return ground.kind;
 }
 
+/**
+ * The report of the droplet at another fill, in times of its volume. What neither follows from the report nor is
+ * measured on the mesh is null.
+ * @param measured  of the mesh at that fill: height_m, area_m2, contact_angle_deg; null where it cannot be told
+ */
+export function refilled(report, fill, measured) {
+    if (!report.shape || fill === 1) {
+        return report;
+    }
+    const { shape, liquid, ground } = report;
+    const times = (value) => (value === null || value === undefined ? null : fill * value);
+    // Without a pull along the ground all of a droplet on flat ground is proportional to its volume.
+    const proportional = (ground?.kind ?? 'flat') === 'flat' && !liquid?.tilt_deg;
+    const driving = times(shape.driving_force_n);
+    return {
+        ...report,
+        shape: {
+            ...shape,
+            volume_m3: fill * shape.volume_m3,
+            height_max_m: measured.height_m,
+            contact_angle_deg: measured.contact_angle_deg,
+            liquid_area_m2: measured.area_m2,
+            pressure_pa: proportional ? times(shape.pressure_pa) : null,
+            would_slide: driving === null ? null : driving > shape.retention_force_n,
+        },
+    };
+}
+
 /** Rows of the table: a name, and its value in words. What the report does not hold is not in it. */
 export function rows(report) {
     const { input, shape, liquid, mesh, ground, model, onto } = report;

@@ -20,6 +20,29 @@ export async function loadDroplet(bytes) {
     return new Droplet(gltf.scene);
 }
 
+/** The triangles of the liquid's surface, which look up, and the edges that only one of them has: its rim. */
+function sheetOf({ index, attributes: { position } }, place) {
+    const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+    const triangles = [];
+    const edges = new Map();
+    for (let i = 0; i < index.count; i += 3) {
+        const corners = [0, 1, 2].map((k) => index.getX(i + k));
+        [a, b, c].forEach((point, k) => point.fromBufferAttribute(position, corners[k]).applyMatrix4(place));
+        if (b.sub(a).cross(c.sub(a)).y <= 0) {
+            continue;
+        }
+        triangles.push(...corners);
+        for (let k = 0; k < 3; ++k) {
+            const [from, to] = [corners[k], corners[(k + 1) % 3]];
+            const other = to * position.count + from;
+            if (!edges.delete(other)) {
+                edges.set(from * position.count + to, [from, to]);
+            }
+        }
+    }
+    return { triangles, edges: [...edges.values()].flat() };
+}
+
 /** The meshes of a file, and the morph target that fills and drains them. */
 class Droplet {
     constructor(scene) {
@@ -50,6 +73,51 @@ class Droplet {
             }
             mesh.visible = amount > 0.002;  // of nothing there is nothing to reflect in
         }
+    }
+
+    /**
+     * What the mesh is at that fill: the liquid's area [m²], and along its rim the angles to flat ground [°]. On
+     * curved ground there are no angles.
+     */
+    measure(fill, flat) {
+        let area = 0;
+        let weighted = 0;
+        let rim = 0;
+        let [min, max] = [Infinity, -Infinity];
+        this.sheets ??= this.meshes.map((mesh, index) => sheetOf(mesh.geometry, this.places[index]));
+        for (const [index, { geometry, morphTargetDictionary }] of this.meshes.entries()) {
+            const target = morphTargetDictionary.volume;
+            const at = (name, vertex, to) => {
+                const delta = geometry.morphAttributes[name][target];
+                return to.fromBufferAttribute(geometry.attributes[name], vertex)
+                    .addScaledVector(new Vector3().fromBufferAttribute(delta, vertex), fill - 1);
+            };
+            const place = (vertex, to) => at('position', vertex, to).applyMatrix4(this.places[index]);
+            const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+            const { triangles, edges } = this.sheets[index];
+            for (let i = 0; i < triangles.length; i += 3) {
+                place(triangles[i], a);
+                area += place(triangles[i + 1], b).sub(a).cross(place(triangles[i + 2], c).sub(a)).length() / 2;
+            }
+            for (let i = 0; i < edges.length && flat; i += 2) {
+                const along = place(edges[i + 1], b).clone().sub(place(edges[i], a));
+                const length = along.length();
+                const ends = [edges[i], edges[i + 1]].map((vertex) => {
+                    const { x, y, z } = at('normal', vertex, c);
+                    // The liquid lies left of the edge, and its surface looks out unless it sinks into the ground.
+                    return Math.sign(z * along.x - x * along.z) * Math.atan2(Math.hypot(x, z), y);
+                });
+                weighted += length * (ends[0] + ends[1]) / 2;
+                rim += length;
+                min = Math.min(min, ...ends);
+                max = Math.max(max, ...ends);
+            }
+        }
+        const degrees = 180 / Math.PI;
+        return {
+            area_m2: area,
+            contact_angle_deg: rim > 0 ? { min: min * degrees, mean: weighted / rim * degrees, max: max * degrees } : null,
+        };
     }
 
     /** The box around it at any of these fills [m]. */

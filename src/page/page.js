@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { extent, length, rows, sides, volume } from './figures.js';
+import { extent, length, refilled, rows, sides, volume } from './figures.js';
 import { kGrounds } from './ground.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { roundLength, Stage } from './stage.js';
@@ -11,12 +11,13 @@ const root = document.documentElement;
 const { title, report } = JSON.parse(find('content').textContent);
 const bytes = decodeBase64(find('model').textContent.trim());
 
-function showFigures() {
-    find('title').textContent = title;
-    find('subtitle').textContent = [report.liquid?.name, report.shape && volume(report.shape.volume_m3),
-        extent(report) && sides(extent(report))].filter(Boolean).join(' · ');
+/** The droplet as the report has it, or at another fill. */
+function showFigures(shown = report) {
+    find('subtitle').textContent = [shown.liquid?.name, shown.shape && volume(shown.shape.volume_m3),
+        extent(shown) && sides(extent(shown))].filter(Boolean).join(' · ');
     const body = find('figures').querySelector('tbody');
-    for (const [name, value] of rows(report)) {
+    body.replaceChildren();
+    for (const [name, value] of rows(shown)) {
         const row = body.insertRow();
         const head = document.createElement('th');
         head.scope = 'row';
@@ -24,13 +25,18 @@ function showFigures() {
         row.append(head);
         row.insertCell().textContent = value;
     }
+    find('figures').hidden = body.rows.length === 0;
+}
+
+function showReport() {
+    find('title').textContent = title;
+    showFigures();
     for (const warning of report.warnings ?? []) {
         const item = document.createElement('li');
         item.textContent = warning;
         find('warnings').append(item);
     }
     find('figures').open = matchMedia('(min-width: 46.01rem) and (min-height: 40rem)').matches;
-    find('figures').hidden = body.rows.length === 0;
 }
 
 function offerDownload() {
@@ -55,13 +61,15 @@ function offerRefill(stage, droplet, flat) {
     slider.value = Math.min(Math.max(1, low), high);
     const show = () => {
         const fill = Number(slider.value);
+        const height = flat ? stage.heightAt(fill) : null;
         const parts = [`${Math.round(100 * fill)}\u2009%`];
         if (report.shape) {
             parts.push(volume(fill * report.shape.volume_m3));
         }
         if (flat) {
-            parts.push(`${length(stage.heightAt(fill))} high`);
+            parts.push(`${length(height)} high`);
         }
+        showFigures(refilled(report, fill, { height_m: height, ...droplet.measure(fill, flat) }));
         find('amount').textContent = parts.join(' · ');
         slider.setAttribute('aria-valuetext', parts.join(', '));
     };
@@ -70,7 +78,6 @@ function offerRefill(stage, droplet, flat) {
         show();
     });
     show();
-    find('figures').querySelector('caption').textContent = 'At a fill of 100 %.';
     find('refill').hidden = false;
 }
 
@@ -155,7 +162,7 @@ function drawScale(stage) {
 }
 
 async function main() {
-    showFigures();
+    showReport();
     offerDownload();
     try {
         const droplet = await loadDroplet(bytes);

@@ -63,7 +63,8 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
 {
     // A narrow picture keeps the angle across.
     focal_ = std::max(0.5F * height_, 0.375F * width_) / kHalfHeight;
-    const Place place = placeOf(options.view);
+    const Place place =
+        options.camera ? Place{options.camera->azimuth, options.camera->elevation} : placeOf(options.view);
     const CameraTurn turn = turnedBack(options.azimuth);
     const auto cos_azimuth = static_cast<float>(std::cos(place.azimuth));
     const auto sin_azimuth = static_cast<float>(std::sin(place.azimuth));

@@ -144,6 +144,16 @@ void ContactSheetOptions::validate() const
     requireWithin("options.most_side", most_side, kLeastSheet, kMostSheet);
 }
 
+TileSize tileSize(std::size_t tiles, const ContactSheetOptions& options)
+{
+    options.validate();
+    if (tiles == 0) {
+        throw Error(ErrorCode::InvalidArgument, "tiles must be at least 1");
+    }
+    const Grid grid = gridOf(tiles, options);
+    return {grid.tile_width, grid.tile_height};
+}
+
 Picture contactSheet(const std::vector<Tile>& tiles, const ContactSheetOptions& options)
 {
     options.validate();

@@ -95,7 +95,7 @@ Vec3f Table::at(Vec3f place, float width) const
 {
     // Cool, warmer toward the key light.
     const float warm = smoothstep(-1.1F, 0.8F, dot(light_, place) / span_);
-    const Vec3f base = mix({0.06F, 0.135F, 0.19F}, {0.20F, 0.35F, 0.41F}, warm);
+    const Vec3f base = mix({0.055F, 0.118F, 0.168F}, {0.150F, 0.272F, 0.325F}, warm);
     float ruling = 0.0F;
     for (const float along : {place.x, place.y}) {
         const float phase = along / pitch_;
@@ -103,7 +103,7 @@ Vec3f Table::at(Vec3f place, float width) const
         const float soft = std::max(0.012F, width / pitch_);
         ruling = std::max(ruling, (1.0F - smoothstep(0.012F, 0.020F + soft, away)));
     }
-    return mix(base, 1.45F * base, 0.7F * ruling);
+    return mix(base, 1.14F * base, ruling);
 }
 
 }  // namespace droplet

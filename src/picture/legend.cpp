@@ -35,7 +35,8 @@ Vec3f linear(Vec3 colour)
 std::string number(double value, double step)
 {
     const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
-    return fmt::format("{:.{}f}", value + 0.0, digits);
+    const double scale = std::pow(10.0, digits);
+    return fmt::format("{:.{}f}", std::round(value * scale) / scale + 0.0, digits);
 }
 
 constexpr double kBar = 1.6;   // width of the colours, in letters' size

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -71,15 +72,19 @@ Medium mediumOf(const Look& look, double mean_height, double scale)
     return medium;
 }
 
+/// Parts of what is seen: with its ground; without it, which is black then; and white ground through the liquid alone.
+enum class Part { All, Own, Through };
+
 class Tracer {
 public:
     Tracer(const Surface& surface, const RenderOptions& options)
         : options_(options),
           turn_(turnedBack(options.azimuth)),
-          scene_(surface, options.stand ? &*options.stand : nullptr, options.extent),
-          studio_(options.lighting, options.stand && options.frames_stand, turn_),
+          scene_(surface, options),
+          studio_(options.lighting, options.stand && options.frames_stand, turn_,
+                  options.environment ? &*options.environment : nullptr),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(options.frames_stand ? scene_.shown() : scene_.droplets(), options,
+          camera_(options.stand && options.frames_stand ? scene_.shown() : scene_.droplets(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -107,17 +112,20 @@ public:
             key_ = unit(key_);
         }
         level_ = studio_.level();
-        exposure_ = kWhite * kPi / level_.y;
+        exposure_ = kWhite * kPi / std::max(level_.y, 1e-3F);
         const double n = medium_.clear ? options.look.ior : 1.0;
         returned_ = static_cast<float>(1.0 - (1.0 - diffuseReflectance(n)) / (n * n));
         squeezed_ = static_cast<float>(1.0 / (n * n));
     }
 
     // Linear light for a screen, 0 … 1, through a point of the picture.
-    [[nodiscard]] Vec3f shown(float x, float y) const
+    [[nodiscard]] Vec3f shown(float x, float y, Part part) const
     {
         const RayF ray = camera_.ray(x, y);
-        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F});
+        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F, part});
+        if (part == Part::Through) {
+            return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
+        }
         if (studio_.uniform() || options_.paint) {
             return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
         }
@@ -130,21 +138,33 @@ private:
         bool inside;     // the liquid
         int meetings;    // so far
         float distance;  // so far
+        Part part;
     };
 
     [[nodiscard]] Vec3f trace(const RayF& ray, const Way& way) const
     {
         const Meeting meeting = way.inside ? scene_.fromLiquid(ray) : scene_.fromAir(ray);
         if (meeting.what == Meeting::What::Nothing) {
-            return way.meetings == 0 ? studio_.backdrop(ray.direction) : studio_.radiance(ray.direction);
+            if (way.meetings == 0 && way.part != Part::All) {
+                return grey(way.part == Part::Own ? 0.0F : 1.0F);
+            }
+            return way.meetings == 0 ? studio_.backdrop(ray.direction) : roomLight(ray.direction, way.part);
         }
         Vec3f light = meeting.what == Meeting::What::Ground ? onGround(ray, meeting, way) : onLiquid(ray, meeting, way);
         return way.inside ? passed(medium_, meeting.distance) * light : light;
     }
 
+    [[nodiscard]] Vec3f roomLight(Vec3f direction, Part part) const
+    {
+        return part == Part::Through ? Vec3f{} : studio_.radiance(direction);
+    }
+
     [[nodiscard]] Vec3f onLiquid(const RayF& ray, const Meeting& meeting, const Way& way) const
     {
         const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
+        if (way.part == Part::Through && (options_.paint || !medium_.clear)) {
+            return {};
+        }
         if (options_.paint) {
             return painted(ray, meeting, normal, way);
         }
@@ -163,14 +183,14 @@ private:
 
     [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
     {
-        const Way next{share * way.weight, inside, way.meetings + 1, way.distance + meeting.distance};
+        const Way next{share * way.weight, inside, way.meetings + 1, way.distance + meeting.distance, way.part};
         // Directions by smooth normals may point through the facet; they are bent to graze it.
         const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
         if (side < 1e-3F) {
             direction = unit(direction + (inside ? side - 1e-3F : 1e-3F - side) * meeting.facet);
         }
         if (next.meetings > kMostMeetings || next.weight < kLeastWeight) {
-            return studio_.radiance(direction);
+            return roomLight(direction, way.part);
         }
         return trace({meeting.place, direction}, next);
     }
@@ -228,6 +248,12 @@ private:
 
     [[nodiscard]] Vec3f onGround(const RayF& ray, const Meeting& meeting, const Way& way) const
     {
+        if (way.part != Part::All && scene_.onPlane()) {
+            return leftOut(meeting, way);
+        }
+        if (way.part == Part::Through) {
+            return {};
+        }
         const float distance = way.distance + meeting.distance;
         const float slant = std::max(0.2F, std::abs(dot(ray.direction, meeting.normal)));
         const float width = camera_.pixel() * distance / slant;
@@ -249,6 +275,25 @@ private:
             seen = faded(seen, meeting.place);
         }
         return seen;
+    }
+
+    // Ground that is not there: white where it is seen, and what is mirrored of it grey.
+    [[nodiscard]] Vec3f leftOut(const Meeting& meeting, const Way& way) const
+    {
+        const bool is_seen = way.meetings == 0 || way.inside;
+        if (is_seen != (way.part == Part::Through)) {
+            return {};
+        }
+        constexpr float kGrey = 0.4F;
+        const Vec3f light = light_ ? light_->at(meeting.place) : grey(1.0F);
+        if (!is_seen) {
+            return kGrey * light;
+        }
+        const Vec3f open = light_ ? light_->open : grey(1.0F);
+        constexpr float kDark = 1e-6F;
+        const Vec3f share{light.x / std::max(open.x, kDark), light.y / std::max(open.y, kDark),
+                          light.z / std::max(open.z, kDark)};
+        return way.inside ? share * wetness(grey(kGrey), squeezed_) : share;
     }
 
     [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
@@ -356,7 +401,7 @@ float difference(Vec3f a, Vec3f b)
     return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
 }
 
-Picture trace(const Tracer& tracer, const RenderOptions& options)
+Picture trace(const Tracer& tracer, const RenderOptions& options, Part part)
 {
     constexpr float kVisible = 5.0F / 255.0F;
     const auto width = static_cast<std::size_t>(options.width);
@@ -364,7 +409,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options)
     const auto samples = samplesInPixel(options.samples);
     std::vector<Pixel> pixels(width * height);
     const auto sample = [&](std::size_t x, std::size_t y, std::size_t s) {
-        return tracer.shown(static_cast<float>(x) + samples[s][0], static_cast<float>(y) + samples[s][1]);
+        return tracer.shown(static_cast<float>(x) + samples[s][0], static_cast<float>(y) + samples[s][1], part);
     };
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
@@ -436,10 +481,18 @@ void RenderOptions::validate() const
     requireWithin("options.height", height, 1, kMostPixels);
     requireWithin("options.samples", samples, kLeastSamples, kMostSamples);
     require(std::isfinite(azimuth), "options.azimuth", azimuth, "finite");
+    if (camera) {
+        require(std::isfinite(camera->azimuth), "options.camera.azimuth", camera->azimuth, "finite");
+        require(camera->elevation >= 0.0 && camera->elevation <= 0.5 * std::numbers::pi, "options.camera.elevation",
+                camera->elevation, "from 0 to pi/2");
+    }
     require(look.ior >= 1.0 && look.ior <= 4.0, "options.look.ior", look.ior, "from 1 to 4");
     const auto within = [](double a) { return a >= 0.0 && std::isfinite(a); };
     if (!within(extent.x) || !within(extent.y)) {
         refuse("extent must be finite and not negative");
+    }
+    if (environment) {
+        environment->validate();
     }
     if (ground) {
         ground->validate();
@@ -451,26 +504,86 @@ void RenderOptions::validate() const
     if (stand) {
         stand->validate();
     }
+    if (framed) {
+        const Vec3 size = framed->high - framed->low;
+        if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0 && length(size) > 0.0 && std::isfinite(length(size)))) {
+            refuse("framed must be a box with an extent");
+        }
+    }
 }
 
-Picture render(const Surface& surface, const RenderOptions& options)
+namespace {
+
+void requireDrawable(const Surface& surface, const RenderOptions& options)
 {
     options.validate();
-    surface.validate();
-    const Vec3& first = surface.positions.front();
-    if (std::all_of(surface.positions.begin(), surface.positions.end(),
-                    [&first](const Vec3& p) { return p.x == first.x && p.y == first.y && p.z == first.z; })) {
+    const bool dry = options.framed && surface.triangles.empty();
+    if (!dry) {
+        surface.validate();
+    }
+    if (!dry && std::all_of(surface.positions.begin(), surface.positions.end(),
+                            [&first = surface.positions.front()](const Vec3& p) {
+                                return p.x == first.x && p.y == first.y && p.z == first.z;
+                            })) {
         throw Error(ErrorCode::InvalidArgument, "surface must have an extent; all of it is at one place");
     }
     if (options.paint) {
         options.paint->validate(surface.positions.size());
     }
+}
+
+}  // namespace
+
+Picture render(const Surface& surface, const RenderOptions& options)
+{
+    requireDrawable(surface, options);
     const Tracer tracer(surface, options);
-    Picture picture = trace(tracer, options);
+    Picture picture = trace(tracer, options, Part::All);
     if (options.paint) {
         drawLegend(picture, *options.paint);
     }
     return picture;
+}
+
+Layer renderCutOut(const Surface& surface, const RenderOptions& options)
+{
+    requireDrawable(surface, options);
+    const Tracer tracer(surface, options);
+    const Picture own = trace(tracer, options, Part::Own);
+    const Picture through = trace(tracer, options, Part::Through);
+    Layer layer{own.width, own.height, {}};
+    layer.rgba.resize(own.rgb.size() / 3 * 4);
+    tbb::parallel_for(std::size_t{0}, own.rgb.size() / 3, [&](std::size_t i) {
+        const std::uint8_t* const mirrored = own.rgb.data() + 3 * i;
+        const std::uint8_t* const passed = through.rgb.data() + 3 * i;
+        // Over white every colour is the sum, over black what is mirrored and tinted.
+        const int least = std::min({passed[0], passed[1], passed[2]});
+        std::array<int, 3> over_black{};
+        int alpha = 255 - least;
+        for (std::size_t c = 0; c < 3; ++c) {
+            over_black[c] = std::min(mirrored[c] + passed[c] - least, 255);
+            alpha = std::max(alpha, over_black[c]);
+        }
+        std::uint8_t* const to = layer.rgba.data() + 4 * i;
+        for (std::size_t c = 0; c < 3; ++c) {
+            to[c] = static_cast<std::uint8_t>(alpha == 0 ? 0 : (255 * over_black[c] + alpha / 2) / alpha);
+        }
+        to[3] = static_cast<std::uint8_t>(alpha);
+    });
+    return layer;
+}
+
+std::optional<ViewBox> around(const Surface& surface, const std::optional<ViewBox>& box)
+{
+    std::optional<ViewBox> found = box;
+    for (const Vec3& p : surface.positions) {
+        if (!found) {
+            found = ViewBox{p, p};
+        }
+        found->low = {std::min(found->low.x, p.x), std::min(found->low.y, p.y), std::min(found->low.z, p.z)};
+        found->high = {std::max(found->high.x, p.x), std::max(found->high.y, p.y), std::max(found->high.z, p.z)};
+    }
+    return found;
 }
 
 TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)

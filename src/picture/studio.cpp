@@ -2,8 +2,10 @@
 // R. Ramamoorthi, P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps" (2001).
 #include "picture/studio.h"
 
+#include <algorithm>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "droplet/units.h"
 
@@ -11,6 +13,9 @@ namespace droplet {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+
+/// Share of every band that a cosine lobe lets through, over π.
+constexpr std::array<float, 9> kLobe = {1.0F, 2.0F / 3.0F, 2.0F / 3.0F, 2.0F / 3.0F, 0.25F, 0.25F, 0.25F, 0.25F, 0.25F};
 
 struct BoxPlace {
     double azimuth;    // counter-clockwise from the picture's right [°]
@@ -20,10 +25,12 @@ struct BoxPlace {
     Vec3f radiance;
 };
 
-// Chosen by eye: the key light warm, mirrored toward a camera in front, the other one cool.
-constexpr std::array<BoxPlace, 2> kBoxes = {{
-    {126.0, 37.0, 0.17F, 0.13F, {74.0F, 69.0F, 62.0F}},
-    {28.0, 30.0, 0.06F, 0.36F, {10.0F, 11.8F, 14.0F}},
+// Chosen by eye: the key light warm, low and small, so that every stroke of water throws a bright and a dark edge; a
+// band high on the left that every edge turned there mirrors, also toward a camera above; the other one cool.
+constexpr std::array<BoxPlace, 3> kBoxes = {{
+    {126.0, 33.0, 0.14F, 0.10F, {128.0F, 119.0F, 106.0F}},
+    {138.0, 56.0, 0.90F, 0.060F, {18.0F, 18.5F, 19.0F}},
+    {28.0, 30.0, 0.06F, 0.36F, {14.0F, 16.5F, 19.6F}},
 }};
 constexpr std::array<BoxPlace, 3> kBoxesUpright = {{
     {-146.0, 36.0, 0.24F, 0.34F, {26.0F, 24.8F, 22.9F}},
@@ -105,25 +112,51 @@ Vec3f SoftBox::seen(Vec3f direction) const
     return (1.0F - smoothstep(0.90F, 1.06F, reach)) * cloth * radiance;
 }
 
-Studio::Studio(Lighting lighting, bool upright, CameraTurn turn) : uniform_(lighting == Lighting::Uniform), harmonics_{}
+Studio::Studio(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment)
+    : uniform_(lighting == Lighting::Uniform), back_{turn.cosine, -turn.sine}, harmonics_{}
 {
+    constexpr float kIrradiance = 6.0F;  // about that of the studio
+    if (environment != nullptr && !uniform_) {
+        sky_.emplace(*environment, kIrradiance);
+        addSky(turn);
+        return;
+    }
     if (!uniform_) {
-        const auto places = upright ? std::span<const BoxPlace>(kBoxesUpright) : std::span<const BoxPlace>(kBoxes);
-        for (const BoxPlace& place : places) {
-            SoftBox box;
-            box.centre = turn(towards(place.azimuth, place.elevation));
-            box.right = unit(cross(box.centre, {0.0F, 0.0F, 1.0F}));
-            box.up = cross(box.right, box.centre);
-            box.half_width = place.half_width;
-            box.half_height = place.half_height;
-            box.radiance = place.radiance;
-            boxes_.push_back(box);
-        }
-        lights_.push_back(lightOf(boxes_[0], 4, 3));
-        for (std::size_t k = 1; k < boxes_.size(); ++k) {
-            lights_.push_back(lightOf(boxes_[k], 1, 5));
+        addBoxes(upright, turn);
+    }
+    addRoom(turn);
+    constexpr int kDirections = 4096;
+    for (int i = 0; i < kDirections; ++i) {
+        const Vec3f d = onSphere(i, kDirections);
+        const std::array<float, 9> values = basis(d);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            harmonics_[k] = harmonics_[k] + 4.0F * kPi / kDirections * kLobe[k] * values[k] * radiance(d);
         }
     }
+}
+
+void Studio::addBoxes(bool upright, CameraTurn turn)
+{
+    const auto places = upright ? std::span<const BoxPlace>(kBoxesUpright) : std::span<const BoxPlace>(kBoxes);
+    for (const BoxPlace& place : places) {
+        SoftBox box;
+        box.centre = turn(towards(place.azimuth, place.elevation));
+        box.right = unit(cross(box.centre, {0.0F, 0.0F, 1.0F}));
+        box.up = cross(box.right, box.centre);
+        box.half_width = place.half_width;
+        box.half_height = place.half_height;
+        box.radiance = place.radiance;
+        boxes_.push_back(box);
+    }
+    lights_.push_back(lightOf(boxes_[0], 4, 3));
+    for (std::size_t k = 1; k < boxes_.size(); ++k) {
+        const bool upright_box = boxes_[k].half_height > boxes_[k].half_width;
+        lights_.push_back(upright_box ? lightOf(boxes_[k], 1, 5) : lightOf(boxes_[k], 5, 1));
+    }
+}
+
+void Studio::addRoom(CameraTurn turn)
+{
     // The room as beams of equal weight, evenly over the cosine of their elevation's square: Lambert's law.
     constexpr int kRoomBeams = 48;
     Light sky;
@@ -144,18 +177,66 @@ Studio::Studio(Lighting lighting, bool upright, CameraTurn turn) : uniform_(ligh
         beam.share /= total;
     }
     lights_.push_back(std::move(sky));
+}
 
-    constexpr int kDirections = 4096;
-    // Share of every band that a cosine lobe lets through, over π.
-    constexpr std::array<float, 9> kLobe = {1.0F,  2.0F / 3.0F, 2.0F / 3.0F, 2.0F / 3.0F, 0.25F,
-                                            0.25F, 0.25F,       0.25F,       0.25F};
-    for (int i = 0; i < kDirections; ++i) {
-        const Vec3f d = onSphere(i, kDirections);
-        const std::array<float, 9> values = basis(d);
+void Studio::addSky(CameraTurn turn)
+{
+    // What is far brighter than the rest throws shadows with detail, from few places; the rest is soft.
+    constexpr std::size_t kMostBeams = 16;
+    constexpr float kBright = 4.0F;  // times the mean
+    std::vector<Sky::Cell> cells = sky_->cells();
+    std::stable_sort(cells.begin(), cells.end(),
+                     [](const Sky::Cell& a, const Sky::Cell& b) { return a.radiance.y > b.radiance.y; });
+    float mean = 0.0F;
+    for (const Sky::Cell& cell : cells) {
+        mean += cell.angle * cell.radiance.y / (4.0F * kPi);
+    }
+    Light key;
+    Light rest;
+    rest.soft = true;
+    constexpr float kLowest = 0.05F;
+    for (const Sky::Cell& cell : cells) {
+        const Vec3f toward = turn(cell.toward);
+        const std::array<float, 9> values = basis(toward);
         for (std::size_t k = 0; k < values.size(); ++k) {
-            harmonics_[k] = harmonics_[k] + 4.0F * kPi / kDirections * kLobe[k] * values[k] * radiance(d);
+            harmonics_[k] = harmonics_[k] + cell.angle * kLobe[k] * values[k] * cell.radiance;
+        }
+        if (toward.z < kLowest) {
+            continue;
+        }
+        const bool is_key = cell.radiance.y > kBright * mean && key.beams.size() < kMostBeams;
+        Light& light = is_key ? key : rest;
+        const Vec3f irradiance = cell.angle * toward.z * cell.radiance;
+        light.beams.push_back({toward, irradiance.y});
+        light.irradiance = light.irradiance + irradiance;
+    }
+    // Of the soft rest every so many cells stand for all.
+    constexpr std::size_t kSoftBeams = 64;
+    std::vector<Beam> few;
+    for (std::size_t k = 0; k < kSoftBeams && !rest.beams.empty(); ++k) {
+        few.push_back(rest.beams[k * rest.beams.size() / kSoftBeams]);
+    }
+    rest.beams = std::move(few);
+    for (Light* light : {&key, &rest}) {
+        float total = 0.0F;
+        for (const Beam& beam : light->beams) {
+            total += beam.share;
+        }
+        if (total > 0.0F) {
+            for (Beam& beam : light->beams) {
+                beam.share /= total;
+            }
+            lights_.push_back(std::move(*light));
         }
     }
+    if (lights_.empty()) {
+        lights_.emplace_back();  // all of it shines from below
+    }
+}
+
+Vec3f Studio::skyAt(Vec3f direction) const
+{
+    return sky_->at(back_(direction));
 }
 
 Vec3f Studio::room(Vec3f direction) const
@@ -173,6 +254,9 @@ Vec3f Studio::room(Vec3f direction) const
 
 Vec3f Studio::radiance(Vec3f direction) const
 {
+    if (sky_) {
+        return skyAt(direction);
+    }
     Vec3f sum = room(direction);
     for (const SoftBox& box : boxes_) {
         sum = sum + box.seen(direction);
@@ -184,6 +268,9 @@ Vec3f Studio::backdrop(Vec3f direction) const
 {
     if (uniform_) {
         return grey(1.0F);
+    }
+    if (sky_) {
+        return skyAt(direction);
     }
     return mix(kDistance, {0.20F, 0.27F, 0.32F}, smoothstep(0.0F, 0.6F, direction.z));
 }

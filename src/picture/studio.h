@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "droplet/picture/render.h"
 #include "picture/camera.h"
 #include "picture/optics.h"
+#include "picture/sky.h"
 
 namespace droplet {
 
@@ -38,11 +40,13 @@ struct Light {
     bool soft = false;  ///< from all over the sky: its shadows have no detail
 };
 
-/// What shines on a droplet: a dim room brighter at its walls, a key light behind the droplet on the left, and a narrow
-/// one on the right; on an object that stands upright, a key light in front of it on the left, and two at its sides.
+/// What shines on a droplet: a dim room brighter at its walls, a key light behind the droplet on the left, a band
+/// above it, and a narrow one on the right; on an object that stands upright, a key light in front of it on the left,
+/// and two at its sides.
 class Studio {
 public:
-    Studio(Lighting lighting, bool upright, CameraTurn turn);
+    /// @param environment  in place of it; null: none
+    Studio(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment = nullptr);
 
     /// What comes from a direction.
     [[nodiscard]] Vec3f radiance(Vec3f direction) const;
@@ -57,8 +61,14 @@ public:
 
 private:
     [[nodiscard]] Vec3f room(Vec3f direction) const;
+    void addBoxes(bool upright, CameraTurn turn);
+    void addRoom(CameraTurn turn);
+    void addSky(CameraTurn turn);
+    [[nodiscard]] Vec3f skyAt(Vec3f direction) const;
 
     bool uniform_;
+    std::optional<Sky> sky_;
+    CameraTurn back_;  ///< from directions in the scene to those in the sky
     std::vector<SoftBox> boxes_;
     std::vector<Light> lights_;
     std::array<Vec3f, 9> harmonics_;

@@ -212,7 +212,9 @@ std::pair<double, double> Energy::contactAngle(std::uint32_t rim_vertex, double 
         angle = std::asin(sine) - ground;
         derivative = sine == flux ? 1.0 / std::sqrt(1.0 - sine * sine) : 0.0;
     }
-    if (physics_.no_penetration && angle < 0.0) {
+    // On level flat ground the liquid stays above it: only the recovery's error takes the angle below.
+    const bool above = physics_.no_penetration || (restsOnGround() && physics_.normal >= 0.0);
+    if (above && angle < 0.0) {
         return {0.0, 0.0};
     }
     return {angle, derivative};

@@ -212,7 +212,7 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
                                               ? "no volume gives a droplet of that height on this footprint"
                                               : "no volume gives a mean contact angle of " +
                                                     numberText(fill.amount / kDegree) +
-                                                    " degrees on this footprint; ask for a smaller angle");
+                                                    " degrees on this footprint; ask for a smaller --contact-angle");
 }
 
 bool keepsAbove(const std::vector<Member>& members)

@@ -38,6 +38,16 @@ Look lookOf(Material material)
                                                 " materials");
 }
 
+Material materialOf(const Liquid& liquid)
+{
+    for (const Material own : {Material::Mercury, Material::Honey}) {
+        if (liquid.name == lookOf(own).name) {
+            return own;
+        }
+    }
+    return Material::Water;
+}
+
 Material materialNamed(std::string_view name)
 {
     std::string known;

@@ -208,19 +208,21 @@ TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
     std::uintmax_t bytes = 0;
     for (const auto& entry : fs::directory_iterator(directory() / "out")) {
         names.push_back(entry.path().filename().string());
-        bytes += entry.file_size();
+        bytes += entry.path().extension() == ".obj" ? entry.file_size() : 0;
     }
     std::sort(names.begin(), names.end());
-    EXPECT_THAT(names, ElementsAre("008.obj", "009.obj", "010.obj", "011.obj", "012.obj"));
+    EXPECT_THAT(names, ElementsAre("008.mtl", "008.obj", "009.mtl", "009.obj", "010.mtl", "010.obj", "011.mtl",
+                                   "011.obj", "012.mtl", "012.obj"));
     EXPECT_EQ(told["output"]["bytes"], bytes);
     EXPECT_EQ(told["frames"][1]["output"], "out/009.obj");
     // Its first frame is what the main job makes of that picture.
     CommandOptions options;
     options.directory = directory();
     ASSERT_EQ(
-        runDroplet({"frames/f0008.pgm", "one.obj", "--fill", "total", "--triangles", "800", "-q"}, options).exit_code,
+        runDroplet({"frames/f0008.pgm", "008.obj", "--fill", "total", "--triangles", "800", "-q"}, options).exit_code,
         0);
-    EXPECT_EQ(bytesOf("out/008.obj"), bytesOf("one.obj"));
+    EXPECT_EQ(bytesOf("out/008.obj"), bytesOf("008.obj"));
+    EXPECT_EQ(bytesOf("out/008.mtl"), bytesOf("008.mtl"));
 }
 
 TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
@@ -369,7 +371,8 @@ TEST_F(AnimateTest, RefusesWhatCannotBe)
     refused({"--contact-sheet", "old.glb.png", "--json", "old.glb.png"}, {"--json and --contact-sheet are the same"});
     refused({"--onto", "can.glb"}, {"--onto has no place in a sequence"});
     expectFailure({}, 2, {"INPUT is missing"});
-    expectFailure({"frames"}, 2, {"OUTPUT is missing"});
+    expectFailure({"frames"}, 2, {"OUTPUT is missing", "INPUT... OUTPUT"});
+    expectFailure({"frames", "-o", "old.glb"}, 2, {"-o: OUTPUT stands without one", "INPUT... OUTPUT"});
     expectFailure({"frames", "film.obj"}, 2, {"film.obj", "out/%04d.obj"});
     expectFailure({"frames", "film"}, 2, {"film", "no extension"});
     expectFailure({"frames", "out/%04x.glb"}, 2, {"OUTPUT", "%04d"});

@@ -320,6 +320,14 @@ TEST_F(BatchTest, SharesMakeTheWhole)
     ASSERT_EQ(second["items"].size(), 1U);
     EXPECT_EQ(second["items"][0]["index"], 2);
     EXPECT_EQ(second["items"][0]["output"], "out/b.glb");
+    // The whole takes what shares have made, but not what has changed since.
+    writeFile(directory() / "out/c.glb", "changed");
+    writeFile(directory() / "out/manifest-x-of-3.json", "not a share's");
+    writeFile(directory() / "out/manifest-9-of-9.json", "broken");
+    ASSERT_EQ(batch({"--recursive"}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "made", "skipped"));
+    fs::remove(directory() / "out/manifest-x-of-3.json");
+    fs::remove(directory() / "out/manifest-9-of-9.json");
     // A share takes up its own work, and one without pictures is done.
     ASSERT_EQ(batch({"--recursive", "--shard", "1/3"}).exit_code, 0);
     EXPECT_THAT(statuses("out/manifest-1-of-3.json"), ElementsAre("skipped", "skipped"));
@@ -355,6 +363,8 @@ TEST_F(BatchTest, WhatIsKnownToFailFailsBeforeAnyWork)
         EXPECT_FALSE(fs::exists(directory() / "out"));
     };
     expect_refused({"batch", "masks"}, 2, "--output is missing");
+    expect_refused({"batch", "masks", "out/{stem}.glb"}, 2, "--output is missing; did you mean -o 'out/{stem}.glb'?");
+    expect_refused({"batch", "masks", "out.stl"}, 2, "did you mean -o 'out.stl'?");
     expect_refused({"batch", "-o", "out/{stem}.glb"}, 2, "INPUT is missing");
     expect_refused({"batch", "masks", "-o", "-"}, 2, "--output");
     expect_refused({"batch", "-", "-o", "out/{stem}.glb"}, 2, "INPUT");
@@ -465,6 +475,12 @@ TEST_F(BatchTest, ContactSheetShowsAllThatStands)
     EXPECT_GT(picture.width, 2 * 320);
     ASSERT_EQ(batch({"--contact-sheet", "again.png", "-j", "1"}).exit_code, 0);
     EXPECT_TRUE(readFile(directory() / "again.png") == all);
+    const CommandResult told = batch({"--contact-sheet", "again.png", "--one-scale"});
+    EXPECT_THAT(told.error, HasSubstr("sheet      again.png: 3 droplets; "));
+    EXPECT_FALSE(readFile(directory() / "again.png") == all);
+    const CommandResult events = batch({"--contact-sheet", "again.png", "--progress", "json"});
+    EXPECT_THAT(events.error, HasSubstr(R"({"drawn":3,"of":3,"elapsed_s":)"));
+    EXPECT_EQ(batch({"--one-scale"}).exit_code, 2);
     ASSERT_EQ(batch({"--contact-sheet", "ink.png", "--material", "ink"}).exit_code, 0);
     EXPECT_FALSE(readFile(directory() / "ink.png") == all);
 

@@ -98,7 +98,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
 
 TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
 {
-    EXPECT_THAT(longOptions(help()), SizeIs(54));
+    EXPECT_THAT(longOptions(help()), SizeIs(58));
     auto known = longOptions(help());
     for (const std::string& command : commands()) {
         known.merge(longOptions(help(command)));

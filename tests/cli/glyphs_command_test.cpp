@@ -280,6 +280,7 @@ TEST_F(Glyphs, SomeThatFailAreExitCode6)
 TEST_F(Glyphs, IsRefusedWithAReason)
 {
     refuses({"--text", "a"}, 2, {"--output is missing"});
+    refuses({"--text", "a", "-o", "{name}.glb"}, 2, {"--output", "{name}.glb", "--charset or --all"});
     refuses({"-o", "x.glb"}, 2, {"--text, --charset, --all or --list is missing"});
     refuses({"--text", "a", "--all", "-o", "x.glb"}, 2, {"--text and --all exclude each other"});
     refuses({"--text", "a", "-o", "x.png"}, 2, {"--output 'x.png'", "glb"});

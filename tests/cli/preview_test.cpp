@@ -60,10 +60,16 @@ TEST_F(PreviewTest, EveryOptionShowsInThePicture)
     made({"--preview", "plain.png"});
     const Picture plain = pictureOf("plain.png");
     const std::vector<std::vector<std::string>> changes = {
-        {"--view", "top"},        {"--view", "side"},
-        {"--material", "ink"},    {"--material", "plain"},
-        {"--colour", "contours"}, {"--colour", "contact-angle"},
-        {"--ground", "disc.pgm"}, {"--surface", "sphere:R=30mm"},
+        {"--view", "top"},
+        {"--view", "side"},
+        {"--material", "ink"},
+        {"--material", "plain"},
+        {"--colour", "contours"},
+        {"--colour", "contact-angle"},
+        {"--ground", "disc.pgm"},
+        {"--surface", "sphere:R=30mm"},
+        {"--camera", "-30deg,20deg"},
+        {"--environment", "disc.pgm"},
     };
     std::vector<Picture> seen = {plain};
     for (const std::vector<std::string>& change : changes) {
@@ -89,11 +95,23 @@ TEST_F(PreviewTest, TurntablesAreNumberedAndTurn)
     EXPECT_NE(pictureOf("turn-001.png"), pictureOf("turn-002.png")) << "the table's ruling";
 }
 
+TEST_F(PreviewTest, HasNoBackgroundIfAskedFor)
+{
+    made({"--preview", "cut.png", "--background", "none"});
+    constexpr std::size_t kColourType = 25;  // of PNG's header
+    EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 6) << "with alpha";
+    made({"--preview", "cut.png", "--background", "ground"});
+    EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 2);
+}
+
 TEST_F(PreviewTest, WhatHasNoEffectIsSaid)
 {
     for (const std::vector<std::string>& option : {std::vector<std::string>{"--view", "top"},
                                                    {"--ground", "disc.pgm"},
                                                    {"--colour", "contours"},
+                                                   {"--camera", "0deg,9deg"},
+                                                   {"--background", "none"},
+                                                   {"--environment", "disc.pgm"},
                                                    {"--turntable", "2"}}) {
         EXPECT_THAT(made(option).error, HasSubstr("warning: " + option[0] + " has no effect without --preview"));
     }
@@ -121,12 +139,20 @@ TEST_F(PreviewTest, RefusesWhatCannotBe)
     refused({"--preview", "a.png", "--view", "below"}, 2, {"--view", "three-quarter, top, side"});
     refused({"--preview", "a.png", "--preview-colour", "red"}, 2,
             {"--preview-colour", "look, contours, contact-angle"});
+    refused({"--preview", "a.png", "--camera", "20deg"}, 2, {"--camera", "-60deg,30deg"});
+    refused({"--preview", "a.png", "--camera", "0deg,91deg"}, 2, {"--camera: elevation", "from 0deg to 90deg"});
+    refused({"--preview", "a.png", "--background", "white"}, 2, {"--background", "ground, none"});
+    refused({"--preview", "a.png", "--background", "none", "--colour", "contours"}, 2,
+            {"--background none", "--colour"});
+    refused({"--preview", "a.png", "--background", "none", "--ground", "old.json"}, 2,
+            {"--background none", "--ground"});
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
     refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
     refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview -"});
     refused({"--preview", "a.png", "--colour", "contours", "--onto", "o.glb"}, 2, {"--colour contours", "--onto"});
     refused({"--preview", "a.png", "--ground", "missing.png"}, 3, {"missing.png"});
     refused({"--preview", "a.png", "--ground", "old.json"}, 3, {"old.json"});
+    refused({"--preview", "a.png", "--environment", "old.json"}, 3, {"old.json"});
     refused({"--preview", "nowhere/a.png"}, 4, {"nowhere"});
     expectRefusal({"disc.pgm", "a.png", "--format", "glb", "--preview", "./a.png"}, 2, {"--preview", "OUTPUT"});
     testing::writeFile(directory() / "ground.png", "not read yet");

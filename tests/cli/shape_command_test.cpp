@@ -603,6 +603,49 @@ TEST_F(ShapeCommandTest, MaterialChangesTheFileAndIsSaidToBeOfNoUseInStl)
     EXPECT_THAT(json::parse(bytesOf("report.json"))["warnings"].dump(), HasSubstr("--material ink has no effect"));
 }
 
+TEST_F(ShapeCommandTest, LiquidsLookLikeWhatTheyAreUnlessAMaterialSaysOtherwise)
+{
+    const auto made = [&](const std::string& name, std::vector<std::string> options) {
+        std::vector<std::string> arguments{"disc.pgm",    name + ".gltf",   "--preview",
+                                           name + ".png", "--preview-size", "64x48"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        make(arguments);
+        return json::parse(bytesOf(name + ".gltf"))["materials"][0]["name"].get<std::string>();
+    };
+    for (const std::string liquid : {"honey", "mercury"}) {
+        EXPECT_EQ(made("own", {"--liquid", liquid}), liquid);
+        EXPECT_EQ(made("named", {"--liquid", liquid, "--material", liquid}), liquid);
+        EXPECT_TRUE(bytesOf("own.png") == bytesOf("named.png"));
+        EXPECT_EQ(made("other", {"--liquid", liquid, "--material", "ink"}), "ink");
+    }
+    for (const std::string liquid : {"water", "ethanol", "glycerol"}) {
+        EXPECT_EQ(made("clear", {"--liquid", liquid}), "water");
+    }
+}
+
+TEST_F(ShapeCommandTest, ObjBringsItsMaterialWholeOrNotAtAll)
+{
+    make({"disc.pgm", "a.obj", "--liquid", "honey", "--unit", "cm"});
+    EXPECT_THAT(bytesOf("a.obj").substr(0, 200),
+                AllOf(HasSubstr("# unit: centimetre"), HasSubstr("mtllib a.mtl\nusemtl honey")));
+    EXPECT_THAT(bytesOf("a.mtl"), HasSubstr("newmtl honey"));
+    // An existing one is not replaced, nor is the droplet then written.
+    writeFile(directory() / "b.mtl", "mine");
+    const auto kept = run({"disc.pgm", "b.obj", "--triangles", "500", "--no-clobber"});
+    EXPECT_EQ(kept.exit_code, 4);
+    EXPECT_THAT(kept.error, HasSubstr("b.mtl"));
+    EXPECT_FALSE(fs::exists(directory() / "b.obj"));
+    EXPECT_EQ(bytesOf("b.mtl"), "mine");
+    const auto clash = run({"disc.pgm", "b.obj", "--json", "b.mtl"});
+    EXPECT_EQ(clash.exit_code, 2);
+    // Standard output has no file beside it.
+    const auto stream = run({"disc.pgm", "-", "--format", "obj", "--triangles", "500"});
+    EXPECT_EQ(stream.exit_code, 0);
+    EXPECT_THAT(stream.output, Not(HasSubstr("mtllib")));
+    EXPECT_THAT(run({"disc.pgm", "a.glb", "--triangles", "500", "--unit", "m"}).error,
+                HasSubstr("--unit m has no effect: glb files are in metres"));
+}
+
 TEST_F(ShapeCommandTest, GivesTheSameBytesAtAnyNumberOfThreads)
 {
     for (const char* format : {"glb", "gltf", "obj", "ply", "stl"}) {

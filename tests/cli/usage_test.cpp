@@ -84,6 +84,17 @@ TEST_F(UsageTest, UnknownOptions)
     expectRefused({"--wid", "5mm"}, {"unknown option --wid"});
 }
 
+TEST_F(UsageTest, UnknownCommands)
+{
+    expectRefusal({"glyph", "--all"}, 2, {"unknown command 'glyph', did you mean glyphs?"});
+    expectRefusal({"wind-tunel"}, 2, {"did you mean wind-tunnel?"});
+    expectRefusal({"windsheild", "a.png"}, 2, {"did you mean windshield?"});
+    expectRefusal({"render"}, 2, {"OUTPUT is missing"});
+    expectRefusal({"disc.pgm", "-o", "old.glb"}, 2, {"-o: OUTPUT stands without one"});
+    writeFile(directory() / "batc", "no picture, but a file");
+    expectRefusal({"batc", "old.glb"}, 3, {"batc"});
+}
+
 TEST_F(UsageTest, OptionsWithoutTheirValue)
 {
     expectRefused({"--width"}, {"--width", "value is missing"});

@@ -515,6 +515,14 @@ TEST_F(GltfMaterial, PlainIsOpaqueGrey)
     EXPECT_TRUE(plain.extensions.empty());
 }
 
+TEST(MaterialOf, IsTheLiquidsOwnOrWater)
+{
+    EXPECT_EQ(materialOf(liquidNamed("honey")), Material::Honey);
+    EXPECT_EQ(materialOf(liquidNamed("mercury")), Material::Mercury);
+    EXPECT_EQ(materialOf(liquidNamed("glycerol")), Material::Water);
+    EXPECT_EQ(materialOf({"custom", 0.05, 900.0}), Material::Water);
+}
+
 TEST(MaterialNamed, KnowsFiveAndNoOther)
 {
     EXPECT_EQ(materialNamed("water"), Material::Water);

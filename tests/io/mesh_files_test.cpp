@@ -19,7 +19,10 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/io/output.h"
+#include "droplet/io/read_surface.h"
 #include "droplet/version.h"
+#include "support/command.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -30,6 +33,16 @@ using testing::RoundDroplet;
 using testing::roundDroplet;
 
 using Writer = std::uint64_t (*)(const Surface&, std::ostream&);
+
+std::uint64_t writeObjInMillimetres(const Surface& surface, std::ostream& out)
+{
+    return writeObj(surface, out);
+}
+
+std::uint64_t writeStlInMillimetres(const Surface& surface, std::ostream& out)
+{
+    return writeStl(surface, out);
+}
 
 std::string written(Writer writer, const Surface& surface)
 {
@@ -81,7 +94,7 @@ std::vector<double> numbersIn(const std::string& line)
 
 TEST(Obj, SaysItsUnitAndAxis)
 {
-    const std::string obj = written(writeObj, roundDroplet());
+    const std::string obj = written(writeObjInMillimetres, roundDroplet());
     EXPECT_EQ(obj.substr(0, obj.find('\n')), std::string("# droplet-shape ") + kVersion);
     EXPECT_THAT(obj.substr(0, 200), HasSubstr("# unit: millimetre, up: +Y, front: +Z\n"));
 }
@@ -89,7 +102,7 @@ TEST(Obj, SaysItsUnitAndAxis)
 TEST(Obj, WeldsPositionsAndKeepsNormalsApart)
 {
     const Surface surface = roundDroplet({.inner = 1e-3, .centre = {1e-3, 2e-3}});
-    auto lines = linesOf(written(writeObj, surface));
+    auto lines = linesOf(written(writeObjInMillimetres, surface));
     ASSERT_EQ(lines["v"].size(), places(surface));
     ASSERT_LT(lines["v"].size(), surface.positions.size());
     ASSERT_EQ(lines["vt"].size(), surface.positions.size());
@@ -130,14 +143,14 @@ TEST(Obj, HasNineSignificantDigits)
     Surface surface = roundDroplet();
     surface.positions[1].x = 1.0 / 3.0;
     surface.positions[1].y = -2e-8 / 3.0;
-    const std::string obj = written(writeObj, surface);
+    const std::string obj = written(writeObjInMillimetres, surface);
     EXPECT_THAT(obj, HasSubstr("\nv 333.333333 "));
     EXPECT_THAT(obj, HasSubstr(" 6.66666667e-06\n"));
 }
 
 TEST(Obj, KnowsNoNegativeZero)
 {
-    EXPECT_THAT(written(writeObj, roundDroplet()), ::testing::Not(HasSubstr(" -0\n")));
+    EXPECT_THAT(written(writeObjInMillimetres, roundDroplet()), ::testing::Not(HasSubstr(" -0\n")));
 }
 
 // As in German, with points between thousands.
@@ -151,7 +164,7 @@ protected:
 TEST(Obj, DoesNotDependOnTheLocale)
 {
     const Surface surface = roundDroplet({.rings = 20, .segments = 80});
-    const std::string expected = written(writeObj, surface);
+    const std::string expected = written(writeObjInMillimetres, surface);
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaForPoint));
     std::string found;
     {
@@ -194,8 +207,8 @@ TEST(Ply, HoldsContactAnglesInDegrees)
         }
     }
     // The others have no place for them.
-    EXPECT_EQ(written(writeObj, surface), written(writeObj, roundDroplet()));
-    EXPECT_EQ(written(writeStl, surface), written(writeStl, roundDroplet()));
+    EXPECT_EQ(written(writeObjInMillimetres, surface), written(writeObjInMillimetres, roundDroplet()));
+    EXPECT_EQ(written(writeStlInMillimetres, surface), written(writeStlInMillimetres, roundDroplet()));
 }
 
 TEST(Ply, TheRimHasTheLiquidsNormal)
@@ -243,7 +256,7 @@ TEST(Ply, HoldsTheSurfaceAsFloats)
 TEST(Stl, IsBinaryInMillimetresWithTheWindingsNormals)
 {
     const Surface surface = roundDroplet({.centre = {1e-3, 2e-3}});
-    const std::string stl = written(writeStl, surface);
+    const std::string stl = written(writeStlInMillimetres, surface);
     ASSERT_EQ(stl.size(), 84 + 50 * surface.triangles.size());
     EXPECT_NE(stl.substr(0, 5), "solid");
     EXPECT_THAT(stl.substr(0, 80), HasSubstr("millimetres, z up"));
@@ -271,10 +284,61 @@ TEST(Stl, IsBinaryInMillimetresWithTheWindingsNormals)
 TEST(Stl, AFacetWithoutAreaHasNoNormal)
 {
     const Surface line = testing::soup({{0, 1, 1}}, 2);
-    const std::string stl = written(writeStl, line);
+    const std::string stl = written(writeStlInMillimetres, line);
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(at<float>(stl, 84 + 4 * k), 0.0F);
     }
+}
+
+// Whatever the unit, our own reader finds the size again.
+TEST(MeshFiles, KnowTheirUnit)
+{
+    const testing::ScratchDirectory scratch;
+    const Surface surface = roundDroplet();
+    const auto width = [](const Surface& of) {
+        double most = 0.0;
+        for (const Vec3& p : of.positions) {
+            most = std::max(most, p.x);
+        }
+        return most;
+    };
+    for (const auto& [unit, metres] :
+         {std::pair{LengthUnit::Millimetre, 1e-3}, {LengthUnit::Centimetre, 1e-2}, {LengthUnit::Metre, 1.0}}) {
+        for (const Format format : {Format::Obj, Format::Stl}) {
+            const auto path = scratch.path() / (std::string("a.") + name(format));
+            std::ostringstream out;
+            writeSurface(surface, out, format, {.unit = unit});
+            if (format == Format::Obj) {
+                double most = 0.0;
+                auto lines = linesOf(out.str());
+                for (const std::string& line : lines["v"]) {
+                    most = std::max(most, std::stod(line));
+                }
+                EXPECT_NEAR(most * metres / width(surface), 1.0, 1e-6);
+            }
+            testing::writeFile(path, out.str());
+            EXPECT_NEAR(width(readSurface(path).surface) / width(surface), 1.0, 1e-6) << path << " " << metres;
+        }
+    }
+}
+
+TEST(MeshFiles, MaterialsOfObjSayWhatTheyAre)
+{
+    const auto mtl = [](Material material) {
+        std::ostringstream out;
+        const std::uint64_t bytes = writeMtl(material, out);
+        EXPECT_EQ(bytes, out.str().size());
+        return out.str();
+    };
+    EXPECT_THAT(mtl(Material::Water),
+                ::testing::AllOf(HasSubstr("newmtl water\n"), HasSubstr("\nNi 1.333\n"), HasSubstr("\nillum 7\n"),
+                                 HasSubstr("\nd 0.35\n"), HasSubstr("\nTf 1 1 1\n")));
+    EXPECT_THAT(mtl(Material::Honey), ::testing::AllOf(HasSubstr("\nKd 0.9 0.5 0.1\n"), HasSubstr("\nNi 1.489\n")));
+    EXPECT_THAT(mtl(Material::Mercury),
+                ::testing::AllOf(HasSubstr("\nd 1\n"), HasSubstr("\nPm 1\n"), ::testing::Not(HasSubstr("Tf"))));
+    std::ostringstream out;
+    writeObj(roundDroplet(), out, {.material = Material::Ink, .material_file = "drop.mtl"});
+    EXPECT_THAT(out.str().substr(0, 200), HasSubstr("\nmtllib drop.mtl\nusemtl ink\n"));
 }
 
 struct Named {
@@ -285,7 +349,8 @@ struct Named {
 class MeshFile : public ::testing::TestWithParam<Named> {};
 
 INSTANTIATE_TEST_SUITE_P(Every, MeshFile,
-                         ::testing::Values(Named{"Obj", writeObj}, Named{"Ply", writePly}, Named{"Stl", writeStl}),
+                         ::testing::Values(Named{"Obj", writeObjInMillimetres}, Named{"Ply", writePly},
+                                           Named{"Stl", writeStlInMillimetres}),
                          [](const auto& run) { return run.param.name; });
 
 TEST_P(MeshFile, TheSameSurfaceGivesTheSameBytes)

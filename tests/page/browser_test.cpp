@@ -34,7 +34,8 @@ constexpr double kNoise = 0.002;
 
 void makePages(const fs::path& folder)
 {
-    const auto make = [&](const std::string& html, const std::vector<std::string>& options) {
+    const auto make = [&](const std::string& html, const std::vector<std::string>& options,
+                          const std::string& volume = "40uL") {
         std::vector<std::string> arguments{(folder / "disc.pgm").string(),
                                            (folder / "out.obj").string(),
                                            "--html",
@@ -42,7 +43,7 @@ void makePages(const fs::path& folder)
                                            "--triangles",
                                            "800",
                                            "--volume",
-                                           "40uL",
+                                           volume,
                                            "-q"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const auto run = runDroplet(arguments);
@@ -51,6 +52,7 @@ void makePages(const fs::path& folder)
     writeFile(folder / "disc.pgm", testing::discPicture(64, 24.0));
     writeFile(folder / "picture.png", readFile(fs::path(testing::inSource("data/letter_g_1bit.png"))));
     make("water.html", {"--material", "ink"});
+    make("full.html", {"--json", (folder / "full.json").string()}, "80uL");
     make("exact.html", {"--model", "exact"});
     std::ofstream hostile(folder / "hostile.html", std::ios::binary);
     const nlohmann::json report{
@@ -62,7 +64,8 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
 {
     const testing::ScratchDirectory scratch;
     makePages(scratch.path());
-    const auto run = runProgram({"node", testing::kPageDriver, testing::kChromium, scratch.path().string()});
+    const auto run = runProgram({"node", testing::kPageDriver, testing::kChromium, scratch.path().string(),
+                                 testing::inSource("src/page/figures.js")});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto seen = nlohmann::json::parse(run.output);
     SCOPED_TRACE(seen.dump(1));
@@ -96,6 +99,13 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_EQ(wide["figures"]["Volume"], "40.0 µL");
     EXPECT_EQ(wide["figures"]["Liquid"], "Water");
     EXPECT_EQ(wide["figures"]["Picture"], "20.0 × 20.0 mm");
+    // At twice the liquid the table is that of a droplet made of twice the liquid, and then as it was.
+    for (const char* row : {"Volume", "Greatest height", "Contact angle", "Liquid surface", "Pressure", "Footprint"}) {
+        EXPECT_EQ(wide["figures_full"][row], seen["told_full"][row]) << row;
+    }
+    EXPECT_NE(wide["figures_full"]["Contact angle"], wide["figures"]["Contact angle"]);
+    EXPECT_THAT(wide["subtitle_full"].get<std::string>(), HasSubstr("80.0"));
+    EXPECT_EQ(wide["figures_again"], wide["figures"]);
     EXPECT_TRUE(wide["figures"].contains("Pressure"));
     EXPECT_TRUE(wide["figures"].contains("Bond number"));
 

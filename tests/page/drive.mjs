@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens pages from disk in a real browser and uses them as people do: node drive.mjs CHROMIUM FOLDER
-// FOLDER holds water.html, exact.html, hostile.html and picture.png. Prints one JSON object of what was seen; what of
+// Opens pages from disk in a real browser and uses them as people do: node drive.mjs CHROMIUM FOLDER FIGURES_JS
+// FOLDER holds full.json, a report, water.html, exact.html, hostile.html and picture.png. Prints one JSON object of what was seen; what of
 // that is right is for the test to say.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -8,7 +8,7 @@ import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const [executablePath, folder] = process.argv.slice(2);
+const [executablePath, folder, figures_source] = process.argv.slice(2);
 const kWide = { width: 700, height: 300 };  // beside the panel, small: the processor draws
 const kPhone = { width: 360, height: 640 };
 
@@ -94,10 +94,21 @@ const difference = (a, b) => {
     return a.length === b.length ? 4 * count / a.length : NaN;
 };
 
+/** The table of figures, as an object of its rows. */
+const figures = (page) => page.evaluate(() => Object.fromEntries([...document.querySelectorAll('#figures tr')].map((row) =>
+    [row.cells[0].textContent, row.cells[1].textContent.replaceAll('\u00a0', ' ')])));
+
 const setFill = (page, value) => page.locator('#fill').evaluate((slider, to) => {
     slider.value = to;
     slider.dispatchEvent(new Event('input', { bubbles: true }));
 }, value);
+
+/** What the table says of a report. */
+async function told(file) {
+    const { rows } = await import(pathToFileURL(figures_source).href);
+    return Object.fromEntries(rows(JSON.parse(readFileSync(resolve(folder, file)))).map(([name, value]) =>
+        [name, value.replaceAll('\u00a0', ' ')]));
+}
 
 async function wide() {
     const page = await open('water.html', { viewport: kWide, colorScheme: 'light' });
@@ -108,8 +119,7 @@ async function wide() {
     seen.range = await page.locator('#fill').evaluate(({ min, max, value }) => [min, max, value]);
     seen.labelled = await page.evaluate(() => [...document.querySelectorAll('input, button, canvas, details')].every((control) =>
         control.labels?.length || control.getAttribute('aria-label') || control.textContent.trim()));
-    seen.figures = await page.evaluate(() => Object.fromEntries([...document.querySelectorAll('#figures tr')].map((row) =>
-        [row.cells[0].textContent, row.cells[1].textContent.replaceAll('\u00a0', ' ')])));
+    seen.figures = await figures(page);
     seen.scale = await page.locator('#scale').innerText();
 
     const before = await frames(page);
@@ -122,6 +132,8 @@ async function wide() {
     await page.keyboard.press('End');
     seen.amounts.push(await page.locator('#amount').innerText());
     const full = await look(page);
+    seen.figures_full = await figures(page);
+    seen.subtitle_full = await page.locator('#subtitle').innerText();
     seen.full = difference(first, full);
     await setFill(page, 0);
     seen.amounts.push(await page.locator('#amount').innerText());
@@ -129,6 +141,7 @@ async function wide() {
     seen.empty = difference(first, empty);
     await setFill(page, 1);
     seen.filled_again = difference(first, await look(page));
+    seen.figures_again = await figures(page);
 
     await page.locator('#view').focus();
     for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) {
@@ -244,7 +257,7 @@ async function hostile() {
 }
 
 try {
-    const seen = { wide: await wide(), phone: await phone(), exact: await exact() };
+    const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json') };
     Object.assign(seen, { complaints: [...complaints], outside });
     complaints.length = 0;
     seen.hostile = await hostile();

@@ -45,6 +45,19 @@ TEST(ContactSheet, ShowsEveryTileWhole)
     EXPECT_EQ(pixelsOf(contactSheet({{plain(333, 111, kRed), ""}}, options), kRed), 80U * 27U);
 }
 
+TEST(ContactSheet, PicturesOfTheSizeToldAreNotShrunk)
+{
+    for (const int most : {8192, 300}) {
+        const ContactSheetOptions options{.tile_width = 100, .tile_height = 75, .most_side = most};
+        constexpr std::size_t kTiles = 12;
+        const TileSize size = tileSize(kTiles, options);
+        EXPECT_EQ(size.width == 100, most == 8192);
+        const Picture sheet =
+            contactSheet(std::vector<Tile>(kTiles, {plain(size.width, size.height, kRed), ""}), options);
+        EXPECT_EQ(pixelsOf(sheet, kRed), kTiles * static_cast<std::size_t>(size.width * size.height));
+    }
+}
+
 TEST(ContactSheet, RowsFollowTheOrderGiven)
 {
     const ContactSheetOptions options{.columns = 1, .tile_width = 32, .tile_height = 32};

@@ -6,8 +6,10 @@
 #include <tbb/global_control.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -129,7 +131,7 @@ TEST(Render, FurnaceHoldsOnCurvedGround)
 TEST(Render, GroundPictureLiesWhereUvSays)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .centre = {2e-3, -1e-3}});
-    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    const Scene scene(surface, small());
     for (const View view : {View::Top, View::ThreeQuarter}) {
         for (const double azimuth : {0.0, 0.7}) {
             RenderOptions options = small(view);
@@ -162,7 +164,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
     constexpr double kHeight = 1.5e-3;
     constexpr double kIndex = 1.5;
     const Surface surface = film(kHeight, 9e-3);
-    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    const Scene scene(surface, small());
     RenderOptions options = small();
     options.look = ofIndex(kIndex);
     options.ground = slopes();
@@ -275,10 +277,99 @@ TEST(Render, WaterShowsHighlightsAndShadows)
     EXPECT_LT(darkest, plain_darkest - 20);
 }
 
+// What is cut out lies over another picture: nothing far from it, its shadow dark, water clear and metal opaque.
+TEST(RenderCutOut, IsTheDropletAndItsShadow)
+{
+    RenderOptions options = small(View::Top);
+    options.lighting = Lighting::Studio;
+    const Surface surface = roundDroplet({.height = 2e-3, .rings = 24, .segments = 96});
+    const Layer water = renderCutOut(surface, options);
+    water.validate();
+    const auto pixel = [&](const Layer& layer, int x, int y) {
+        return layer.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * layer.width + x);
+    };
+    EXPECT_EQ(pixel(water, 1, 1)[3], 0);
+    EXPECT_LT(pixel(water, options.width / 2, options.height / 2)[3], 100) << "clear where it gathers light";
+    const Picture paper{water.width, water.height,
+                        std::vector<std::uint8_t>(3 * static_cast<std::size_t>(water.width * water.height), 255)};
+    const Picture seen = over(water, paper);
+    EXPECT_LT(*std::min_element(seen.rgb.begin(), seen.rgb.end()), 180) << "its rim and shadow";
+    options.look = lookOf(Material::Mercury);
+    EXPECT_EQ(pixel(renderCutOut(surface, options), options.width / 2, options.height / 2)[3], 255);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    options.look = lookOf(Material::Water);
+    EXPECT_TRUE(renderCutOut(surface, options) == water);
+}
+
+// Even light from all around is the white furnace's, whatever its unit; light from one side throws a shadow to the
+// other.
+TEST(Environment, ShinesInPlaceOfTheStudio)
+{
+    RenderOptions options = small(View::Top);
+    options.lighting = Lighting::Studio;
+    const Surface surface = roundDroplet({.height = 2e-3, .rings = 24, .segments = 96});
+    const auto lit = [&](float left, float right, float unit) {
+        Environment environment{8, 4, {}};
+        for (int i = 0; i < 32; ++i) {
+            const float light = unit * (i % 8 < 4 ? left : right);
+            environment.radiance.push_back({light, light, light});
+        }
+        options.environment = environment;
+        return renderCutOut(surface, options);
+    };
+    EXPECT_TRUE(lit(1.0F, 1.0F, 1.0F) == lit(1.0F, 1.0F, 64.0F));
+    const auto shadow = [&](const Layer& layer) {  // at the right less at the left
+        long sum = 0;
+        for (int y = 0; y < layer.height; ++y) {
+            for (int x = 0; x < layer.width; ++x) {
+                const int alpha = layer.rgba[4 * static_cast<std::size_t>(y * layer.width + x) + 3];
+                sum += x < layer.width / 4 ? -alpha : x >= 3 * layer.width / 4 ? alpha : 0;
+            }
+        }
+        return sum;
+    };
+    EXPECT_GT(shadow(lit(1.0F, 0.0F, 1.0F)), shadow(lit(0.0F, 1.0F, 1.0F)));
+    options.environment = Environment{2, 1, {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}}};
+    EXPECT_THROW(render(surface, options), Error);
+}
+
+TEST(Camera, StandsWhereItIsTold)
+{
+    RenderOptions options = small();
+    const Picture usual = render(roundDroplet(), options);
+    options.view = View::Top;
+    options.camera = CameraPlace{-79.0 * kDegree, 48.0 * kDegree};
+    EXPECT_TRUE(render(roundDroplet(), options) == usual);
+    options.camera->elevation = 91.0 * kDegree;
+    EXPECT_THROW(render(roundDroplet(), options), Error);
+}
+
+// A box of twice the droplet's size is filled by half of it.
+TEST(Render, FramesTheBoxThatIsGiven)
+{
+    const auto columns = [&](const RenderOptions& options) {
+        const Layer layer = renderCutOut(roundDroplet({.height = 2e-3, .rings = 24, .segments = 96}), options);
+        std::vector<bool> found(static_cast<std::size_t>(layer.width));
+        for (std::size_t i = 0; i < layer.rgba.size(); i += 4) {
+            found[i / 4 % found.size()] = found[i / 4 % found.size()] || layer.rgba[i + 3] > 5;
+        }
+        return static_cast<double>(std::count(found.begin(), found.end(), true));
+    };
+    RenderOptions options = small(View::Top);
+    options.look = lookOf(Material::Plain);
+    const double whole = columns(options);
+    double reach = 0.0;
+    for (const Vec3& p : roundDroplet().positions) {
+        reach = std::max(reach, p.x);
+    }
+    options.framed = ViewBox{{-2.0 * reach, -2.0 * reach, 0.0}, {2.0 * reach, 2.0 * reach, 2e-3}};
+    EXPECT_NEAR(columns(options) / whole, 0.5, 0.06);
+}
+
 // Whatever the view, all is in the picture and fills it up to the margin.
 TEST(Camera, FramesEverything)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     for (const View view : kViews) {
         for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
             RenderOptions options = small(view);
@@ -302,7 +393,7 @@ TEST(Camera, FramesEverything)
 
 TEST(Camera, FramesATurntableOnceForAllTurns)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
     options.fits_any_turn = true;
     const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
@@ -322,7 +413,7 @@ TEST(Camera, FramesATurntableOnceForAllTurns)
 // A point on the right comes to the front when the droplet is turned counter-clockwise by three quarters.
 TEST(Camera, TurnsTheDropletCounterClockwise)
 {
-    const Scene scene(roundDroplet(), nullptr, {});
+    const Scene scene(roundDroplet(), RenderOptions{});
     RenderOptions options = small(View::Top);
     options.azimuth = 90.0 * kDegree;
     const Camera camera(scene.shown(), options);

@@ -6,9 +6,11 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "droplet/io/gltf.h"
+#include "droplet/io/mesh_files.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
@@ -23,10 +25,12 @@ Format formatNamed(std::string_view name);
 /// Lower-case name of a format, also its extension without the dot.
 const char* name(Format format);
 
-/// What beside the surface decides what a glTF file says; other formats carry neither.
+/// What beside the surface decides what a file says, in the formats that can say it.
 struct WriteOptions {
-    Material material = Material::Water;
-    std::optional<bool> closed = {};  ///< isClosed(surface), where that is known already
+    Material material = Material::Water;            ///< of glTF, and of OBJ with material_file
+    std::optional<bool> closed = {};                ///< of glTF: isClosed(surface), where that is known already
+    LengthUnit unit = LengthUnit::Millimetre;       ///< of OBJ and STL
+    std::optional<std::string> material_file = {};  ///< of OBJ: the file that writeMtl made, by its name beside it
 };
 
 /// Writes a surface to a stream in the given format.

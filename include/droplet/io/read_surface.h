@@ -16,8 +16,9 @@ struct ReadSurface {
 };
 
 /// Reads a surface from a file as this library writes them: glTF 2.0 (.glb, .gltf), Wavefront OBJ, PLY (text or binary
-/// little-endian), STL (text or binary), by its extension. OBJ and STL are taken to be in millimetres, glTF and OBJ to
-/// be y up. All triangles are read; other faces are refused, lines and points passed over.
+/// little-endian), STL (text or binary), by its extension. OBJ and STL are taken to be in millimetres, or what a file
+/// of ours says, glTF and OBJ to be y up. All triangles are read; other faces are refused, lines and points passed
+/// over.
 ///
 /// Vertices at the very same place are welded. Missing normals are those of the triangles around a place, weighted by
 /// their angles there; STL's are the facets' own, by their winding. A PLY of ours has one normal for every place,

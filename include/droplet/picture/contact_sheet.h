@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,17 @@ struct ContactSheetOptions {
     /// @throws Error InvalidArgument
     void validate() const;
 };
+
+/// The size at which that many tiles are shown on a sheet: tile_width and tile_height, or less where most_side asks it.
+/// Pictures drawn at that size are not shrunk.
+struct TileSize {
+    int width = 0;   ///< [px]
+    int height = 0;  ///< [px]
+};
+
+/// @param tiles   at least one
+/// @throws Error  InvalidArgument; also where so many tiles would be smaller than 16 pixels
+TileSize tileSize(std::size_t tiles, const ContactSheetOptions& options = {});
 
 /// Pictures in a grid, row by row in the order given, each with its caption.
 ///

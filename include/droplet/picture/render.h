@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "droplet/picture/environment.h"
 #include "droplet/picture/paint.h"
 #include "droplet/picture/picture.h"
 #include "droplet/shape/base_surface.h"
@@ -21,28 +22,49 @@ enum class View { ThreeQuarter, Top, Side };
 /// @throws Error InvalidArgument
 View viewNamed(std::string_view name);
 
+/// Where the camera stands, seen from the droplet.
+struct CameraPlace {
+    double azimuth = 0.0;    ///< counter-clockwise from the picture's right, seen from above [rad]
+    double elevation = 0.0;  ///< above the ground [rad] 0 … π/2
+};
+
 /// What shines on a droplet.
 enum class Lighting {
     Studio,   ///< soft boxes in a room; they keep their places beside the camera
     Uniform,  ///< radiance 1 from everywhere, unit light on all ground: for measuring
 };
 
+/// A box with edges along the axes [m].
+struct ViewBox {
+    Vec3 low;
+    Vec3 high;
+};
+
+/// The smallest box around a surface and another box; of a surface without vertices, that box.
+std::optional<ViewBox> around(const Surface& surface, const std::optional<ViewBox>& box = {});
+
 /// How a picture is taken.
 struct RenderOptions {
     int width = 1280;  ///< [px] 1 … 8192
     int height = 960;  ///< [px] 1 … 8192
     View view = View::ThreeQuarter;
-    double azimuth = 0.0;        ///< how far the droplet is turned, counter-clockwise seen from above [rad]
+    std::optional<CameraPlace> camera = {};  ///< in place of the view's
+    double azimuth = 0.0;                    ///< how far the droplet is turned, counter-clockwise seen from above [rad]
     bool fits_any_turn = false;  ///< framed so that it fits at every azimuth, as the pictures of a turntable must be
     int samples = 16;            ///< rays through a pixel where there is something to see, a quarter of it elsewhere
                                  ///< 4 … 256
     Look look;                   ///< of the liquid: lookOf(material)
     Lighting lighting = Lighting::Studio;
+    std::optional<Environment> environment = {};  ///< shines in place of the studio, scaled so that level ground is as
+                                                  ///< bright; it stays beside the camera, too
     Vec2 extent = {};                    ///< physical size of the image, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< what the droplet stands on; empty: a table with a fine ruling
     std::optional<TexturedMesh> stand = {};  ///< what the droplet stands on if not the plane z = 0, uv as the droplet's
-    bool frames_stand = true;         ///< show all of the stand, an object then; otherwise the droplets, on ground
-    std::optional<Paint> paint = {};  ///< opaque colours instead of the material
+    bool frames_stand = true;            ///< show all of the stand, an object then; otherwise the droplets, on ground
+    std::optional<ViewBox> framed = {};  ///< what the camera frames, and what gives the table its ruling and light, so
+                                         ///< that pictures of several surfaces can be compared; it must hold the
+                                         ///< surface. Empty: the surface
+    std::optional<Paint> paint = {};     ///< opaque colours instead of the material
 
     /// @throws Error InvalidArgument
     void validate() const;
@@ -60,9 +82,15 @@ struct RenderOptions {
 ///
 /// Guarantees: the same bytes for the same surface and options, at any number of threads. Floating-point modes of the
 /// caller's threads are as before.
-/// @param surface  valid; closed or open
+/// @param surface  valid; closed or open; with `framed` it may be without triangles: then there is the ground alone
 /// @throws Error   InvalidArgument
 Picture render(const Surface& surface, const RenderOptions& options = {});
+
+/// The same without ground and backdrop, to lay over another picture: opaque where nothing is seen through the droplet,
+/// less where its ground would be, and dark where its shadow falls. Over black it is what the liquid mirrors, over
+/// white also what it lets pass of white ground, in sRGB levels. A stand stays, with the droplet's shadow on it;
+/// legends do not.
+Layer renderCutOut(const Surface& surface, const RenderOptions& options = {});
 
 /// Curved ground as a mesh to stand droplets on: its height field over the image's extent and a part of it around, as
 /// far as there is ground.

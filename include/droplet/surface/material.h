@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "droplet/liquid.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -13,6 +14,9 @@ enum class Material { Water, Ink, Mercury, Honey, Plain };
 /// The material of that name: water, ink, mercury, honey, plain.
 /// @throws Error InvalidArgument
 Material materialNamed(std::string_view name);
+
+/// The material that a liquid looks like by its name: that of mercury and honey, else water.
+Material materialOf(const Liquid& liquid);
 
 /// A material's optics.
 struct Look {

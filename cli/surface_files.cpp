@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface_files.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace cli {
+
+std::optional<std::string> materialFile(const std::string& path, droplet::Format format)
+{
+    std::filesystem::path file(path);
+    if (format != droplet::Format::Obj || (file.extension() != ".obj" && file.extension() != ".OBJ")) {
+        return std::nullopt;
+    }
+    return file.replace_extension(".mtl").string();
+}
+
+std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes)
+{
+    std::vector<OutputFile> files;
+    const auto material_file = materialFile(target.path, target.format);
+    if (material_file) {
+        target.options.material_file = std::filesystem::path(*material_file).filename().string();
+    }
+    files.push_back({target.path, [&surface, &bytes, target](std::ostream& out) {
+                         bytes = droplet::writeSurface(surface, out, target.format, target.options);
+                     }});
+    if (material_file) {
+        files.push_back({*material_file, [material = target.options.material](std::ostream& out) {
+                             droplet::writeMtl(material, out);
+                         }});
+    }
+    return files;
+}
+
+}  // namespace cli
