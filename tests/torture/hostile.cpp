@@ -252,7 +252,7 @@ Corpus brokenDrawings()
 
 Corpus brokenMeshes()
 {
-    return broken("broken meshes", meshSeeds(), 12'000, mutated, tryMesh);
+    return broken("broken meshes", meshSeeds(), 6000, mutated, tryMesh);
 }
 
 Corpus brokenFonts()
