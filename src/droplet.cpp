@@ -141,6 +141,10 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
             return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
                    numberText(report.largest_volume / kMicrolitre, 4) +
                    " uL, beyond it the liquid hangs over its rim; ask for less";
+        case Termination::OutOfSteps:
+            return which + std::to_string(report.newton_steps) + " steps of Newton's method went as far as " +
+                   numberText(report.largest_volume / kMicrolitre, 4) +
+                   " uL on this footprint, not to what was asked for; ask for less, or smooth the footprint";
         case Termination::Unstable:
             return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
                    ", and at most " + numberText(report.critical_bond_number, 4) +

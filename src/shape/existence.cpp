@@ -135,11 +135,20 @@ public:
         use(Model::Exact);
         if ((settleExact(options_->fill) && steepest() < kReliable) || climb()) {
             outcome_.termination = Termination::Converged;
+        } else if (stepsLeft() == 0) {
+            outcome_.termination = Termination::OutOfSteps;
+            outcome_.largest_volume = reached_;
         }
         return outcome_;
     }
 
 private:
+    /// Of the exact model's.
+    [[nodiscard]] std::size_t stepsLeft() const
+    {
+        return options_->most_newton_steps - std::min(outcome_.newton_steps, options_->most_newton_steps);
+    }
+
     void use(Model model) const
     {
         for (const Member& member : *members_) {
@@ -174,7 +183,9 @@ private:
 
     bool settleExact(const Fill& fill)
     {
-        const Settled settled = settle(*members_, {.fill = fill});
+        SettleOptions options{.fill = fill};
+        options.most_steps = std::min(options.most_steps, stepsLeft());
+        const Settled settled = settle(*members_, options);
         outcome_.residual = settled.residual;
         outcome_.newton_steps += settled.newton_steps;
         outcome_.iterations = outcome_.newton_steps;
@@ -271,7 +282,8 @@ private:
         std::vector<Sheet> good = sheets();
         std::optional<double> too_much;
         bool upright = false;
-        for (int k = 0; k < kMostTries; ++k) {
+        for (int k = 0; k < kMostTries && stepsLeft() > 0; ++k) {
+            reached_ = here;
             if (by_volume && here >= wanted.amount) {
                 return true;
             }
@@ -362,6 +374,7 @@ private:
     const std::vector<Member>* members_;
     const SolveOptions* options_;
     Outcome outcome_;
+    double reached_ = 0.0;  ///< volume of the largest sheet on the way up [m³]
 };
 
 }  // namespace

@@ -17,11 +17,14 @@ struct Item {
     std::vector<std::byte> bytes;  ///< of the encoded picture; a greymap (P5) stands as it is, like --channel luma
 };
 
+struct Verdict;
+
 /// Items that are made one by one, the same whenever asked for.
 struct Corpus {
     std::string name;
     std::size_t count = 0;
     std::function<Item(std::size_t index)> item;
+    std::function<Verdict(const Item&)> trial = {};  ///< of items that are no pictures to make droplets of
 };
 
 /// A mask as an item, in a 16-bit greymap.
@@ -57,5 +60,13 @@ Corpus patterns();
 
 /// Noise and shapes in every kind of PNG, and JPEG at bad quality, read as a user's pictures are.
 Corpus encodedNoise();
+
+/// Drawings that ask for far more than they are long.
+Corpus hostileDrawings();
+
+/// SVG, meshes of every format and fonts, changed at random from fixed seeds.
+Corpus brokenDrawings();
+Corpus brokenMeshes();
+Corpus brokenFonts();
 
 }  // namespace droplet::torture

@@ -5,9 +5,9 @@
 //
 // Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
 // theme, of noise and of drawings; else of the files named. Each must give sound droplets or be refused with a reason,
-// within 2 s of processor time. Pictures take turns in how they are filled, and every 101st goes through the command,
-// too. One line tells of every corpus, one of every failure, whose picture is kept in the folder: `torture FILE` tries
-// it again, filled in every way.
+// within 2 s of processor time. So must SVG, meshes and fonts be read or refused that are broken or hostile. Pictures
+// take turns in how they are filled, and every 101st goes through the command, too. One line tells of every corpus, one
+// of every failure, whose picture is kept in the folder: `torture FILE` tries it again, filled in every way.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -66,7 +66,10 @@ public:
 
     void print(const Corpus& corpus) const
     {
-        std::printf("%s: %zu items, %zu droplets, %zu triangles", corpus.name.c_str(), items_, droplets_, triangles_);
+        std::printf("%s: %zu items", corpus.name.c_str(), items_);
+        if (!corpus.trial) {
+            std::printf(", %zu droplets, %zu triangles", droplets_, triangles_);
+        }
         if (slowest_.item) {
             std::printf("; slowest %.2f s (%s)", slowest_.value, corpus.item(*slowest_.item).name.c_str());
         }
@@ -74,8 +77,15 @@ public:
             std::printf("; smallest angle %.3g degrees (%s)", sharpest_.value / kDegree,
                         corpus.item(*sharpest_.item).name.c_str());
         }
+        std::size_t refused = 0;
         for (const auto& [reason, count] : refused_) {
-            std::printf("; %zu refused, %s", count, reason.c_str());
+            refused += count;
+            if (!corpus.trial) {
+                std::printf("; %zu refused, %s", count, reason.c_str());
+            }
+        }
+        if (corpus.trial) {
+            std::printf("; %zu read, %zu refused", items_ - refused - failed_, refused);
         }
         std::printf("; %zu failed\n", failed_);
         std::fflush(stdout);
@@ -123,13 +133,16 @@ Verdict judged(Verdict verdict, double limit)
 std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
 {
     constexpr std::size_t kCommand = 101;  // prime to the cycles of sizes and fills
-    const std::size_t fills = all_fills ? kFills : 1;
+    const std::size_t fills = all_fills && !corpus.trial ? kFills : 1;
     const std::size_t count = (corpus.count + options.every - 1) / options.every;
     const auto item_of = [&](std::size_t task) { return task / fills * options.every; };
     const auto work = [&](std::size_t task) {
         // One thread, so that processor time is what it takes, and cores are shared out among items.
         const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
         const Item item = corpus.item(item_of(task));
+        if (corpus.trial) {
+            return judged(corpus.trial(item), options.limit);
+        }
         Verdict verdict = judged(tryLibrary(item, fillOf(task)), options.limit);
         if (verdict.outcome != Outcome::Failed && task % kCommand == 0) {
             const Verdict command = judged(tryCommand(item), options.limit);
@@ -166,8 +179,8 @@ std::size_t runAll(const Options& options)
     }
     std::size_t failed = 0;
     bool found = false;
-    for (const auto& make :
-         {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns, encodedNoise}) {
+    for (const auto& make : {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns,
+                             encodedNoise, hostileDrawings, brokenDrawings, brokenMeshes, brokenFonts}) {
         const Corpus corpus = make();
         if (options.corpus.empty() || corpus.name == options.corpus) {
             found = true;

@@ -146,6 +146,25 @@ Verdict tryLibrary(const Item& item, const Fill& fill)
     return verdict;
 }
 
+Verdict tryReading(const std::function<void()>& read)
+{
+    Verdict verdict;
+    const double begin = processorSeconds();
+    try {
+        read();
+        verdict.outcome = Outcome::Droplets;
+    } catch (const Error& error) {
+        verdict.message = error.what();
+        const bool is_refusal = error.code() == ErrorCode::InvalidInput || error.code() == ErrorCode::InvalidArgument;
+        const bool is_line = !verdict.message.empty() && verdict.message.find('\n') == std::string::npos;
+        verdict.outcome = is_refusal && is_line ? Outcome::Refused : Outcome::Failed;
+    } catch (const std::exception& error) {
+        verdict.message = std::string("threw ") + error.what();
+    }
+    verdict.seconds = processorSeconds() - begin;
+    return verdict;
+}
+
 Verdict tryCommand(const Item& item)
 {
     const testing::ScratchDirectory scratch;

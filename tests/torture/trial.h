@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -40,6 +41,9 @@ std::string flawsOf(const Droplet& droplet, const Mask& mask, const Fill& fill);
 /// Takes an item from its bytes to the surface, all options but the fill and the number of triangles (5k) as they are
 /// by default, and proves the surface sound and the fill reached.
 Verdict tryLibrary(const Item& item, const Fill& fill);
+
+/// Runs what reads a file that may be broken: it has to return, or to throw Error InvalidInput or InvalidArgument.
+Verdict tryReading(const std::function<void()>& read);
 
 /// Runs droplet-shape itself: it has to end with exit code 0 and a file, or 3 and one line.
 Verdict tryCommand(const Item& item);

@@ -48,6 +48,7 @@ enum class Termination {
     Converged,
     NotConverged,   ///< neither solved nor shown to have no solution
     NoHeightField,  ///< the liquid would hang over its rim; SolveReport::largest_volume says how much does not
+    OutOfSteps,     ///< as NotConverged, for want of steps; SolveReport::largest_volume says how far they went
     Unstable,       ///< gravity pulls the liquid off; SolveReport::bond_number and critical_bond_number say how much
 };
 
@@ -62,7 +63,8 @@ struct SolveReport {
                             ///< equations
     Termination termination = Termination::NotConverged;
     std::size_t failed_droplet = 0;     ///< of several the first, if termination is not Converged
-    double largest_volume = 0.0;        ///< with NoHeightField: that one's, or of all with FillSharing::Total [m³]
+    double largest_volume = 0.0;        ///< with NoHeightField or OutOfSteps: of that one, or of all with
+                                        ///< FillSharing::Total [m³]
     double bond_number = 0.0;           ///< with Unstable: ρ|g⊥|A/(πσ) of that one's footprint
     double critical_bond_number = 0.0;  ///< with Unstable: beyond which it cannot hang
 
@@ -89,6 +91,7 @@ struct SolveOptions {
         {};  ///< each droplet's own, in the order of the meshes [m³]; then fill is left aside,
              ///< but for FillSharing::Each, which it must have. Empty: fill says how much
     Solver solver = Solver::Auto;
+    std::size_t most_newton_steps = 400;  ///< of the exact model, for a droplet; to show that there is none takes 100
 
     /// @throws Error InvalidArgument
     void validate() const;
