@@ -36,6 +36,7 @@ constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
 constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
 constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
+constexpr Range kPlace{Dimension::Length, -100.0, 100.0, "from -100m to 100m each"};
 constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
 const CommandText& commandText()
@@ -103,6 +104,10 @@ void declare(CommandLine& line)
     line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
     line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
+    line.add(kLooks, "--eye", "PLACE",
+             "from the middle of the glass: right, ahead and up, as\n0.3m,-0.6m,0.1m; behind it");
+    line.add(kLooks, "--look-at", "PLACE",
+             "what is in the middle of the frame, from the middle of\nthe glass: right, ahead and up [straight ahead]");
     line.add(kLooks, "--samples", "N", "rays a pixel across and down, 1 to 4 [2]");
     line.add(kLooks, "--exposure", "STOPS", "of all that is seen: 1 is twice the light, -1 half [0]");
     line.add(kLooks, "--highlight-boost", "NUMBER",
@@ -123,6 +128,7 @@ void declare(CommandLine& line)
     line.addFlag(kRun, "--resume", "go on where a run of the same options was interrupted");
     line.addFlag(kRun, "--no-clobber", "do not replace existing files");
     declareCommon(line, kRun, "rain = \"5mm/h\"");
+    line.exclude({"--eye", "--eye-distance"});
     line.exclude({"--resume", "--no-clobber"});
 }
 
@@ -207,6 +213,20 @@ void readDroplets(const CommandLine& line, WindshieldOptions& options)
     take(line, "--film", kFilm, options.parameters.streaks.film);
 }
 
+/// A place from the middle of the glass.
+std::optional<droplet::Vec3> placeOf(const CommandLine& line, const char* option)
+{
+    const auto given = line.value(option);
+    if (!given) {
+        return std::nullopt;
+    }
+    const std::vector<double> parts = quantities(*given, kPlace);
+    if (parts.size() != 3) {
+        refuse(*given, "three lengths: to the right, ahead and up");
+    }
+    return droplet::Vec3{parts[0], parts[1], parts[2]};
+}
+
 void readSize(const Given& given, droplet::ViewOptions& view)
 {
     const char* const end = given.text.data() + given.text.size();
@@ -235,6 +255,8 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     }
     take(line, "--field-of-view", kView, options.view.field_of_view);
     take(line, "--eye-distance", kEye, options.view.eye_distance);
+    options.view.eye = placeOf(line, "--eye");
+    options.view.look_at = placeOf(line, "--look-at");
     if (const auto samples = line.value("--samples")) {
         options.view.samples = static_cast<int>(count(*samples, 4, "4"));
     }

@@ -32,7 +32,8 @@ void forGlass(const WindshieldOptions& options, const Function& function)
         if (options.surface) {
             throw droplet::Error(droplet::ErrorCode::InvalidInput, *options.surface + ": as a glass: " + error.what());
         }
-        throw droplet::Error(error.code(), std::string("--glass-width, --eye-distance: ") + error.what());
+        throw droplet::Error(error.code(),
+                             std::string("--glass-width, --eye-distance, --eye, --look-at: ") + error.what());
     }
 }
 

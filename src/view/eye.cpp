@@ -14,6 +14,14 @@
 #include "number_text.h"
 
 namespace droplet {
+namespace {
+
+std::string textOf(Vec3 v)
+{
+    return "(" + numberText(v.x) + ", " + numberText(v.y) + ", " + numberText(v.z) + ")";
+}
+
+}  // namespace
 
 /// Finds every pixel's place on the glass by drawing the glass as a net of triangles.
 class Eye::Net {
@@ -39,7 +47,7 @@ public:
         tbb::parallel_for(0, upward + 1, [&](int j) {
             for (int i = 0; i <= across; ++i) {
                 if (const auto place = glass.place(position(i, j))) {
-                    knot(i, j) = toFloats(place->point - eye_.position_);
+                    knot(i, j) = toFloats(eye_.seen(*place).point);
                 }
             }
         });
@@ -128,7 +136,22 @@ Eye::Eye(const Glass& glass, const ViewOptions& options)
         throw Error(ErrorCode::InvalidArgument,
                     "aim (" + numberText(aim.x) + ", " + numberText(aim.y) + ") must be on the glass");
     }
-    position_ = ahead->point - Vec3{0.0, options.eye_distance, 0.0};
+    const Vec3 from_aim = options.eye.value_or(Vec3{0.0, -options.eye_distance, 0.0});
+    position_ = ahead->point + from_aim;
+    if (options.eye && !(dot(from_aim, ahead->normal) < 0.0)) {
+        throw Error(ErrorCode::InvalidArgument, "eye " + textOf(from_aim) + " must be behind the glass");
+    }
+    if (options.look_at) {
+        const Vec3 way = *options.look_at - from_aim;
+        if (!(way.y > 0.05 * length(way))) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "look_at " + textOf(*options.look_at) + " must be in front of the eye");
+        }
+        ahead_ = (1.0 / length(way)) * way;
+        const Vec3 right = cross(ahead_, Vec3{0.0, 0.0, 1.0});
+        right_ = (1.0 / length(right)) * right;
+        up_ = cross(right_, ahead_);
+    }
     constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
     places_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {kNowhere, kNowhere});
     Net(*this).draw(glass);

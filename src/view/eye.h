@@ -24,9 +24,13 @@ public:
     [[nodiscard]] float halfWidth() const { return half_width_; }
     /// Tangent across a pixel.
     [[nodiscard]] float tangent() const { return tangent_; }
-    [[nodiscard]] Vec3 position() const { return position_; }
+    /// A place of the glass as it is for the eye: x right, y to where it looks, z up.
+    [[nodiscard]] GlassPlace seen(const GlassPlace& place) const
+    {
+        return {turned(place.point - position_), turned(place.normal), turned(place.across), turned(place.up)};
+    }
 
-    /// Direction of a pixel's ray, unit: x right, y ahead, z up.
+    /// Direction of a pixel's ray, unit, as it is for the eye.
     [[nodiscard]] Vec3f ray(int x, int y) const
     {
         return unit({tangent_ * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(width_)), 1.0F,
@@ -43,11 +47,16 @@ public:
 private:
     class Net;
 
+    [[nodiscard]] Vec3 turned(Vec3 v) const { return {dot(v, right_), dot(v, ahead_), dot(v, up_)}; }
+
     int width_;
     int height_;
     float half_width_;
     float tangent_;
     Vec3 position_;
+    Vec3 right_{1.0, 0.0, 0.0};
+    Vec3 ahead_{0.0, 1.0, 0.0};
+    Vec3 up_{0.0, 0.0, 1.0};
     std::vector<Vec2f> places_;  ///< of each pixel
 };
 

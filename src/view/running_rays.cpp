@@ -65,18 +65,19 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     const ViewOptions& options = sight_.options;
     const float tangent = sight_.eye.tangent();
     Traced one;
-    const auto place = sight_.glass.place(droplet.position);
-    if (!place) {
+    const auto on_glass = sight_.glass.place(droplet.position);
+    if (!on_glass) {
         return one;
     }
+    const GlassPlace place = sight_.eye.seen(*on_glass);
     const double speed = length(droplet.velocity);
     const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
     const RunningShape shape = runningShape(droplet.volume, speed, options.shape);
-    const Vec3 right = along.x * place->across + along.y * place->up;
-    const Vec3 left = along.x * place->up - along.y * place->across;
+    const Vec3 right = along.x * place.across + along.y * place.up;
+    const Vec3 left = along.x * place.up - along.y * place.across;
     one.position = {static_cast<float>(droplet.position.x), static_cast<float>(droplet.position.y)};
     one.along = {static_cast<float>(along.x), static_cast<float>(along.y)};
-    one.frame = {toFloats(right), toFloats(left), toFloats(place->normal)};
+    one.frame = {toFloats(right), toFloats(left), toFloats(place.normal)};
     one.capsule = {static_cast<float>(shape.half_length), static_cast<float>(shape.radius),
                    static_cast<float>(shape.centre_height)};
     one.wide = static_cast<float>(shape.silhouette());
@@ -87,7 +88,7 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     float bottom = -1e9F;
     for (const double x : {-reach, reach}) {
         for (const double y : {-shape.silhouette(), shape.silhouette()}) {
-            const Vec3 corner = place->point + x * right + y * left - sight_.eye.position();
+            const Vec3 corner = place.point + x * right + y * left;
             if (corner.y < 1e-3) {
                 return one;
             }

@@ -62,7 +62,7 @@ ViewTile tileAt(const Eye& eye, const Glass& glass, int column, int row)
         tile.on_glass = false;  // a sliver at the glass's edge
         return tile;
     }
-    tile.frame = frameOf(*place);
+    tile.frame = frameOf(eye.seen(*place));
     const float reach = std::abs(tile.right.x) + std::abs(tile.right.y) + std::abs(tile.down.x) + std::abs(tile.down.y);
     tile.low = {tile.low.x - reach, tile.low.y - reach};
     tile.high = {tile.high.x + reach, tile.high.y + reach};

@@ -30,6 +30,10 @@ void ViewOptions::validate() const
         require(std::isfinite(aim->x), "aim.x", aim->x, "finite");
         require(std::isfinite(aim->y), "aim.y", aim->y, "finite");
     }
+    for (const auto& place : {eye, look_at}) {
+        require(!place || std::isfinite(place->x + place->y + place->z), "eye, look_at", place ? place->x : 0.0,
+                "finite");
+    }
     shape.validate();
     require(ior >= 1.0 && ior <= 2.0, "ior", ior, "from 1 to 2");
     requireWithin("samples", samples, 1, 4);

@@ -54,7 +54,8 @@ struct Panel {
     Vec2 corner;                           ///< top left of its part of the page
 };
 
-/// A panel for every slope and hysteresis, in a grid, of several of both a row for each slope, on a drawing that becomes as large as they need.
+/// A panel for every slope and hysteresis, in a grid, of several of both a row for each slope, on a drawing that
+/// becomes as large as they need.
 /// @throws Error  InvalidArgument: over kMostPanels
 std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Drawing& drawing);
 

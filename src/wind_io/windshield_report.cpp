@@ -18,6 +18,11 @@ ReportJson orNull(const std::optional<Value>& value)
     return value ? ReportJson(*value) : ReportJson();
 }
 
+ReportJson placeOrNull(const std::optional<Vec3>& place)
+{
+    return place ? ReportJson{place->x, place->y, place->z} : ReportJson();
+}
+
 ReportJson glassSection(const WindshieldReport& report)
 {
     const Glass& glass = report.parameters.glass;
@@ -109,6 +114,8 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"height_px", report.view.height},
                     {"field_of_view_deg", report.view.field_of_view / kDegree},
                     {"eye_distance_m", report.view.eye_distance},
+                    {"eye_m", placeOrNull(report.view.eye)},
+                    {"look_at_m", placeOrNull(report.view.look_at)},
                     {"ior", report.view.ior},
                     {"exposure", report.view.exposure},
                     {"highlight_boost", orNull(report.view.highlight_boost)}};

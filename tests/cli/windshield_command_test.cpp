@@ -530,6 +530,8 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--moving-only"}, 2, "--moving-only needs --droplets");
     expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
     expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
+    expectRefused({"--look-at", "1m,2m"}, 2, "three lengths: to the right, ahead and up");
+    expectRefused({"--look-at", "0m,-5m,0m"}, 2, "must be in front of the eye");
     expectRefused({"--fit"}, 2, "--background");
     expectRefused({"--samples", "5"}, 2, "from 1 to 4");
     expectRefused({"--size", "10x10"}, 2, "WIDTHxHEIGHT");

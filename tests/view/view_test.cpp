@@ -418,6 +418,51 @@ TEST(View, AStopIsTwiceTheLight)
     EXPECT_THROW(light(9.0), Error);
 }
 
+TEST(View, TheEyeIsAndLooksWhereItIsToldTo)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.6, .height = 0.4, .radius = kFlat, .slope = 90.0 * kDegree});
+    ViewOptions options;
+    options.width = 200;
+    options.height = 100;
+    options.eye = Vec3{0.05, -0.3, 0.02};
+    const double pixel = 2.0 * std::tan(22.5 * kDegree) * 0.3 / options.width;
+    const auto place = DriversView(parameters.glass, options).onGlass(10, 70);
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->x, 0.3 + 0.05 + pixel * (10.5 - 100.0), 1e-6);
+    EXPECT_NEAR(place->y, 0.2 + 0.02 - pixel * (70.5 - 50.0), 1e-6);
+    // Turned towards a droplet, it has that in the middle, and its place on the glass, too.
+    WindshieldState state = oneDroplet(parameters, 20e-9);
+    state.droplets[0].position = {0.43, 0.27};
+    options.look_at = Vec3{0.13, 0.0, 0.07};
+    DriversView view(parameters.glass, options);
+    const auto left = view.onGlass(99, 50);
+    const auto right = view.onGlass(100, 49);
+    ASSERT_TRUE(left && right);
+    EXPECT_NEAR(0.5 * (left->x + right->x), 0.43, 1e-4);
+    EXPECT_NEAR(0.5 * (left->y + right->y), 0.27, 1e-4);
+    view.lookAt(filled(200, 100, {200, 200, 200}, {50, 50, 50}));
+    view.show(state);
+    const Layer layer = view.layer();
+    Vec2 sum;
+    double weight = 0.0;
+    for (int y = 0; y < 100; ++y) {
+        for (int x = 0; x < 200; ++x) {
+            const double alpha = layer.rgba[static_cast<std::size_t>(4 * (200 * y + x) + 3)];
+            sum = sum + alpha * Vec2{x + 0.5, y + 0.5};
+            weight += alpha;
+        }
+    }
+    ASSERT_GT(weight, 0.0);
+    EXPECT_NEAR(sum.x / weight, 100.0, 0.5);
+    EXPECT_NEAR(sum.y / weight, 50.0, 0.5);
+    options.look_at = Vec3{0.0, -1.0, 0.0};
+    EXPECT_THROW(DriversView(parameters.glass, options), Error);
+    options.look_at = {};
+    options.eye = Vec3{0.0, 0.3, 0.0};
+    EXPECT_THROW(DriversView(parameters.glass, options), Error);
+}
+
 TEST(View, RefusesWhatCannotBeSeen)
 {
     const Glass glass;

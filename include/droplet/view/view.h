@@ -20,10 +20,14 @@ struct ViewOptions {
     double field_of_view = 45 * kDegree;  ///< of the width [rad], 1° … 150°
     double eye_distance = 0.5;            ///< from the glass, straight ahead [m], 0.01 … 100
     std::optional<Vec2> aim = {};         ///< place on the glass that is straight ahead [m]; empty: its middle
-    ShapeOptions shape = {};              ///< of droplets
-    double ior = 1.333;                   ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
-    int samples = 2;                      ///< rays a pixel and droplet, across and down; 1 … 4
-    double exposure = 0.0;                ///< of all that is seen, in stops: 1 is twice the light; −8 … 8
+    /// The eye, from that place: to the right, ahead and up; behind the glass [m]. Empty: eye_distance behind it.
+    std::optional<Vec3> eye = {};
+    /// What the middle of the frame shows, from that place, in the eye's front. Empty: what is straight ahead.
+    std::optional<Vec3> look_at = {};
+    ShapeOptions shape = {};  ///< of droplets
+    double ior = 1.333;       ///< of water at 20 °C, in yellow light (Lide, CRC Handbook); 1 … 2
+    int samples = 2;          ///< rays a pixel and droplet, across and down; 1 … 4
+    double exposure = 0.0;    ///< of all that is seen, in stops: 1 is twice the light; −8 … 8
     /// Lamps saturate a picture: its brightest pixels are taken for up to 1 + this times as bright, in their own hue;
     /// 0 … 4. Empty: 3 where few are bright, as by night, and less the more are, down to 0 by day.
     std::optional<double> highlight_boost = {};
@@ -58,8 +62,8 @@ private:
 /// @throws Error  InvalidArgument
 Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 
-/// What the driver sees: an eye behind the glass that looks straight ahead, and a picture so far away that only the
-/// direction of a ray tells what is seen of it.
+/// What the driver sees: an eye behind the glass, which looks straight ahead or elsewhere, and a picture so far away
+/// that only the direction of a ray tells what is seen of it.
 ///
 /// The eye's rays pass the pane, a plate that does not turn them, and the water on it, and are refracted where they
 /// leave it (Snell, Fresnel); where a droplet overhangs its contact, as beyond 90°, the air below it is passed over.

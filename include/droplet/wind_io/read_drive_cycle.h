@@ -14,8 +14,8 @@ namespace droplet {
 /// the end too; lines end in LF or CRLF, fields may be quoted.
 ///
 /// Nothing is guessed: fields that are empty or no number, NaN, times that do not rise, negative speeds, rows with more
-/// cells than the header and gaps are refused. A gap is an empty line between rows, or, where at least ten rows come at even intervals, an interval of 1.5
-/// of those or more.
+/// cells than the header and gaps are refused. A gap is an empty line between rows, or, where at least ten rows come at
+/// even intervals, an interval of 1.5 of those or more.
 /// @param text   UTF-8, with or without a byte order mark
 /// @param name   of the file, for messages
 /// @throws Error InvalidInput, naming the file, the row (its line in the file) and what is wrong, in one line
