@@ -24,12 +24,12 @@ enum class Channel {
 struct MaskOptions {
     Channel channel = Channel::Auto;
     bool invert = false;                            ///< exchange liquid and dry, after all other decisions
+    std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
+    int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
     Segmentation segment = Segmentation::Auto;      ///< Auto with a channel but Auto is Threshold; alpha that
                                                     ///< is used goes before it
     bool insist = false;                            ///< take a picture even if it does not look like a mask
     std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
-    std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
-    int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
     double vector_seconds = 10.0;  ///< that drawing an SVG may take, by the clock and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< that drawing an SVG may take beside its pixels [B], ≥ 64 MiB
 };

@@ -42,8 +42,8 @@ struct TraceOptions {
     double width = 20e-3;              ///< physical width of the image [m], > 0; ignored if pixel_size is set
     std::optional<double> pixel_size;  ///< edge of a pixel of the image's file [m], > 0; of SVG a CSS px
     double speck_size = 3.0;           ///< loops that enclose less than this are dropped [px²], ≥ 0
-    CleanOptions clean = {};           ///< what is done to the mask first
     bool corners = true;               ///< keep sharp corners sharp; otherwise everything is faired
+    CleanOptions clean = {};           ///< what is done to the mask first
 
     /// @throws Error InvalidArgument
     void validate() const;

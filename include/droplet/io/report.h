@@ -48,14 +48,14 @@ struct InputReport {
     double pixel_size = 0.0;  ///< [m]
     Channel channel = Channel::Luma;
     bool inverted = false;
-    Segmentation segment = Segmentation::Threshold;  ///< as in Mask
-    double segment_confidence = 1.0;                 ///< as in Mask
     double threshold = 0.5;
     double level_dry = 0.0;     ///< as in Mask
     double level_liquid = 1.0;  ///< as in Mask
     bool anti_aliased = false;
     std::size_t specks_dropped = 0;
-    double largest_speck_px = 0.0;  ///< [px²]
+    double largest_speck_px = 0.0;                   ///< [px²]
+    Segmentation segment = Segmentation::Threshold;  ///< as in Mask
+    double segment_confidence = 1.0;                 ///< as in Mask
 };
 
 /// The file that was written.

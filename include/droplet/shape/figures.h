@@ -25,9 +25,7 @@ struct ShapeFigures {
     double dry_area = 0.0;        ///< of the footprint, where the liquid left the ground dry [m²]
     double volume = 0.0;          ///< ∫(u − h) [m³]
     double height_max = 0.0;      ///< largest u − h [m]
-    /// Height of an endless puddle of the mean contact angle θ, 2 √(σ/ρg) sin(θ/2); of level, flat ground alone [m].
-    std::optional<double> height_bound;
-    double depth_max = 0.0;    ///< largest h − u: how far the surface sinks into the ground [m]
+    double depth_max = 0.0;       ///< largest h − u: how far the surface sinks into the ground [m]
     double liquid_area = 0.0;  ///< ∫√(1+|∇u|²) but for what is dry, the true area of the liquid's surface [m²]
     double linear_area = 0.0;  ///< ∫(1 + ½|∇u|²) there, what the linear model takes for it [m²]
     double surface_energy = 0.0;  ///< σ · liquid_area [J]
@@ -37,6 +35,8 @@ struct ShapeFigures {
     double bond_number = 0.0;  ///< ρ|g|A/(πσ): gravity against surface tension, at the radius of a disc of that area
     double projected_width = 0.0;  ///< ½∮|n·d|, the rim's width seen from downhill; 0 without tilt [m]
     ContactAngle contact_angle;
+    /// Height of an endless puddle of the mean contact angle θ, 2 √(σ/ρg) sin(θ/2); of level, flat ground alone [m].
+    std::optional<double> height_bound = {};
 };
 
 /// The angles between which a contact line stays where it is.
