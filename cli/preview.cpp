@@ -114,8 +114,8 @@ void declarePreview(CommandLine& line)
              "what it stands on: laid as the footprint's picture is,\n"
              "or on the object of --onto [a table with a ruling]");
     line.add("Picture", "--environment", "FILE",
-             "what shines, in place of lamps: a picture of all around,\n"
-             "twice as wide as high; EXR and HDR as light");
+             "what shines, not lamps: a picture of all around,\n"
+             "twice as wide as high; EXR and HDR hold light");
     line.add("Picture", "--background", "NAME",
              "ground; or none: transparent but for the droplet and\n"
              "its shadow [ground]");

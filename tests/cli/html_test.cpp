@@ -110,7 +110,7 @@ private:
 
 TEST_F(HtmlTest, ChangesNothingOfTheOtherFiles)
 {
-    for (const std::string extension : {".glb", ".gltf", ".obj"}) {
+    for (const std::string extension : {".glb", ".gltf", ".ply"}) {
         make({"disc.pgm", "plain" + extension, "--json", "plain.json"});
         make({"disc.pgm", "beside" + extension, "--html", "page.html", "--json", "beside.json"});
         EXPECT_EQ(bytesOf("plain" + extension), bytesOf("beside" + extension));
