@@ -19,6 +19,7 @@
 #include "droplet/version.h"
 #include "io/axes.h"
 #include "io/byte_stream.h"
+#include "io/dry_surface.h"
 
 namespace droplet {
 namespace {
@@ -92,7 +93,7 @@ std::string signature()
 
 std::uint64_t writeObj(const Surface& surface, std::ostream& out)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     const Welded welded = weldVertices(surface);
     ByteStream bytes(out);
     bytes.text("# " + signature() + "\n# unit: millimetre, up: +Y, front: +Z\no droplet\n");
@@ -126,7 +127,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out)
 
 std::uint64_t writePly(const Surface& surface, std::ostream& out)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     const Welded welded = weldVertices(surface);
     if (welded.first.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw Error(ErrorCode::InvalidArgument,
@@ -160,7 +161,7 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
 
 std::uint64_t writeStl(const Surface& surface, std::ostream& out)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     if (surface.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
                                                     " triangles; STL counts up to 4294967295");

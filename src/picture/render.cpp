@@ -76,10 +76,10 @@ public:
     Tracer(const Surface& surface, const RenderOptions& options)
         : options_(options),
           turn_(turnedBack(options.azimuth)),
-          scene_(surface, options.stand ? &*options.stand : nullptr, options.extent),
+          scene_(surface, options),
           studio_(options.lighting, options.stand && options.frames_stand, turn_),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(options.frames_stand ? scene_.shown() : scene_.droplets(), options,
+          camera_(options.stand && options.frames_stand ? scene_.shown() : scene_.droplets(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -451,15 +451,25 @@ void RenderOptions::validate() const
     if (stand) {
         stand->validate();
     }
+    if (framed) {
+        const Vec3 size = framed->high - framed->low;
+        if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0 && length(size) > 0.0 && std::isfinite(length(size)))) {
+            refuse("framed must be a box with an extent");
+        }
+    }
 }
 
 Picture render(const Surface& surface, const RenderOptions& options)
 {
     options.validate();
-    surface.validate();
-    const Vec3& first = surface.positions.front();
-    if (std::all_of(surface.positions.begin(), surface.positions.end(),
-                    [&first](const Vec3& p) { return p.x == first.x && p.y == first.y && p.z == first.z; })) {
+    const bool dry = options.framed && surface.triangles.empty();
+    if (!dry) {
+        surface.validate();
+    }
+    if (!dry && std::all_of(surface.positions.begin(), surface.positions.end(),
+                            [&first = surface.positions.front()](const Vec3& p) {
+                                return p.x == first.x && p.y == first.y && p.z == first.z;
+                            })) {
         throw Error(ErrorCode::InvalidArgument, "surface must have an extent; all of it is at one place");
     }
     if (options.paint) {
@@ -471,6 +481,19 @@ Picture render(const Surface& surface, const RenderOptions& options)
         drawLegend(picture, *options.paint);
     }
     return picture;
+}
+
+std::optional<ViewBox> around(const Surface& surface, const std::optional<ViewBox>& box)
+{
+    std::optional<ViewBox> found = box;
+    for (const Vec3& p : surface.positions) {
+        if (!found) {
+            found = ViewBox{p, p};
+        }
+        found->low = {std::min(found->low.x, p.x), std::min(found->low.y, p.y), std::min(found->low.z, p.z)};
+        found->high = {std::max(found->high.x, p.x), std::max(found->high.y, p.y), std::max(found->high.z, p.z)};
+    }
+    return found;
 }
 
 TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)

@@ -94,8 +94,10 @@ struct Scene::Embree {
     }
 };
 
-Scene::Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent) : embree_(std::make_unique<Embree>())
+Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std::make_unique<Embree>())
 {
+    const TexturedMesh* const stand = options.stand ? &*options.stand : nullptr;
+    const Vec2 extent = options.extent;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 low{kInfinity, kInfinity, kInfinity};
     Vec3 high{-kInfinity, -kInfinity, -kInfinity};
@@ -106,6 +108,9 @@ Scene::Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent) : e
         }
     };
     enclose(surface.positions);
+    if (options.framed) {
+        enclose({options.framed->low, options.framed->high});
+    }
     const Vec3 liquid_low = low;
     const Vec3 liquid_high = high;
     if (stand != nullptr) {
@@ -116,6 +121,12 @@ Scene::Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent) : e
     extent_ = extent.x > 0.0 && extent.y > 0.0 ? extent : Vec2{high.x - low.x, high.y - low.y};
     low_ = toScene(liquid_low);
     high_ = toScene(liquid_high);
+    if (options.framed) {
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            framed_.push_back({(corner & 1U) != 0 ? high_.x : low_.x, (corner & 2U) != 0 ? high_.y : low_.y,
+                               (corner & 4U) != 0 ? high_.z : low_.z});
+        }
+    }
 
     const std::vector<bool> base = baseTriangles(surface);
     on_plane_ = stand == nullptr;
@@ -171,7 +182,9 @@ Vec3f Scene::toScene(Vec3 p) const
 
 std::vector<Vec3f> Scene::droplets() const
 {
-    return {shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_)};
+    return framed_.empty()
+               ? std::vector<Vec3f>(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_))
+               : framed_;
 }
 
 Vec2 Scene::uvOnPlane(Vec3f place) const

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "droplet/picture/render.h"
 #include "droplet/surface/surface.h"
-#include "droplet/surface/textured_mesh.h"
 #include "picture/optics.h"
 
 namespace droplet {
@@ -40,10 +40,10 @@ struct Meeting {
 /// itself.
 class Scene {
 public:
-    /// @param surface  valid
-    /// @param stand    valid; null: the plane z = 0, or where the base does not lie in it nothing but the base
-    /// @param extent   of the image, for uv on the plane [m]; zero: that of the surface
-    Scene(const Surface& surface, const TexturedMesh* stand, Vec2 extent);
+    /// @param surface  valid, or without triangles
+    /// @param options  stand, valid: without one the plane z = 0, or where the base does not lie in it nothing but the
+    ///                 base; extent, for uv on the plane: if zero, that of the surface; framed
+    Scene(const Surface& surface, const RenderOptions& options);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -58,11 +58,12 @@ public:
     [[nodiscard]] Vec3f toScene(Vec3 p) const;
     [[nodiscard]] double scale() const { return scale_; }  ///< [m]
     [[nodiscard]] bool onPlane() const { return on_plane_; }
-    /// Smallest box around the liquid.
+    /// Smallest box around the liquid and what is framed.
     [[nodiscard]] Vec3f low() const { return low_; }
     [[nodiscard]] Vec3f high() const { return high_; }
     /// Everything that a picture should show: the surface's vertices, then the stand's.
     [[nodiscard]] const std::vector<Vec3f>& shown() const { return shown_; }
+    /// The surface's vertices, or the corners of what is framed instead.
     [[nodiscard]] std::vector<Vec3f> droplets() const;
     [[nodiscard]] const Triangle& triangle(const Meeting& meeting) const { return triangles_[meeting.triangle]; }
     [[nodiscard]] Vec3f vertex(std::uint32_t index) const { return shown_[index]; }  ///< of the surface
@@ -83,6 +84,7 @@ private:
     Vec3f high_;
     std::vector<Triangle> triangles_;  ///< of the liquid, indices of the surface's vertices
     std::vector<Vec3f> shown_;
+    std::vector<Vec3f> framed_;
     std::size_t surface_vertices_ = 0;
     std::unique_ptr<Embree> embree_;
 };

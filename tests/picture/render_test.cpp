@@ -129,7 +129,7 @@ TEST(Render, FurnaceHoldsOnCurvedGround)
 TEST(Render, GroundPictureLiesWhereUvSays)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .centre = {2e-3, -1e-3}});
-    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    const Scene scene(surface, small());
     for (const View view : {View::Top, View::ThreeQuarter}) {
         for (const double azimuth : {0.0, 0.7}) {
             RenderOptions options = small(view);
@@ -162,7 +162,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
     constexpr double kHeight = 1.5e-3;
     constexpr double kIndex = 1.5;
     const Surface surface = film(kHeight, 9e-3);
-    const Scene scene(surface, nullptr, {kExtent, kExtent});
+    const Scene scene(surface, small());
     RenderOptions options = small();
     options.look = ofIndex(kIndex);
     options.ground = slopes();
@@ -278,7 +278,7 @@ TEST(Render, WaterShowsHighlightsAndShadows)
 // Whatever the view, all is in the picture and fills it up to the margin.
 TEST(Camera, FramesEverything)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     for (const View view : kViews) {
         for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
             RenderOptions options = small(view);
@@ -302,7 +302,7 @@ TEST(Camera, FramesEverything)
 
 TEST(Camera, FramesATurntableOnceForAllTurns)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), nullptr, {});
+    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
     options.fits_any_turn = true;
     const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
@@ -320,9 +320,42 @@ TEST(Camera, FramesATurntableOnceForAllTurns)
 }
 
 // A point on the right comes to the front when the droplet is turned counter-clockwise by three quarters.
+TEST(Camera, StaysWhereItIsForWhatIsFramed)
+{
+    for (const View view : kViews) {
+        RenderOptions options = small(view);
+        options.ground = slopes();
+        const Surface wide = roundDroplet({.outer = 4e-3, .height = 1.5e-3});
+        const Surface narrow = roundDroplet({.outer = 1e-3, .height = 0.5e-3});
+        options.framed = around(narrow, around(wide));
+        const std::array pictures{render(wide, options), render(narrow, options), render(Surface{}, options)};
+        for (const Picture& picture : pictures) {
+            for (const int y : {0, options.height - 1}) {
+                EXPECT_EQ(pixelAt(picture, 0, y), pixelAt(pictures[0], 0, y));
+                EXPECT_EQ(pixelAt(picture, options.width - 1, y), pixelAt(pictures[0], options.width - 1, y));
+            }
+        }
+        const auto differing = [&](const Picture& a, const Picture& b) {
+            int count = 0;
+            for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+                count += a.rgb[i] != b.rgb[i] ? 1 : 0;
+            }
+            return count;
+        };
+        EXPECT_GT(differing(pictures[0], pictures[2]), differing(pictures[1], pictures[2])) << "it is larger";
+        EXPECT_GT(differing(pictures[1], pictures[2]), 0);
+        options.framed.reset();
+        EXPECT_NE(pixelAt(render(narrow, options), 0, 0), pixelAt(pictures[1], 0, 0)) << "it is nearer then";
+    }
+    EXPECT_FALSE(around(Surface{}));
+    RenderOptions options = small();
+    options.framed = ViewBox{{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}};
+    EXPECT_THROW(render(roundDroplet(), options), Error);
+}
+
 TEST(Camera, TurnsTheDropletCounterClockwise)
 {
-    const Scene scene(roundDroplet(), nullptr, {});
+    const Scene scene(roundDroplet(), RenderOptions{});
     RenderOptions options = small(View::Top);
     options.azimuth = 90.0 * kDegree;
     const Camera camera(scene.shown(), options);

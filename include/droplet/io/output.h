@@ -29,7 +29,8 @@ struct WriteOptions {
     std::optional<bool> closed = {};  ///< isClosed(surface), where that is known already
 };
 
-/// Writes a surface to a stream in the given format.
+/// Writes a surface to a stream in the given format; one without vertices, as of a frame without liquid, as a file that
+/// holds nothing.
 /// @return       bytes handed to the stream, which is left failed if it did not take everything
 /// @throws Error InvalidArgument as the writers of each format
 std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format format, const WriteOptions& options = {});

@@ -27,6 +27,15 @@ enum class Lighting {
     Uniform,  ///< radiance 1 from everywhere, unit light on all ground: for measuring
 };
 
+/// A box with edges along the axes [m].
+struct ViewBox {
+    Vec3 low;
+    Vec3 high;
+};
+
+/// The smallest box around a surface and another box; of a surface without vertices, that box.
+std::optional<ViewBox> around(const Surface& surface, const std::optional<ViewBox>& box = {});
+
 /// How a picture is taken.
 struct RenderOptions {
     int width = 1280;  ///< [px] 1 … 8192
@@ -41,8 +50,11 @@ struct RenderOptions {
     Vec2 extent = {};                    ///< physical size of the image, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< what the droplet stands on; empty: a table with a fine ruling
     std::optional<TexturedMesh> stand = {};  ///< what the droplet stands on if not the plane z = 0, uv as the droplet's
-    bool frames_stand = true;         ///< show all of the stand, an object then; otherwise the droplets, on ground
-    std::optional<Paint> paint = {};  ///< opaque colours instead of the material
+    bool frames_stand = true;            ///< show all of the stand, an object then; otherwise the droplets, on ground
+    std::optional<ViewBox> framed = {};  ///< what the camera frames, and what gives the table its ruling and light, so
+                                         ///< that pictures of several surfaces can be compared; it must hold the
+                                         ///< surface. Empty: the surface
+    std::optional<Paint> paint = {};     ///< opaque colours instead of the material
 
     /// @throws Error InvalidArgument
     void validate() const;
@@ -60,7 +72,7 @@ struct RenderOptions {
 ///
 /// Guarantees: the same bytes for the same surface and options, at any number of threads. Floating-point modes of the
 /// caller's threads are as before.
-/// @param surface  valid; closed or open
+/// @param surface  valid; closed or open; with `framed` it may be without triangles: then there is the ground alone
 /// @throws Error   InvalidArgument
 Picture render(const Surface& surface, const RenderOptions& options = {});
 
