@@ -17,12 +17,22 @@ enum class Channel {
     Luma,   ///< bright is liquid, as it stands: no look at the border, no stretching of levels
 };
 
+/// Levels of a channel, in [0, 1], that are dry and liquid.
+struct MaskLevels {
+    Channel channel = Channel::Luma;  ///< never Auto
+    double dry = 0.0;
+    double liquid = 1.0;
+};
+
 /// How the pixels of an image become coverage by liquid.
 struct MaskOptions {
     Channel channel = Channel::Auto;
     bool invert = false;                            ///< exchange liquid and dry, after all other decisions
     std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
     int vector_long_side = 2048;                    ///< longer side that SVG is drawn with [px], 1 … 32767
+    std::optional<MaskLevels> levels = {};          ///< with Channel::Auto: taken instead of the image's own, so that
+                                                    ///< the frames of a sequence are read alike; an image without
+                                                    ///< alpha is opaque then
 };
 
 /// How much of every pixel liquid covers, and how that was decided.
@@ -36,6 +46,9 @@ struct Mask {
     bool inverted = false;            ///< true if dark (or transparent) pixels are the liquid
     double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
     double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
+
+    std::optional<MaskLevels> found;  ///< with Channel::Auto: what the image by itself says, before `invert`; empty if
+                                      ///< nothing stands out in it, as in an image of one level
 
     std::optional<double> drawn_scale;     ///< of an SVG image: pixels of the mask per CSS px of the page, > 0
     std::optional<double> physical_width;  ///< of an SVG image that states its size in cm, mm, in, pt or pc [m]

@@ -42,6 +42,7 @@ struct TraceOptions {
     std::optional<double> pixel_size;  ///< edge of a pixel of the image's file [m], > 0; of SVG a CSS px
     double speck_size = 3.0;           ///< loops that enclose less than this are dropped [px²], ≥ 0
     bool corners = true;               ///< keep sharp corners sharp; otherwise everything is faired
+    bool may_be_dry = false;           ///< without liquid: an outline without loops, not an error
 
     /// @throws Error InvalidArgument
     void validate() const;
@@ -59,7 +60,8 @@ double pixelSize(const Mask& mask, const TraceOptions& options);
 /// the number of pixels.
 /// @param mask     valid
 /// @param options  threshold, physical size, speck size
-/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only
+/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only, unless it may
+/// be dry
 Outline trace(const Mask& mask, const TraceOptions& options = {});
 
 }  // namespace droplet
