@@ -88,8 +88,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
 void declarePreview(CommandLine& line)
 {
     line.add("Picture", "--preview", "FILE", "write a picture of it, PNG; - is standard output");
-    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
-    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+    declareView(line);
     line.add("Picture", "--ground", "PICTURE",
              "what it stands on: laid as the footprint's picture is,\n"
              "or on the object of --onto [a table with a ruling]");
@@ -99,9 +98,14 @@ void declarePreview(CommandLine& line)
     line.add("Picture", "--turntable", "N", "N pictures of a whole turn, FILE-001.png and so on");
 }
 
-std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings)
+void declareView(CommandLine& line)
 {
-    PreviewOptions options;
+    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
+    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+}
+
+void readView(const CommandLine& line, PreviewOptions& options)
+{
     if (const auto view = line.value("--view")) {
         options.view = choice<droplet::View>(*view, {{"three-quarter", droplet::View::ThreeQuarter},
                                                      {"top", droplet::View::Top},
@@ -110,6 +114,12 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     if (const auto size = line.value("--preview-size")) {
         readSize(*size, options);
     }
+}
+
+std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings)
+{
+    PreviewOptions options;
+    readView(line, options);
     const auto ground = line.value("--ground");
     if (ground) {
         options.ground = ground->text;
