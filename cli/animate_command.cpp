@@ -4,9 +4,11 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -15,6 +17,7 @@
 #include "animate_options.h"
 #include "droplet/error.h"
 #include "droplet/io/animation.h"
+#include "droplet/io/page.h"
 #include "droplet/picture/contact_sheet.h"
 #include "droplet/picture/render.h"
 #include "droplet/sequence/sequence_report.h"
@@ -28,6 +31,7 @@
 #include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -51,25 +55,54 @@ void check(const AnimateOptions& options, const Frames& frames)
         inputs.push_back({"--surface", *options.settings.ground.path});
     }
     std::vector<NamedFile> outputs;
-    if (options.files) {
+    const auto for_frames = [&](const char* name, const std::optional<NumberedPath>& files, const std::string& path) {
         // A video's frames are counted only as they come; the first stands for them.
-        const std::vector<std::size_t> numbers = frames.numbers();
-        for (const std::size_t number : numbers.empty() ? std::vector<std::size_t>{1} : numbers) {
-            outputs.push_back({"OUTPUT", options.files->at(number)});
-            if (const auto material = materialFile(outputs.back().path, options.format)) {
-                outputs.push_back({"OUTPUT's material", *material});
+        std::vector<std::size_t> numbers = frames.numbers();
+        if (numbers.empty() || !files) {
+            numbers = {1};
+        }
+        for (const std::size_t number : numbers) {
+            outputs.push_back({name, files ? files->at(number) : path});
+            if (const auto material = materialFile(outputs.back().path, options.format); material && files) {
+                outputs.push_back({std::string(name) + "'s material", *material});
             }
         }
-    } else {
-        outputs.push_back({"OUTPUT", options.output});
+    };
+    for_frames("OUTPUT", options.files, options.output);
+    if (options.preview) {
+        for_frames("--preview", options.preview_files, options.preview->path);
     }
     if (options.contact_sheet) {
         outputs.push_back({"--contact-sheet", *options.contact_sheet});
+    }
+    if (options.html) {
+        outputs.push_back({"--html", *options.html});
     }
     if (options.json) {
         outputs.push_back({"--json", *options.json});
     }
     checkFiles(inputs, outputs, options.run.files);
+}
+
+/// As in `3-7, 9`; of more than eight parts the rest is counted.
+std::string compactList(const std::vector<std::size_t>& numbers)
+{
+    constexpr std::size_t kMostParts = 8;
+    std::string text;
+    std::size_t parts = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++parts) {
+        if (parts == kMostParts) {
+            return text + fmt::format(" and {} more", numbers.size() - i);
+        }
+        std::size_t last = i;
+        while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) {
+            ++last;
+        }
+        text += parts == 0 ? "" : ", ";
+        text += last == i ? fmt::format("{}", numbers[i]) : fmt::format("{}-{}", numbers[i], numbers[last]);
+        i = last + 1;
+    }
+    return text;
 }
 
 /// The sequence on its way to files and report.
@@ -85,7 +118,7 @@ public:
         report_.frames_per_second =
             options.frames_per_second.value_or(frames.framesPerSecond().value_or(report_.frames_per_second));
         report_.warnings = options.settings.warnings;
-        if (!options.files) {
+        if (!options.files || options.html) {
             animation_.emplace(droplet::AnimationOptions{.frames_per_second = report_.frames_per_second,
                                                          .material = options.settings.material,
                                                          .closed = !options.settings.droplet.open,
@@ -107,6 +140,14 @@ public:
             }
             progress_(Stage::Read);
         }
+        if (report_.dry() == report_.frames.size()) {
+            throw Error(
+                ErrorCode::InvalidInput,
+                fmt::format(
+                    "{}: no liquid in {}", options_.inputs.front(),
+                    report_.frames.size() == 1 ? "it" : fmt::format("any of {} frames", report_.frames.size())));
+        }
+        warnOfDisagreement();
         progress_(Stage::Write);
         save();
         return std::move(report_);
@@ -119,14 +160,13 @@ private:
         sequence_.volume_mode = options_.volume_mode;
         sequence_.droplet = options_.settings.droplet;
         sequence_.droplet.trace = options_.footprint.trace;
+        sequence_.droplet.trace.may_be_dry = true;
         if (mask.physical_width && !options_.footprint.sized) {
             sequence_.droplet.trace.width = *mask.physical_width;
         }
         const double pixel = droplet::pixelSize(mask, sequence_.droplet.trace);
         sequence_.droplet.solve.ground =
             groundOf(options_.settings, around_, {pixel * mask.width, pixel * mask.height});
-        channel_ = mask.channel;
-        inverted_ = mask.inverted;
         report_.width_px = mask.width;
         report_.height_px = mask.height;
         report_.pixel_size = pixel;
@@ -138,15 +178,15 @@ private:
     {
         if (report_.frames.empty()) {
             begin(picture);
-        } else if ((picture.mask.channel != channel_ || picture.mask.inverted != inverted_) && !told_channel_) {
-            told_channel_ = true;
-            report_.warnings.push_back(picture.name +
-                                       " is read by another channel or the other way round than the "
-                                       "first frame; --channel settles it");
+        }
+        if (picture.disagrees) {
+            disagreeing_.push_back(picture.number);
         }
         progress_(Stage::Trace);
         droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
-        refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
+        if (!outline.loops.empty()) {
+            refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
+        }
         frame_ = frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
                         : firstFrame(std::move(outline), sequence_, progress_);
         droplet::FrameReport report = reportOf(*frame_, sequence_);
@@ -157,67 +197,133 @@ private:
         if (options_.files) {
             progress_(Stage::Write);
             report.output = options_.files->at(picture.number);
-            std::uint64_t bytes = 0;
-            writeTogether(
-                surfaceFiles(
-                    frame_->droplet.surface,
-                    {*report.output,
-                     options_.format,
-                     {.material = options_.settings.material, .closed = report.closed, .unit = options_.settings.unit}},
-                    bytes),
-                options_.run.files);
-            report_.bytes += bytes;
-        } else {
+            writeFrame(*report.output, report.closed);
+        }
+        if (animation_ && frame_->droplets.empty()) {
+            animation_->addDry();
+        } else if (animation_) {
             animation_->add(frame_->droplet.surface, frame_->continues);
         }
-        if (options_.contact_sheet) {
-            photograph(report);
+        if (options_.contact_sheet || options_.preview) {
+            const auto surface = std::make_shared<const droplet::Surface>(frame_->droplet.surface);
+            seen_ = droplet::around(*surface, seen_);
+            if (options_.preview) {
+                film_.push_back({surface, picture.number});
+            }
+            if (options_.contact_sheet) {
+                keepForSheet(report, surface);
+            }
         }
         report_.frames.push_back(std::move(report));
+    }
+
+    /// Files of frames without liquid wait for the first that has some: without any, nothing is written.
+    void writeFrame(const std::string& path, bool closed)
+    {
+        const auto write = [&](const std::string& file, const droplet::Surface& surface) {
+            report_.bytes += droplet::writeWhole(
+                file,
+                [&](std::ostream& out) {
+                    writeSurface(surface, out, options_.format, {options_.settings.material, closed});
+                },
+                options_.run.files);
+        };
+        const bool dry = frame_->droplets.empty();
+        if (dry && report_.dry() == report_.frames.size()) {
+            return;
+        }
+        if (report_.dry() == report_.frames.size()) {
+            for (const droplet::FrameReport& earlier : report_.frames) {
+                write(*earlier.output, {});
+            }
+        }
+        write(path, frame_->droplet.surface);
     }
 
     /// So many of a sequence's frames are enough to see how it goes.
     static constexpr std::size_t kMostTiles = 60;
 
-    /// Whether a frame is on the sheet; of a video, that is settled in the end.
-    [[nodiscard]] static bool isChosen(std::size_t frame, std::size_t count)
-    {
-        return count <= kMostTiles || frame * kMostTiles / count != (frame + 1) * kMostTiles / count;
-    }
-
-    void photograph(const droplet::FrameReport& report)
+    /// Keeps a frame's surface until all are known, for they have one camera. Where nobody knows how many will come,
+    /// twice as many as the sheet takes are kept at most, evenly.
+    void keepForSheet(const droplet::FrameReport& report, const std::shared_ptr<const droplet::Surface>& surface)
     {
         const std::size_t number = report_.frames.size();
-        if (!isChosen(number, frames_.count().value_or(0))) {
+        const std::size_t count = frames_.count().value_or(0);
+        const bool chosen = count > kMostTiles ? number * kMostTiles / count != (number + 1) * kMostTiles / count
+                                               : number % sheet_step_ == 0;
+        if (!chosen) {
             return;
         }
-        constexpr int kWidth = 320;
-        constexpr int kHeight = 240;
+        const std::string what = report.droplets.empty() ? "no liquid"
+                                 : report.pressure       ? fmt::format("{:.3g} Pa", *report.pressure)
+                                                         : fmt::format("{} droplets", report.droplets.size());
+        shots_.push_back({surface, report.droplets.empty()
+                                       ? fmt::format("frame {}: {}", number + 1, what)
+                                       : fmt::format("frame {}: {}, {:.3g} mm high", number + 1, what,
+                                                     report.total.height_max / droplet::kMillimetre)});
+        if (count == 0 && shots_.size() == 2 * kMostTiles) {
+            for (std::size_t k = 0; k < kMostTiles; ++k) {
+                shots_[k] = std::move(shots_[2 * k]);
+            }
+            shots_.resize(kMostTiles);
+            sheet_step_ *= 2;
+        }
+    }
+
+    /// One for all frames, once they are known.
+    [[nodiscard]] droplet::RenderOptions cameraOf(const PreviewOptions& preview) const
+    {
         droplet::RenderOptions render;
-        render.width = kWidth;
-        render.height = kHeight;
+        render.width = preview.width;
+        render.height = preview.height;
+        render.view = preview.view;
         render.look = droplet::lookOf(options_.settings.material);
         render.extent = frame_->droplet.domain.extent;
+        render.framed = seen_;
         if (!sequence_.droplet.solve.ground.flat()) {
             render.stand = droplet::groundMesh(sequence_.droplet.solve.ground, render.extent);
             render.frames_stand = false;
         }
-        const std::string what = report.pressure ? fmt::format("{:.3g} Pa", *report.pressure)
-                                                 : fmt::format("{} droplets", report.droplets.size());
-        tiles_.push_back({droplet::render(frame_->droplet.surface, render),
-                          fmt::format("frame {}: {}, {:.3g} mm high", number + 1, what,
-                                      report.total.height_max / droplet::kMillimetre)});
+        return render;
+    }
+
+    void filmFrames() const
+    {
+        const droplet::RenderOptions render = cameraOf(*options_.preview);
+        for (const FilmFrame& frame : film_) {
+            droplet::writeWhole(
+                options_.preview_files->at(frame.number),
+                [&](std::ostream& out) { droplet::writePng(droplet::render(*frame.surface, render), out); },
+                options_.run.files);
+        }
+    }
+
+    void filmVideo(std::ostream& out) const
+    {
+        const PreviewOptions& preview = *options_.preview;
+        const droplet::RenderOptions render = cameraOf(preview);
+        VideoWriter video(
+            {preview.path, codecFor(preview.path), preview.width, preview.height, report_.frames_per_second});
+        for (const FilmFrame& frame : film_) {
+            video.add(droplet::render(*frame.surface, render));
+        }
+        video.finish(out);
     }
 
     [[nodiscard]] droplet::Picture sheet()
     {
-        std::vector<droplet::Tile> chosen;
-        for (std::size_t k = 0; k < tiles_.size(); ++k) {
-            if (isChosen(k, tiles_.size())) {
-                chosen.push_back(std::move(tiles_[k]));
+        PreviewOptions tile;
+        tile.width = 320;
+        tile.height = 240;
+        const droplet::RenderOptions render = cameraOf(tile);
+        std::vector<droplet::Tile> tiles;
+        for (std::size_t k = 0; k < shots_.size(); ++k) {
+            const std::size_t most = std::min(shots_.size(), kMostTiles);
+            if (k * most / shots_.size() != (k + 1) * most / shots_.size()) {
+                tiles.push_back({droplet::render(*shots_[k].surface, render), shots_[k].caption});
             }
         }
-        return droplet::contactSheet(chosen);
+        return droplet::contactSheet(tiles);
     }
 
     /// Frames tend to have the same to complain of; once is enough.
@@ -231,14 +337,40 @@ private:
         }
     }
 
+    void warnOfDisagreement()
+    {
+        if (disagreeing_.empty()) {
+            return;
+        }
+        const Frames::Decision& decided = *frames_.decision();
+        const bool dark = (decided.levels.liquid < decided.levels.dry) != options_.footprint.mask.invert;
+        report_.warnings.push_back(fmt::format(
+            "{} {} by {} would be read otherwise; {} read as {}, by {} with {} as liquid; --channel and "
+            "--invert decide otherwise",
+            disagreeing_.size() == 1 ? "frame" : "frames", compactList(disagreeing_),
+            disagreeing_.size() == 1 ? "itself" : "themselves", disagreeing_.size() == 1 ? "it is" : "they are",
+            decided.name, decided.levels.channel == droplet::Channel::Alpha ? "alpha" : "luma",
+            decided.levels.channel == droplet::Channel::Alpha ? (dark ? "transparent" : "opaque")
+                                                              : (dark ? "dark" : "bright")));
+    }
+
     void save()
     {
+        if (options_.preview_files) {
+            filmFrames();
+        }
         std::vector<OutputFile> files;
+        if (options_.preview && !options_.preview_files) {
+            files.push_back({options_.preview->path, [&](std::ostream& out) { filmVideo(out); }});
+        }
         if (!options_.files) {
             files.push_back({options_.output, [&](std::ostream& out) { report_.bytes = animation_->write(out); }});
         }
         if (options_.contact_sheet) {
             files.push_back({*options_.contact_sheet, [&](std::ostream& out) { droplet::writePng(sheet(), out); }});
+        }
+        if (options_.html) {
+            files.push_back({*options_.html, [&](std::ostream& out) { writeHtml(out); }});
         }
         if (options_.json) {
             files.push_back({*options_.json, [&](std::ostream& out) {
@@ -248,6 +380,22 @@ private:
         }
         writeTogether(files, options_.run.files);
         finish();
+    }
+
+    void writeHtml(std::ostream& out) const
+    {
+        droplet::PageContent page;
+        page.title = std::filesystem::path(isStream(*options_.html) || options_.files ? options_.inputs.front()
+                                                                                      : options_.output)
+                         .stem()
+                         .string();
+        std::ostringstream glb;
+        animation_->write(glb);
+        page.glb = std::move(glb).str();
+        std::ostringstream json;
+        writeSequenceReport(json, report_);
+        page.report = std::move(json).str();
+        droplet::writePage(out, page);
     }
 
     void finish()
@@ -264,11 +412,20 @@ private:
     droplet::SequenceOptions sequence_;
     std::optional<droplet::Animation> animation_;
     std::optional<Frame> frame_;
-    droplet::Channel channel_ = droplet::Channel::Luma;
-    bool inverted_ = false;
-    bool told_channel_ = false;
+    std::vector<std::size_t> disagreeing_;  ///< numbers of frames
     std::set<std::string> told_;
-    std::vector<droplet::Tile> tiles_;
+    struct Shot {
+        std::shared_ptr<const droplet::Surface> surface;
+        std::string caption;
+    };
+    struct FilmFrame {
+        std::shared_ptr<const droplet::Surface> surface;
+        std::size_t number = 0;
+    };
+    std::optional<droplet::ViewBox> seen_;  ///< around all frames
+    std::vector<FilmFrame> film_;           ///< for the preview
+    std::vector<Shot> shots_;               ///< for the sheet
+    std::size_t sheet_step_ = 1;            ///< every so manieth frame is kept for it
     droplet::SequenceReport report_;
 };
 
@@ -291,7 +448,13 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
                  << (frame.continues ? ", continues" : "") << "\n";
         }
     }
-    text << count << (count == 1 ? " frame, " : " frames, ") << inMicrolitres(first.total.volume);
+    text << count << (count == 1 ? " frame, " : " frames, ");
+    if (report.dry() > 0) {
+        text << report.dry() << " without liquid, ";
+    }
+    const auto wet = std::find_if(report.frames.begin(), report.frames.end(),
+                                  [](const droplet::FrameReport& frame) { return !frame.droplets.empty(); });
+    text << inMicrolitres(report.volume_mode == droplet::VolumeMode::Total ? wet->total.volume : first.total.volume);
     if (report.volume_mode == droplet::VolumeMode::Track) {
         double gained = 0.0;
         double lost = 0.0;
@@ -342,6 +505,10 @@ int runAnimate(int argc, const char* const* argv)
     const auto& options = std::get<AnimateOptions>(parsed);
     Frames frames(options.inputs);
     check(options, frames);
+    if (options.preview && !options.preview_files) {
+        const std::string& path = options.preview->path;
+        checkCodec(codecFor(path), path);
+    }
     std::optional<tbb::global_control> threads;
     if (options.run.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "animate_options.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "common_options.h"
 #include "files.h"
+#include "shape_options.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -41,10 +45,16 @@ void declareAnimate(CommandLine& line)
     line.add("Sequence", "--contact-sheet", "FILE",
              "write a PNG of the frames side by side, up to 60 of\n"
              "them; - is standard output");
+    line.add("Picture", "--preview", "FILE",
+             "write pictures of it: out/%04d.png, one for every\n"
+             "frame, or a .mp4, .mkv, .mov or .webm, which takes\n"
+             "ffmpeg");
+    declareView(line);
     declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
+    declareHtml(line);
     line.add("Run", "--json", "FILE", "write a report; - is standard output");
     declareRun(line);
 }
@@ -67,9 +77,35 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
                extension);
     }
     warnOfFormat(line, options.format, false, options.settings);
-    if (line.value("--fps") && options.files) {
+    if (line.value("--fps") && options.files && (!options.preview || options.preview_files)) {
         options.settings.warnings.push_back("--fps has no effect: every frame has a file of its own");
     }
+}
+
+/// Frames of one camera, as pictures or a video.
+void readFilm(const CommandLine& line, AnimateOptions& options)
+{
+    PreviewOptions preview;
+    readView(line, preview);
+    const auto path = line.value("--preview");
+    if (!path) {
+        for (const char* option : {"--view", "--preview-size"}) {
+            if (line.value(option)) {
+                options.settings.warnings.push_back(std::string(option) + " has no effect without --preview");
+            }
+        }
+        return;
+    }
+    preview.path = path->text;
+    options.preview_files = NumberedPath::of(preview.path, "--preview");
+    if (options.preview_files ? std::filesystem::path(preview.path).extension() != ".png" : !isVideo(preview.path)) {
+        refuse(*path, "pictures such as out/%04d.png, or a video: .mp4, .mkv, .mov, .webm");
+    }
+    if (!options.preview_files && (preview.width % 2 != 0 || preview.height % 2 != 0)) {
+        refuse(fmt::format("--preview-size: a video's frame must have even sides, not {}x{}", preview.width,
+                           preview.height));
+    }
+    options.preview = preview;
 }
 
 void readSequence(const CommandLine& line, AnimateOptions& options)
@@ -117,6 +153,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     if (const auto json = line.value("--json")) {
         options.json = json->text;
     }
+    options.html = readHtml(line);
     if (const auto sheet = line.value("--contact-sheet")) {
         if (sheet->text != kStandardStream && std::filesystem::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png, or -");
@@ -133,6 +170,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     options.output = files.back().text;
     readSequence(line, options);
+    readFilm(line, options);
     readOutput(line, options);
     return options;
 }

@@ -10,6 +10,7 @@
 #include "droplet/sequence/sequence.h"
 #include "droplet_options.h"
 #include "numbered_path.h"
+#include "preview.h"
 
 namespace cli {
 
@@ -21,8 +22,11 @@ struct AnimateOptions {
     droplet::Format format = droplet::Format::Glb;
     droplet::VolumeMode volume_mode = droplet::VolumeMode::Total;
     std::optional<double> frames_per_second;
-    std::optional<std::string> json;           ///< path or kStandardStream
-    std::optional<std::string> contact_sheet;  ///< path or kStandardStream
+    std::optional<std::string> json;            ///< path or kStandardStream
+    std::optional<std::string> contact_sheet;   ///< path or kStandardStream
+    std::optional<PreviewOptions> preview;      ///< its path is a video's or that of preview_files
+    std::optional<NumberedPath> preview_files;  ///< where the preview is a picture for every frame
+    std::optional<std::string> html;            ///< path or kStandardStream
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;

@@ -2,10 +2,12 @@
 #include "frames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "droplet/error.h"
 #include "files.h"
@@ -77,6 +79,23 @@ std::string sizeOf(int width, int height)
     return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
+/// Whether levels show other liquid than those decided on: another channel, the other way round, or half of their way
+/// beyond the middle half of it.
+bool disagree(const droplet::MaskLevels& levels, const droplet::MaskLevels& decided)
+{
+    constexpr double kMost = 0.25;
+    const double step = decided.liquid - decided.dry;
+    const double half = (0.5 * (levels.dry + levels.liquid) - decided.dry) / step;
+    return levels.channel != decided.channel || (levels.liquid - levels.dry) * step < 0.0 ||
+           std::abs(half - 0.5) > kMost;
+}
+
+droplet::MaskLevels levelsOf(const droplet::Mask& mask, bool invert)
+{
+    return invert ? droplet::MaskLevels{mask.channel, mask.level_liquid, mask.level_dry}
+                  : droplet::MaskLevels{mask.channel, mask.level_dry, mask.level_liquid};
+}
+
 }  // namespace
 
 Frames::Frames(const std::vector<std::string>& inputs)
@@ -105,7 +124,53 @@ Frames::Frames(const std::vector<std::string>& inputs)
     }
 }
 
+void Frames::decide(const droplet::MaskOptions& options)
+{
+    while (auto frame = read(options)) {
+        if (done_ == 1 || frame->mask.found) {
+            decision_ = Decision{frame->name, levelsOf(frame->mask, options.invert), frame->mask.segment};
+        }
+        if (frame->mask.found || decision_->segment != droplet::Segmentation::Threshold) {
+            if (done_ == 1) {
+                first_picture_ = std::move(frame);
+                return;
+            }
+            break;
+        }
+    }
+    done_ = 0;
+    if (video_) {
+        video_ = std::make_unique<Video>(video_path_);
+    }
+}
+
 std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
+{
+    const bool by_levels =
+        options.segment == droplet::Segmentation::Auto || options.segment == droplet::Segmentation::Threshold;
+    if (options.channel != droplet::Channel::Auto || !by_levels || options.colour) {
+        return read(options);
+    }
+    if (!decision_) {
+        decide(options);
+    }
+    if (first_picture_) {
+        return std::exchange(first_picture_, std::nullopt);
+    }
+    droplet::MaskOptions alike = options;
+    if (decision_->segment == droplet::Segmentation::Threshold) {
+        alike.levels = decision_->levels;
+    } else {
+        alike.segment = decision_->segment;
+    }
+    std::optional<FramePicture> frame = read(alike);
+    if (frame) {
+        frame->disagrees = frame->mask.found && disagree(*frame->mask.found, decision_->levels);
+    }
+    return frame;
+}
+
+std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
 {
     FramePicture frame;
     if (video_) {

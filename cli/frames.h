@@ -18,9 +18,11 @@ struct FramePicture {
     std::string name;
     std::size_t number = 0;  ///< of its file, or from 1
     droplet::Mask mask;
+    bool disagrees = false;  ///< by itself it would have been read otherwise than the frame that decides
 };
 
-/// The frames of a sequence, read one after another.
+/// The frames of a sequence, read one after another, all alike: with Channel::Auto, the first frame in which something
+/// stands out decides for all which levels of which channel are dry and liquid.
 class Frames {
 public:
     /// @param inputs          several pictures; or one: a path with a number's place, a folder, a picture or a video
@@ -33,6 +35,13 @@ public:
 
     /// How many there are, where that is known beforehand.
     [[nodiscard]] std::optional<std::size_t> count() const;
+    /// The frame that decided, and how, before MaskOptions::invert; empty before next(), or where the channel is given.
+    struct Decision {
+        std::string name;
+        droplet::MaskLevels levels;
+        droplet::Segmentation segment = droplet::Segmentation::Threshold;
+    };
+    [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
     /// Numbers of the frames known beforehand.
     [[nodiscard]] std::vector<std::size_t> numbers() const;
     /// Of a video.
@@ -41,6 +50,12 @@ public:
     [[nodiscard]] std::vector<std::string> files() const;
 
 private:
+    /// @throws droplet::Error InvalidInput
+    void decide(const droplet::MaskOptions& options);
+    [[nodiscard]] std::optional<FramePicture> read(const droplet::MaskOptions& options);
+
+    std::optional<Decision> decision_;
+    std::optional<FramePicture> first_picture_;  ///< if that decided
     std::vector<std::pair<std::size_t, std::string>> pictures_;
     std::string video_path_;
     std::unique_ptr<Video> video_;

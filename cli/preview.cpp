@@ -104,12 +104,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
 void declarePreview(CommandLine& line)
 {
     line.add("Picture", "--preview", "FILE", "write a picture of it, PNG; - is standard output");
-    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
-    line.add("Picture", "--camera", "PLACE",
-             "or where the camera stands: azimuth from the picture's\n"
-             "right and elevation, such as -60deg,30deg");
-    line.exclude({"--view", "--camera"});
-    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+    declareView(line);
     line.add("Picture", "--ground", "PICTURE",
              "what it stands on: laid as the footprint's picture is,\n"
              "or on the object of --onto [a table with a ruling]");
@@ -128,9 +123,18 @@ void declarePreview(CommandLine& line)
     line.add("Picture", "--turntable", "N", "N pictures of a whole turn, FILE-001.png and so on");
 }
 
-std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings)
+void declareView(CommandLine& line)
 {
-    PreviewOptions options;
+    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
+    line.add("Picture", "--camera", "PLACE",
+             "or where the camera stands: azimuth from the picture's\n"
+             "right and elevation, such as -60deg,30deg");
+    line.exclude({"--view", "--camera"});
+    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+}
+
+void readView(const CommandLine& line, PreviewOptions& options)
+{
     if (const auto view = line.value("--view")) {
         options.view = choice<droplet::View>(*view, {{"three-quarter", droplet::View::ThreeQuarter},
                                                      {"top", droplet::View::Top},
@@ -146,9 +150,12 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     if (const auto size = line.value("--preview-size")) {
         readSize(*size, options);
     }
-    if (const auto environment = line.value("--environment")) {
-        options.environment = environment->text;
-    }
+}
+
+std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings)
+{
+    PreviewOptions options;
+    readView(line, options);
     const auto ground = line.value("--ground");
     if (ground) {
         options.ground = ground->text;

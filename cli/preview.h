@@ -49,6 +49,12 @@ struct PreviewSubject {
 
 void declarePreview(CommandLine& line);
 
+/// --view and --preview-size alone.
+void declareView(CommandLine& line);
+
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+void readView(const CommandLine& line, PreviewOptions& options);
+
 /// @param warnings        gets what has no effect
 /// @return                none if there is no --preview
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed

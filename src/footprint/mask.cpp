@@ -65,6 +65,7 @@ std::uint64_t pixelsAt(const Histogram& histogram, std::int64_t level)
 struct Range {
     std::int64_t dry = 0;
     std::int64_t liquid = kWhite;
+    bool clear = false;      ///< whether the picture says so itself
     bool is_uneven = false;  ///< whether much of the picture is dry by far: the border does not tell of the middle
 };
 
@@ -136,7 +137,7 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
     const Histogram histogram = histogramOf(plane);
     const std::int64_t first = plane.front();
     if (pixelsAt(histogram, first) == plane.size()) {
-        return 2 * first > kWhite ? Range{0, first} : Range{first, kWhite};
+        return 2 * first > kWhite ? Range{0, first, false} : Range{first, kWhite, false};
     }
     const std::int64_t dry = borderLevel(plane, width, height);
     std::uint64_t marked = 0;
@@ -152,10 +153,10 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
         for (std::int64_t level = 0; level <= kWhite; ++level) {
             beyond += 4 * (is_dark ? level - dry : dry - level) > distance ? pixelsAt(histogram, level) : 0;
         }
-        return {dry, is_dark ? dry - distance : dry + distance, 10 * beyond > plane.size()};
+        return {dry, is_dark ? dry - distance : dry + distance, true, 10 * beyond > plane.size()};
     }
     // Nothing stands out. Unstretched, towards the farther end of the range, no pixel reaches half.
-    return {dry, 2 * dry > kWhite ? 0 : kWhite};
+    return {dry, 2 * dry > kWhite ? 0 : kWhite, false};
 }
 
 /// Whether a picture says with its alpha where it is: some pixel is less than half opaque.
@@ -176,7 +177,7 @@ Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
     for (const std::uint16_t level : alpha) {
         most = std::max(most, level);
     }
-    return {0, isClear(most) ? most : kWhite};
+    return {0, isClear(most) ? most : kWhite, isClear(most)};
 }
 
 void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool invert)
@@ -202,6 +203,23 @@ void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool inve
     }
 }
 
+/// What a channel without the image's own decision holds: alpha that is not there is opaque.
+std::vector<std::uint16_t> planeOf(Image image, Channel channel)
+{
+    if (channel != Channel::Alpha) {
+        return lumaOverBlack(std::move(image));
+    }
+    return image.alpha.empty()
+               ? std::vector<std::uint16_t>(
+                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), kWhite)
+               : std::move(image.alpha);
+}
+
+double shareOfWhite(std::int64_t level)
+{
+    return static_cast<double>(level) / static_cast<double>(kWhite);
+}
+
 /// What a mask takes over from its picture: all but the coverage.
 Mask blankMask(const Image& image)
 {
@@ -223,6 +241,15 @@ struct LevelMask {
 /// @throws Error InvalidInput: no alpha where alpha was asked
 LevelMask maskFromImage(Image image, const MaskOptions& options)
 {
+    if (options.levels) {
+        const MaskLevels& levels = *options.levels;
+        const auto within = [](double level) { return level >= 0.0 && level <= 1.0; };
+        if (options.channel != Channel::Auto || levels.channel == Channel::Auto || !within(levels.dry) ||
+            !within(levels.liquid) || levels.dry == levels.liquid) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "options.levels must be two levels from 0 to 1 of one channel, and options.channel Auto");
+        }
+    }
     Mask mask = blankMask(image);
     mask.channel = options.channel;
     if (options.channel == Channel::Auto) {
@@ -230,21 +257,36 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
     } else if (options.channel == Channel::Alpha && image.alpha.empty()) {
         throw Error(ErrorCode::InvalidInput, "--channel alpha was asked for, but the image has none");
     }
-    mask.coverage = mask.channel == Channel::Alpha ? std::move(image.alpha) : lumaOverBlack(std::move(image));
+    std::vector<std::uint16_t> given;  // the channel of the levels that were given, if the image's own is another
+    if (options.levels && options.levels->channel != mask.channel) {
+        given = planeOf(image, options.levels->channel);
+    }
+    mask.coverage = planeOf(std::move(image), mask.channel);
     image = {};
 
     Range range;
     if (options.channel == Channel::Auto) {
         range = mask.channel == Channel::Alpha ? levelsOfAlpha(mask.coverage)
                                                : levelsAgainstBorder(mask.coverage, mask.width, mask.height);
+        if (range.clear) {
+            mask.found = MaskLevels{mask.channel, shareOfWhite(range.dry), shareOfWhite(range.liquid)};
+        }
+    }
+    if (options.levels) {
+        const auto level = [](double share) { return std::int64_t{std::lround(share * static_cast<double>(kWhite))}; };
+        range = {level(options.levels->dry), level(options.levels->liquid), true};
+        mask.channel = options.levels->channel;
+        if (!given.empty()) {
+            mask.coverage = std::move(given);
+        }
     }
     applyRange(mask.coverage, range, options.invert);
     if (options.invert) {
         std::swap(range.dry, range.liquid);
     }
     mask.inverted = range.liquid < range.dry;
-    mask.level_dry = static_cast<double>(range.dry) / static_cast<double>(kWhite);
-    mask.level_liquid = static_cast<double>(range.liquid) / static_cast<double>(kWhite);
+    mask.level_dry = shareOfWhite(range.dry);
+    mask.level_liquid = shareOfWhite(range.liquid);
     return {std::move(mask), range.is_uneven};
 }
 
@@ -355,7 +397,8 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
             return mask;
         }
         if (by_levels) {
-            const bool is_open = options.segment == Segmentation::Auto && options.channel == Channel::Auto;
+            const bool is_open =
+                options.segment == Segmentation::Auto && options.channel == Channel::Auto && !options.levels;
             return is_open && !mask.drawn_scale ? decided(encoded, options, std::move(levels)) : std::move(mask);
         }
         if (auto found = segmented(inFrontOfBlack(decode(encoded, options, true)), options, options.segment)) {

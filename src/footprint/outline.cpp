@@ -483,7 +483,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const Field field(mask, options.threshold);
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * kFull));
     const std::vector<Border> borders = followBorders(mask, level);
-    if (borders.empty()) {
+    if (borders.empty() && !options.may_be_dry) {
         throw Error(ErrorCode::InvalidInput,
                     "no liquid in the mask: no pixel reaches --threshold " + numberText(options.threshold));
     }
@@ -527,6 +527,10 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         outline.loops.push_back(std::move(loop));
     }
     if (std::none_of(outline.loops.begin(), outline.loops.end(), [](const Loop& l) { return signedArea(l) > 0; })) {
+        if (options.may_be_dry) {
+            outline.loops.clear();
+            return outline;
+        }
         throw Error(ErrorCode::InvalidInput, "only specks in the mask: the largest of " +
                                                  std::to_string(outline.specks_dropped) + " has " +
                                                  numberText(outline.largest_speck_px, 3) +

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -64,7 +65,8 @@ struct Shape {
 
 /// Frames that share their triangles.
 struct Run {
-    std::size_t first = 0;  ///< frame
+    std::size_t first = 0;                ///< frame
+    std::optional<std::size_t> end = {};  ///< the frame from which on another is shown, or none; empty: to the end
     Shape base;
     Floats uvs;
     std::vector<Triangle> triangles;
@@ -115,9 +117,10 @@ struct Animation::Content {
     AnimationOptions options;
     std::vector<Run> runs;
     std::size_t frames = 0;
-    double thickness = 0.0;  ///< of all frames together [m]
+    std::size_t surfaces = 0;  ///< frames that have one
+    double thickness = 0.0;    ///< of all frames together [m]
 
-    [[nodiscard]] std::size_t nextRun(std::size_t k) const { return k + 1 < runs.size() ? runs[k + 1].first : frames; }
+    [[nodiscard]] bool shownToTheEnd(const Run& run) const { return run.end.value_or(frames) == frames; }
     [[nodiscard]] float timeOf(std::size_t frame) const
     {
         return toFloat(static_cast<double>(frame) / options.frames_per_second);
@@ -135,7 +138,12 @@ struct Animation::Content {
             key(0, 0.0F);
         }
         key(runs[k].first, 1.0F);
-        key(nextRun(k), k + 1 < runs.size() ? 0.0F : 1.0F);
+        if (!shownToTheEnd(runs[k])) {
+            key(*runs[k].end, 0.0F);
+        }
+        if (k + 1 == runs.size()) {
+            key(frames, shownToTheEnd(runs[k]) ? 1.0F : 0.0F);
+        }
         return track;
     }
 
@@ -153,7 +161,7 @@ struct Animation::Content {
         for (std::size_t i = 0; i <= targets; ++i) {
             key(runs[k].first + i, i);
         }
-        if (k + 1 == runs.size()) {
+        if (shownToTheEnd(runs[k])) {
             key(frames, targets);
         }
         return track;
@@ -170,16 +178,24 @@ struct Animation::Content {
         }
         // The first frame tells how large the others will be, to a tenth or so.
         constexpr double kSurely = 0.8;
-        if (frames == 1 && options.frames) {
-            const std::uint64_t expected = bytes + bytesOfTarget(runs[0].vertices()) * (*options.frames - 1);
+        if (surfaces == 1 && options.frames) {
+            const std::uint64_t expected = bytes + bytesOfTarget(runs[0].vertices()) * (*options.frames - frames);
             if (kSurely * static_cast<double>(expected) >= static_cast<double>(kGltfFileLimit)) {
                 refuseSize(*options.frames, "about ", expected);
             }
         }
     }
 
+    void endRun(std::size_t frame)
+    {
+        if (!runs.empty() && !runs.back().end) {
+            runs.back().end = frame;
+        }
+    }
+
     void begin(const Surface& surface, std::size_t frame)
     {
+        endRun(frame);
         Run run;
         run.first = frame;
         run.base = {arrayOf(surface.positions, {}), arrayOf(surface.normals, {})};
@@ -242,14 +258,14 @@ struct Animation::Content {
     [[nodiscard]] tinygltf::Model model() const
     {
         tinygltf::Model model =
-            makeBareModel(options.material, thickness / static_cast<double>(frames), options.closed);
+            makeBareModel(options.material, thickness / static_cast<double>(surfaces), options.closed);
         tinygltf::Scene scene;
         for (const Run& run : runs) {
             const int mesh = addMesh(model, run);
             tinygltf::Node node;
             node.name = model.meshes.back().name;
             node.mesh = mesh;
-            if (run.first > 0) {
+            if (&run != &runs.front()) {
                 node.scale = {0.0, 0.0, 0.0};
             }
             scene.nodes.push_back(static_cast<int>(model.nodes.size()));
@@ -271,7 +287,7 @@ struct Animation::Content {
     void forTracks(const Take& take) const
     {
         for (std::size_t k = 0; k < runs.size(); ++k) {
-            if (runs.size() > 1) {
+            if (runs.size() > 1 || runs[k].first > 0 || !shownToTheEnd(runs[k])) {
                 take(k, "scale", visibility(k));
             }
             if (!runs[k].targets.empty()) {
@@ -332,7 +348,8 @@ void Animation::add(const Surface& surface, bool continues)
 {
     surface.validate();
     Content& content = *content_;
-    if (continues && (content.runs.empty() || content.runs.back().vertices() != surface.positions.size() ||
+    if (continues && (content.runs.empty() || content.runs.back().end ||
+                      content.runs.back().vertices() != surface.positions.size() ||
                       content.runs.back().triangles != surface.triangles)) {
         throw Error(ErrorCode::InvalidArgument,
                     "frame " + std::to_string(content.frames + 1) + " has not the triangles of the frame before");
@@ -348,14 +365,21 @@ void Animation::add(const Surface& surface, bool continues)
         content.begin(surface, content.frames);
     }
     ++content.frames;
+    ++content.surfaces;
     content.thickness += surface.mean_height;
     content.checkSize();
 }
 
+void Animation::addDry()
+{
+    content_->endRun(content_->frames);
+    ++content_->frames;
+}
+
 std::uint64_t Animation::write(std::ostream& out) const
 {
-    if (content_->frames == 0) {
-        throw Error(ErrorCode::InvalidArgument, "an animation must have at least one frame");
+    if (content_->surfaces == 0) {
+        throw Error(ErrorCode::InvalidArgument, "an animation must have at least one frame with a surface");
     }
     return writeBinary(out, content_->model(), [&](ByteStream& bytes) { content_->writeBuffer(bytes); });
 }

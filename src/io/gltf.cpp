@@ -18,6 +18,7 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "io/byte_stream.h"
+#include "io/dry_surface.h"
 #include "io/gltf_model.h"
 
 namespace droplet {
@@ -76,6 +77,13 @@ tinygltf::Value refillExtras(const Refill& refill)
 
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
 {
+    if (isDry(surface)) {
+        tinygltf::Model model;
+        model.asset = makeBareModel(options.material, 0.0, options.closed).asset;
+        model.scenes.emplace_back().name = "nothing";
+        model.defaultScene = 0;
+        return model;
+    }
     tinygltf::Model model = makeBareModel(options.material, surface.mean_height, options.closed);
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -177,6 +185,10 @@ private:
 void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
 {
     nlohmann::json json = jsonOf(model);
+    if (isDry(surface)) {
+        bytes.text(json.dump(2) + "\n");
+        return;
+    }
     const std::string uri = "data:application/octet-stream;base64,";
     json["buffers"][0]["uri"] = uri;
     const std::string text = json.dump(2);
@@ -197,7 +209,7 @@ void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream&
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
     checkFileSize(surface, options.binary);
-    surface.validate();
+    validateUnlessDry(surface);
     checkFloats(surface);
     const tinygltf::Model model = makeModel(surface, options);
     if (options.binary) {

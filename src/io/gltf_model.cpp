@@ -130,7 +130,9 @@ nlohmann::json jsonOf(const tinygltf::Model& model)
     std::stringstream text;
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, kPretty, kBinary);
     nlohmann::json json = nlohmann::json::parse(text);
-    json["buffers"] = {{{"byteLength", bufferBytes(model)}}};
+    if (bufferBytes(model) > 0) {
+        json["buffers"] = {{{"byteLength", bufferBytes(model)}}};
+    }
     return json;
 }
 
@@ -162,17 +164,19 @@ std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
     json.append(padding(json.size()), ' ');
     const std::string zeros(padding(bufferBytes(model)), '\0');
     const std::size_t buffer_bytes = bufferBytes(model) + zeros.size();
-    constexpr std::size_t kHeaders = 12 + 8 + 8;
+    const std::size_t headers = buffer_bytes > 0 ? 12 + 8 + 8 : 12 + 8;  // an empty buffer has no chunk
     ByteStream bytes(out);
     bytes.text("glTF");
-    bytes.u32(2, kHeaders + json.size() + buffer_bytes, json.size());
+    bytes.u32(2, headers + json.size() + buffer_bytes, json.size());
     bytes.text("JSON");
     bytes.text(json);
-    bytes.u32(buffer_bytes);
-    bytes.text("BIN");
-    bytes.u8(0);
-    write_buffer(bytes);
-    bytes.text(zeros);
+    if (buffer_bytes > 0) {
+        bytes.u32(buffer_bytes);
+        bytes.text("BIN");
+        bytes.u8(0);
+        write_buffer(bytes);
+        bytes.text(zeros);
+    }
     return bytes.finish();
 }
 

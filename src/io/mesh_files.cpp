@@ -21,6 +21,7 @@
 #include "droplet/version.h"
 #include "io/axes.h"
 #include "io/byte_stream.h"
+#include "io/dry_surface.h"
 #include "io/length_unit.h"
 
 namespace droplet {
@@ -90,7 +91,7 @@ std::string signature()
 
 std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptions& options)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     const NamedUnit& unit = namedUnit(options.unit);
     const Welded welded = weldVertices(surface);
     ByteStream bytes(out);
@@ -154,7 +155,7 @@ std::uint64_t writeMtl(Material material, std::ostream& out)
 
 std::uint64_t writePly(const Surface& surface, std::ostream& out)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     const Welded welded = weldVertices(surface);
     if (welded.first.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw Error(ErrorCode::InvalidArgument,
@@ -188,7 +189,7 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
 
 std::uint64_t writeStl(const Surface& surface, std::ostream& out, LengthUnit unit)
 {
-    surface.validate();
+    validateUnlessDry(surface);
     if (surface.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
                                                     " triangles; STL counts up to 4294967295");

@@ -24,6 +24,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/mesh_files.h"
+#include "io/dry_surface.h"
 
 namespace droplet {
 namespace {
@@ -452,7 +453,7 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
     switch (format) {
         case Format::Glb:
         case Format::Gltf: {
-            const bool closed = options.closed ? *options.closed : isClosed(surface);
+            const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
             return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
         }
         case Format::Obj:

@@ -65,6 +65,18 @@ public:
         }
     }
 
+    /// Of a cavity: which vertices of the polygons are on the rim, and which edges are none of ours to split.
+    void mark(const Cavity& cavity)
+    {
+        for (std::size_t k = 0; k < cavity.polygons.size(); ++k) {
+            for (std::size_t i = 0; i < cavity.polygons[k].size(); ++i) {
+                VertexTag& tag = inserted_.loops[k][i]->info();
+                tag.is_rim = cavity.on_rim[k][i] != 0;
+                tag.is_core = cavity.at_seam[k][i] != 0;
+            }
+        }
+    }
+
     /// Points of the core, from a number on, and edges between them: what lies behind these is none of ours.
     void leaveOut(std::size_t first, const std::vector<std::array<std::uint32_t, 2>>& boundary)
     {
@@ -136,6 +148,8 @@ public:
             }
         }
     }
+
+    [[nodiscard]] Filling filling() const;
 
     /// The rim's vertices, then all others but the core's; the core's points have the given numbers after those.
     [[nodiscard]] PlanarMesh extract(const std::vector<std::uint32_t>& core_numbers) const;
@@ -425,6 +439,47 @@ private:
     std::vector<VertexHandle> fresh_;   ///< inserted since the last round
 };
 
+Filling Band::filling() const
+{
+    Filling filling;
+    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
+        v->info().index.reset();
+    }
+    std::uint32_t given = 0;
+    for (const std::vector<VertexHandle>& loop : inserted_.loops) {
+        for (const VertexHandle v : loop) {
+            v->info().index = given++;
+        }
+    }
+    const auto take = [&](VertexHandle v) {
+        v->info().index = given + static_cast<std::uint32_t>(filling.points.size());
+        filling.points.push_back(vec(v->point()));
+    };
+    for (const std::vector<VertexHandle>& loop : inserted_.loops) {
+        filling.splits.emplace_back(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const VertexHandle end = loop[(i + 1) % loop.size()];
+            for (VertexHandle v = nextToward(loop[i], end); v != end; v = nextToward(v, end)) {
+                take(v);
+                filling.splits.back()[i].push_back(*v->info().index - given);
+            }
+        }
+    }
+    for (auto f = triangulation_.finite_faces_begin(); f != triangulation_.finite_faces_end(); ++f) {
+        if (f->is_in_domain()) {
+            Triangle& triangle = filling.triangles.emplace_back();
+            for (int k = 0; k < 3; ++k) {
+                const VertexHandle v = f->vertex(k);
+                if (!v->info().index) {
+                    take(v);
+                }
+                triangle[static_cast<std::size_t>(k)] = *v->info().index;
+            }
+        }
+    }
+    return filling;
+}
+
 PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const
 {
     PlanarMesh mesh;
@@ -496,6 +551,14 @@ PlanarMesh triangulatePoints(const Polygons& polygons, const std::vector<Vec2>& 
     PlanarMesh mesh = band.extract({});
     smooth(mesh, {mesh.rimVertexCount(), mesh.vertices.size(), mesh.triangles.size()});
     return mesh;
+}
+
+Filling fill(const Cavity& cavity, const std::vector<Vec2>& points, double finest)
+{
+    Band band(cavity.polygons, points, finest);
+    band.mark(cavity);
+    band.refine();
+    return band.filling();
 }
 
 std::vector<Triangle> triangulateAsIs(const Polygons& polygons, const std::vector<Vec2>& points)

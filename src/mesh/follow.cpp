@@ -16,6 +16,7 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "mesh/curve.h"
 #include "number_text.h"
 
 namespace droplet {
@@ -55,67 +56,6 @@ double enclosed(const std::vector<Vec2>& points)
     }
     return 0.5 * twice;
 }
-
-/// A closed polygon by its length from the first point on.
-class Curve {
-public:
-    explicit Curve(std::vector<Vec2> points) : points_(std::move(points)), arc_{0.0}
-    {
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            arc_.push_back(arc_.back() + droplet::length(end(i) - points_[i]));
-        }
-    }
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-    [[nodiscard]] double length() const { return arc_.back(); }
-    [[nodiscard]] double arc(std::size_t point) const { return arc_[point]; }
-
-    /// Of any number, once around or more.
-    [[nodiscard]] double wrapped(double s) const { return s - length() * std::floor(s / length()); }
-
-    [[nodiscard]] std::size_t pieceAt(double s) const
-    {
-        const auto after = std::upper_bound(arc_.begin(), arc_.end(), wrapped(s));
-        return std::min(static_cast<std::size_t>(after - arc_.begin()), size()) - 1;
-    }
-
-    [[nodiscard]] Vec2 at(double s) const
-    {
-        const std::size_t i = pieceAt(s);
-        const double t = (wrapped(s) - arc_[i]) / (arc_[i + 1] - arc_[i]);
-        return points_[i] + t * (end(i) - points_[i]);
-    }
-
-    /// Place of the nearest point among that many pieces from one on, as a length from that piece's lap on.
-    [[nodiscard]] double nearest(Vec2 p, double from, std::size_t pieces) const
-    {
-        double best = std::numeric_limits<double>::infinity();
-        double place = from;
-        std::size_t i = pieceAt(from);
-        double lap = from - wrapped(from);
-        for (std::size_t k = 0; k < pieces; ++k) {
-            const Vec2 along = end(i) - points_[i];
-            const double squared = dot(along, along);
-            const double t = std::clamp(dot(p - points_[i], along) / squared, 0.0, 1.0);
-            const Vec2 away = p - (points_[i] + t * along);
-            if (dot(away, away) < best) {
-                best = dot(away, away);
-                place = lap + arc_[i] + t * (arc_[i + 1] - arc_[i]);
-            }
-            if (++i == size()) {
-                i = 0;
-                lap += length();
-            }
-        }
-        return place;
-    }
-
-private:
-    [[nodiscard]] Vec2 end(std::size_t i) const { return points_[(i + 1) % size()]; }
-
-    std::vector<Vec2> points_;
-    std::vector<double> arc_;
-};
 
 /// For every corner of the loop the bend of the rim that becomes it, if each is the other's nearest.
 std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)

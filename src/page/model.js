@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The droplet out of the page: its bytes, its mesh, and how full it is.
-import { Box3, Vector3 } from 'three';
+import { AnimationMixer, Box3, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 export function decodeBase64(text) {
@@ -17,7 +17,7 @@ export function decodeBase64(text) {
 
 export async function loadDroplet(bytes) {
     const gltf = await new GLTFLoader().parseAsync(bytes.buffer, '');
-    return new Droplet(gltf.scene);
+    return new Droplet(gltf.scene, gltf.animations[0]);
 }
 
 /** The triangles of the liquid's surface, which look up, and the edges that only one of them has: its rim. */
@@ -43,15 +43,32 @@ function sheetOf({ index, attributes: { position } }, place) {
     return { triangles, edges: [...edges.values()].flat() };
 }
 
-/** The meshes of a file, and the morph target that fills and drains them. */
+/** The meshes of a file, and the morph target that fills and drains them, or the animation that plays them. */
 class Droplet {
-    constructor(scene) {
+    constructor(scene, clip) {
         this.scene = scene;
         this.meshes = [];
+        if (clip) {
+            scene.traverse((object) => object.isMesh && object.scale.setScalar(1));  // as each is when it is shown
+        }
         scene.updateMatrixWorld(true);
         scene.traverse((object) => object.isMesh && this.meshes.push(object));
         this.places = this.meshes.map((mesh) => mesh.matrixWorld.clone());  // in the file's metres, however it is shown
         this.range = this.#fillRange();
+        if (clip) {
+            this.duration = clip.duration;
+            this.mixer = new AnimationMixer(scene);
+            this.mixer.clipAction(clip).play();
+            this.time = 0;
+        }
+    }
+
+    /** [s], from 0 to the duration of an animation. */
+    set time(seconds) {
+        this.mixer.setTime(Math.min(seconds, 0.9999 * this.duration));  // at its end it would begin again
+        for (const mesh of this.meshes) {
+            mesh.visible = mesh.scale.x > 0;
+        }
     }
 
     /** How empty and how full it can be, in times of its volume; undefined when it cannot change. */
@@ -121,13 +138,20 @@ class Droplet {
     }
 
     /** The box around it at any of these fills [m]. */
+    /** The box around it at any of these fills, and at all times [m]. */
     box(fills) {
         const box = new Box3();
         const point = new Vector3();
         for (const [index, mesh] of this.meshes.entries()) {
             const { position } = mesh.geometry.attributes;
+            const moves = this.mixer ? mesh.geometry.morphAttributes.position ?? [] : [];
             const delta = this.range && mesh.geometry.morphAttributes.position[mesh.morphTargetDictionary.volume];
             for (let i = 0; i < position.count; ++i) {
+                for (const move of moves) {
+                    point.fromBufferAttribute(position, i);
+                    point.set(point.x + move.getX(i), point.y + move.getY(i), point.z + move.getZ(i));
+                    box.expandByPoint(point.applyMatrix4(this.places[index]));
+                }
                 for (const fill of fills) {
                     point.fromBufferAttribute(position, i);
                     if (delta) {

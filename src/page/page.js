@@ -81,6 +81,55 @@ function offerRefill(stage, droplet, flat) {
     find('refill').hidden = false;
 }
 
+function offerFilm(stage, droplet, still) {
+    if (!droplet.duration) {
+        return;
+    }
+    const slider = find('time');
+    const rate = report.output?.frames_per_second ?? 24;
+    const frames = report.frames ?? [];
+    let last;  // when a frame was shown while it plays [ms]
+    let time = 0;
+    slider.max = droplet.duration;
+    const show = (seconds) => {
+        time = seconds;
+        stage.time = seconds;
+        slider.value = seconds;
+        const count = Math.max(frames.length, 1);
+        const frame = Math.min(Math.floor(seconds * rate + 1e-6), count - 1);
+        const { volume_m3, height_max_m } = frames[frame] ?? {};
+        const parts = [`${frame + 1} of ${count}`];
+        if (volume_m3 !== undefined) {
+            parts.push(...(volume_m3 > 0 ? [volume(volume_m3), `${length(height_max_m)} high`] : ['no liquid']));
+        }
+        find('moment').textContent = parts.join(' · ');
+        slider.setAttribute('aria-valuetext', `frame ${parts.join(', ')}`);
+    };
+    const step = (now) => {
+        if (last === undefined) {
+            return;
+        }
+        show((time + (now - last) / 1000) % droplet.duration);
+        last = now;
+        requestAnimationFrame(step);
+    };
+    const play = (plays) => {
+        last = plays ? performance.now() : undefined;
+        find('play').textContent = plays ? 'Pause' : 'Play';
+        if (plays) {
+            requestAnimationFrame(step);
+        }
+    };
+    find('play').addEventListener('click', () => play(last === undefined));
+    slider.addEventListener('input', () => {
+        play(false);
+        show(Number(slider.value));
+    });
+    find('film').hidden = false;
+    show(0);
+    play(!still);
+}
+
 async function readPicture(file) {
     const image = new Image();
     image.src = URL.createObjectURL(file);
@@ -168,9 +217,10 @@ async function main() {
         const droplet = await loadDroplet(bytes);
         const flat = (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
         let frames = 0;
+        const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
         const stage = new Stage({
             canvas: find('view'), droplet, flat, extent: report.onto ? undefined : extent(report),
-            still: matchMedia('(prefers-reduced-motion: reduce)').matches,
+            still,
             drawn: (rests) => {
                 drawScale(stage);
                 root.dataset.frames = ++frames;
@@ -180,6 +230,7 @@ async function main() {
         stage.controls.addEventListener('start', () => { stage.touched = true; });
         offerGrounds(stage);
         offerRefill(stage, droplet, flat);
+        offerFilm(stage, droplet, still);
         find('reset').addEventListener('click', () => stage.reset());
         const panel = find('panel');
         const measure = () => {

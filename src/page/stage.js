@@ -85,9 +85,15 @@ export class Stage {
         const { droplet, renderer } = this;
         this.room = { walls: { value: 1 }, lamps: { value: 1 } };
         let triangles = 0;
+        const known = new Set();
         for (const mesh of droplet.meshes) {
             const { material } = mesh;
-            triangles += mesh.geometry.index.count / 3;
+            const own = mesh.geometry.index.count / 3;
+            triangles = droplet.mixer ? Math.max(triangles, own) : triangles + own;
+            if (known.has(material)) {
+                continue;
+            }
+            known.add(material);
             this.thickness ??= material.thickness;
             if (Number.isFinite(material.attenuationDistance)) {
                 material.attenuationDistance *= this.scale;  // of the world, while thickness is the mesh's
@@ -112,6 +118,17 @@ export class Stage {
         for (const { material } of this.droplet.meshes) {
             material.thickness = this.thickness * amount;
         }
+        this.#changed();
+    }
+
+    /** Of an animation [s]. */
+    set time(seconds) {
+        this.droplet.time = seconds;
+        this.#changed();
+    }
+
+    /** The droplet is another; its light is coarse while it goes on changing. */
+    #changed() {
         this.light_is_old = true;
         clearTimeout(this.refining);
         this.refining = setTimeout(() => {
@@ -119,7 +136,7 @@ export class Stage {
             this.light_is_old = true;
             this.request();
         }, 180);
-        this.light_is_coarse = true;  // while the hand moves
+        this.light_is_coarse = true;
         this.request();
     }
 

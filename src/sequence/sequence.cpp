@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -18,6 +19,8 @@
 #include "droplet/error.h"
 #include "droplet/footprint/overlap.h"
 #include "droplet/mesh/follow.h"
+#include "droplet/mesh/patch.h"
+#include "droplet/units.h"
 #include "pipeline.h"
 
 namespace droplet {
@@ -31,7 +34,9 @@ struct TriangulatedMeshes {
 struct FrameLineage {
     std::shared_ptr<const TriangulatedMeshes> first;  ///< where the frame's connections began
     std::vector<PlanarMesh> bases;                    ///< of closed surfaces on flat ground
+    double edge = 0.0;                                ///< of triangles, as a run of frames began [m]
     std::size_t next_id = 0;                          ///< not given to any droplet yet
+    std::optional<double> reservoir;                  ///< of VolumeMode::Total, once there was liquid [m³]
 };
 
 namespace {
@@ -256,37 +261,59 @@ bool anyDry(const Droplet& droplet)
                        [](const HeightField& field) { return !field.dry.empty(); });
 }
 
+/// A droplet's mesh in a frame, and its base where that is kept.
+struct Meshed {
+    PlanarMesh mesh;
+    std::optional<PlanarMesh> base;
+};
+
+/// Moves a droplet's mesh and base along with its footprint, if that can be.
+std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint)
+{
+    const TriangulatedMeshes& first = *before.lineage->first;
+    std::optional<PlanarMesh> mesh = follow(first.meshes[k], before.droplet.meshes[k], footprint);
+    if (!mesh) {
+        return std::nullopt;
+    }
+    Meshed moved{std::move(*mesh), {}};
+    if (!first.bases.empty()) {
+        const auto rim = moved.mesh.vertices.begin();
+        moved.base = withRim(first.bases[k], {rim, rim + moved.mesh.rimVertexCount()});
+        if (!std::all_of(moved.base->triangles.begin(), moved.base->triangles.end(),
+                         [&](const Triangle& t) { return doubleArea(*moved.base, t) > 0.0; })) {
+            return std::nullopt;
+        }
+    }
+    return moved;
+}
+
 /// Moves meshes and bases along with their footprints.
 /// @param domain  where they go
 /// @param meshes  where they are then
 /// @return        nothing unless all of them can
 std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, std::vector<PlanarMesh>& meshes)
 {
-    const TriangulatedMeshes& first = *before.lineage->first;
-    const std::size_t count = first.meshes.size();
-    std::vector<std::optional<PlanarMesh>> moved(count);
-    FrameLineage lineage{before.lineage->first, std::vector<PlanarMesh>(first.bases.size()), 0};
-    std::vector<std::uint8_t> whole(count, 0);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        moved[k] = follow(first.meshes[k], before.droplet.meshes[k], domain.droplets[k]);
-        whole[k] = moved[k] ? 1 : 0;
-        if (moved[k] && !first.bases.empty()) {
-            const auto rim = moved[k]->vertices.begin();
-            PlanarMesh& base = lineage.bases[k];
-            base = withRim(first.bases[k], {rim, rim + moved[k]->rimVertexCount()});
-            whole[k] = std::all_of(base.triangles.begin(), base.triangles.end(),
-                                   [&](const Triangle& t) { return doubleArea(base, t) > 0.0; })
-                           ? 1
-                           : 0;
-        }
-    });
-    if (std::find(whole.begin(), whole.end(), std::uint8_t{0}) != whole.end()) {
+    const std::size_t count = before.lineage->first->meshes.size();
+    std::vector<std::optional<Meshed>> moved(count);
+    tbb::parallel_for(std::size_t{0}, count,
+                      [&](std::size_t k) { moved[k] = followOne(before, k, domain.droplets[k]); });
+    if (!std::all_of(moved.begin(), moved.end(), [](const auto& one) { return one.has_value(); })) {
         return std::nullopt;
     }
-    for (std::optional<PlanarMesh>& mesh : moved) {
-        meshes.push_back(std::move(*mesh));
+    FrameLineage lineage = *before.lineage;
+    lineage.bases.clear();
+    for (std::optional<Meshed>& one : moved) {
+        meshes.push_back(std::move(one->mesh));
+        if (one->base) {
+            lineage.bases.push_back(std::move(*one->base));
+        }
     }
     return lineage;
+}
+
+bool needBases(const DropletOptions& options)
+{
+    return !options.open && options.solve.ground.flat();
 }
 
 /// Triangulates footprints, and where bases are needed, those.
@@ -295,12 +322,119 @@ FrameLineage meshAnew(const Domain& domain, const DropletOptions& options, std::
 {
     meshes = meshesOf(domain, options);
     FrameLineage lineage;
-    if (!options.open && options.solve.ground.flat()) {
+    if (options.mesh.edge) {
+        lineage.edge = *options.mesh.edge;
+    } else {
+        double covered = 0.0;
+        std::size_t triangles = 0;
+        for (const PlanarMesh& mesh : meshes) {
+            covered += area(mesh);
+            triangles += mesh.triangles.size();
+        }
+        lineage.edge = std::sqrt(4.0 / std::numbers::sqrt3 * covered / static_cast<double>(triangles));
+    }
+    if (needBases(options)) {
         lineage.bases.resize(meshes.size());
         tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) { lineage.bases[k] = cover(meshes[k]); });
     }
     lineage.first = std::make_shared<const TriangulatedMeshes>(TriangulatedMeshes{meshes, lineage.bases});
     return lineage;
+}
+
+/// Whether angles are as those of meshes that are moved, or of one made anew.
+bool anglesWillDo(const PlanarMesh& mesh, const Footprint& footprint, double edge)
+{
+    constexpr double kLeastAngle = 15.0 * kDegree;
+    constexpr double kShareOfAngle = 0.75;
+    const double least = minAngle(mesh);
+    return least >= kLeastAngle ||
+           least >= kShareOfAngle * minAngle(triangulate({{footprint}, {}}, {.edge = edge}).front());
+}
+
+/// Meshes a frame so that it keeps what it can: droplets that only move are moved, others keep what is far from where
+/// their rims changed, new ones are triangulated with edges as long.
+/// @param kept  vertices that the frame before had
+/// @return      nothing if it is better to begin anew
+std::optional<FrameLineage> keepSome(const Frame& before, const std::vector<Group>& groups, const Domain& domain,
+                                     const DropletOptions& options, std::vector<PlanarMesh>& meshes, std::size_t& kept)
+{
+    if (options.solve.model != Model::Linear || options.mesh.grading > 1) {
+        return std::nullopt;  // those meshes are not even
+    }
+    const std::size_t count = domain.droplets.size();
+    const double edge = before.lineage->edge;
+    std::vector<const Group*> group_of(count);
+    for (const Group& group : groups) {
+        for (const std::size_t k : group.after) {
+            group_of[k] = &group;
+        }
+    }
+    std::vector<Meshed> made(count);
+    std::vector<std::optional<std::size_t>> followed(count);  // whom
+    std::vector<std::size_t> kept_of(count, 0);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        const Footprint& footprint = domain.droplets[k];
+        const Group& group = *group_of[k];
+        if (group.before.size() == 1 && group.after.size() == 1) {
+            if (auto moved = followOne(before, group.before.front(), footprint)) {
+                made[k] = std::move(*moved);
+                followed[k] = group.before.front();
+                kept_of[k] = made[k].mesh.vertices.size();
+                return;
+            }
+        }
+        std::vector<const PlanarMesh*> parents;
+        for (const std::size_t i : group.before) {
+            parents.push_back(&before.droplet.meshes[i]);
+        }
+        std::optional<PatchedMesh> patched;
+        if (!parents.empty()) {
+            patched = patch(parents, footprint, edge);
+        }
+        if (patched && anglesWillDo(patched->mesh, footprint, edge)) {
+            kept_of[k] = patched->kept;
+            made[k].mesh = std::move(patched->mesh);
+        } else {
+            made[k].mesh = triangulate({{footprint}, {}}, {.edge = edge}).front();
+        }
+        if (needBases(options)) {
+            made[k].base = cover(made[k].mesh);
+        }
+    });
+    kept = std::accumulate(kept_of.begin(), kept_of.end(), std::size_t{0});
+    std::size_t triangles = 0;
+    for (const Meshed& one : made) {
+        triangles += one.mesh.triangles.size();
+    }
+    if (kept == 0 ||
+        (!options.mesh.edge && (triangles > 2 * options.mesh.triangles || 2 * triangles < options.mesh.triangles))) {
+        kept = 0;
+        return std::nullopt;
+    }
+    FrameLineage lineage;
+    lineage.edge = edge;
+    TriangulatedMeshes first;
+    for (std::size_t k = 0; k < count; ++k) {
+        first.meshes.push_back(followed[k] ? before.lineage->first->meshes[*followed[k]] : made[k].mesh);
+        if (made[k].base) {
+            first.bases.push_back(followed[k] ? before.lineage->first->bases[*followed[k]] : *made[k].base);
+            lineage.bases.push_back(std::move(*made[k].base));
+        }
+        meshes.push_back(std::move(made[k].mesh));
+    }
+    lineage.first = std::make_shared<const TriangulatedMeshes>(std::move(first));
+    return lineage;
+}
+
+Frame dryFrame(Outline outline, FrameLineage lineage)
+{
+    Frame frame;
+    frame.droplet.domain.extent = outline.extent;
+    frame.droplet.outline = std::move(outline);
+    lineage.first.reset();
+    lineage.bases.clear();
+    frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
+    return frame;
 }
 
 }  // namespace
@@ -324,6 +458,9 @@ void SequenceOptions::validate() const
 Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress)
 {
     options.validate();
+    if (outline.loops.empty()) {
+        return dryFrame(std::move(outline), {});
+    }
     Frame frame;
     frame.droplet.outline = std::move(outline);
     frame.droplet.domain = split(frame.droplet.outline);
@@ -335,6 +472,7 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
     for (const ShapeFigures& figures : frame.droplet.figures) {
         frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
     }
+    lineage.reservoir = volumeOf(frame.droplets);
     frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
     return frame;
 }
@@ -348,13 +486,21 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     if (outline.extent != before.droplet.outline.extent) {
         throw Error(ErrorCode::InvalidInput, "frames of a sequence must have one extent");
     }
+    if (outline.loops.empty()) {
+        Frame dry = dryFrame(std::move(outline), *before.lineage);
+        dry.volume_lost = volumeOf(before.droplets);
+        return dry;
+    }
     Frame frame;
     frame.droplet.outline = std::move(outline);
     Domain& domain = frame.droplet.domain;
     domain = split(frame.droplet.outline);
     const double row = rowOf(frame.droplet.outline);
     const std::size_t count = before.droplets.size();
-    std::vector<Link> links = linksOf(before.droplet.domain, domain, row);
+    std::vector<Link> links;
+    if (count > 0) {
+        links = linksOf(before.droplet.domain, domain, row);
+    }
     std::vector<Group> groups = groupsOf(count, domain.droplets.size(), links);
     if (progress) {
         progress(Stage::Triangulate);
@@ -368,16 +514,30 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         }
     }
     DropletOptions now = options.droplet;
-    if (options.volume_mode == VolumeMode::Total) {
-        now.solve.fill = {FillBy::Volume, volumeOf(before.droplets), FillSharing::Total};
+    const std::optional<double> reservoir = before.lineage->reservoir;
+    if (options.volume_mode == VolumeMode::Total && reservoir) {
+        now.solve.fill = {FillBy::Volume, *reservoir, FillSharing::Total};
     }
     std::optional<FrameLineage> lineage;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
         lineage = followAll(before, domain, frame.droplet.meshes);
     }
     const bool followed = lineage.has_value();
-    if (!followed) {
+    std::size_t kept = 0;
+    if (!followed && options.keep_vertices && count > 0) {
+        lineage = keepSome(before, groups, domain, now, frame.droplet.meshes, kept);
+    }
+    if (lineage) {
+        now.mesh.edge = lineage->edge;  // it, not the number of triangles, goes on
+    } else {
         lineage = meshAnew(domain, now, frame.droplet.meshes);
+    }
+    if (count > 0) {
+        std::size_t vertices = 0;
+        for (const PlanarMesh& mesh : frame.droplet.meshes) {
+            vertices += mesh.vertices.size();
+        }
+        frame.vertices_kept = followed ? 1.0 : static_cast<double>(kept) / static_cast<double>(vertices);
     }
     frame.droplets.resize(domain.droplets.size());
     lineage->next_id = nameDroplets(before, groups, links, frame);
@@ -391,11 +551,15 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     }
     finish(frame.droplet, now, lineage->bases, progress);
     if (options.volume_mode == VolumeMode::Total) {
-        const double scale = now.solve.fill.amount / frame.droplet.total.volume;  // so that nothing drifts
+        const double scale = reservoir.value_or(frame.droplet.total.volume) / frame.droplet.total.volume;  // no drift
         for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
             frame.droplets[k].volume = scale * frame.droplet.figures[k].volume;
         }
+        if (count == 0) {
+            frame.volume_gained = volumeOf(frame.droplets);
+        }
     }
+    lineage->reservoir = reservoir.value_or(volumeOf(frame.droplets));
     frame.continues = followed && !anyDry(frame.droplet);
     frame.lineage = std::make_shared<const FrameLineage>(*std::move(lineage));
     return frame;

@@ -12,6 +12,11 @@
 namespace droplet {
 namespace {
 
+ReportJson orNull(const std::optional<double>& value)
+{
+    return value ? ReportJson(*value) : ReportJson();
+}
+
 ReportJson frameRow(const FrameReport& frame)
 {
     std::size_t holes = 0;
@@ -21,6 +26,7 @@ ReportJson frameRow(const FrameReport& frame)
     ReportJson row{{"input", frame.input},
                    {"output", frame.output ? ReportJson(*frame.output) : ReportJson()},
                    {"continues", frame.continues},
+                   {"vertices_kept_share", orNull(frame.vertices_kept)},
                    {"volume_gained_m3", frame.volume_gained},
                    {"volume_lost_m3", frame.volume_lost},
                    {"vertices", frame.vertices},
@@ -29,7 +35,12 @@ ReportJson frameRow(const FrameReport& frame)
                    {"footprint_area_m2", frame.total.footprint_area},
                    {"rim_length_m", frame.total.rim_length},
                    {"holes", holes}};
-    row.update(shapeSection(frame.total, frame.pressure ? ReportJson(*frame.pressure) : ReportJson(), {}, false));
+    row.update(shapeSection(frame.total, orNull(frame.pressure), {}, false));
+    if (frame.droplets.empty()) {
+        for (ReportJson& angle : row["contact_angle_deg"]) {
+            angle = nullptr;
+        }
+    }
     row["droplets"] = ReportJson::array();
     for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
         ReportJson droplet{{"id", frame.ancestry[k].id}, {"from", frame.ancestry[k].from}};
@@ -46,9 +57,14 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
     const Droplet& droplet = frame.droplet;
     FrameReport report;
     report.continues = frame.continues;
+    report.vertices_kept = frame.vertices_kept;
     report.volume_gained = frame.volume_gained;
     report.volume_lost = frame.volume_lost;
     report.total = droplet.total;
+    if (droplet.meshes.empty()) {
+        report.closed = true;
+        return report;
+    }
     if (options.volume_mode == VolumeMode::Total || droplet.meshes.size() == 1) {
         report.pressure = droplet.solution.droplets.front().pressure;
     }
@@ -61,6 +77,23 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
                                    droplet.solution.droplets[k].pressure, std::nullopt});
     }
     return report;
+}
+
+std::size_t SequenceReport::dry() const
+{
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.droplets.empty(); }));
+}
+
+std::optional<double> SequenceReport::meanKept() const
+{
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const FrameReport& frame : frames) {
+        sum += frame.vertices_kept.value_or(0.0);
+        count += frame.vertices_kept ? 1 : 0;
+    }
+    return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
 }
 
 std::size_t SequenceReport::kept() const
@@ -89,7 +122,8 @@ void writeSequenceReport(std::ostream& out, const SequenceReport& report)
     json["fill"] = fillSection(report.physics.fill, {});
     json["volume_mode"] = report.volume_mode == VolumeMode::Total ? "total" : "track";
     const std::size_t transitions = report.frames.empty() ? 0 : report.frames.size() - 1;
-    json["transitions"] = {{"count", transitions}, {"vertices_kept", report.kept()}};
+    json["transitions"] = {
+        {"count", transitions}, {"vertices_kept", report.kept()}, {"vertices_kept_share", orNull(report.meanKept())}};
     json["frames"] = ReportJson::array();
     for (const FrameReport& frame : report.frames) {
         json["frames"].push_back(frameRow(frame));

@@ -145,7 +145,8 @@ TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
     EXPECT_THAT(told["frames"][0]["droplets"], SizeIs(2));
     EXPECT_THAT(told["frames"][4]["droplets"], SizeIs(1));
     EXPECT_EQ(told["transitions"]["count"], 4);
-    EXPECT_EQ(told["transitions"]["vertices_kept"], 3);
+    EXPECT_EQ(told["transitions"]["vertices_kept"], 2);
+    EXPECT_GT(told["transitions"]["vertices_kept_share"].get<double>(), 0.5);
     EXPECT_TRUE(told["frames"][1]["continues"].get<bool>());
     EXPECT_EQ(told["input"]["width_px"], 64);
 }
@@ -249,6 +250,28 @@ TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
     EXPECT_EQ(bytesOf("again.png"), bytesOf("sheet.png"));
 }
 
+TEST_F(AnimateTest, PreviewsAreFramesOfOneCameraOrAVideo)
+{
+    writeFile(directory() / "frames/f0010.pgm", greymap(64, 48, [](int, int) { return 0; }));
+    fs::create_directory(directory() / "seen");
+    make({"frames/f%04d.pgm", "film.glb", "--preview", "seen/%02d.png", "--preview-size", "64x48", "--view", "top"});
+    for (int frame = 8; frame <= 12; ++frame) {
+        const std::string digits = frame < 10 ? "0" + std::to_string(frame) : std::to_string(frame);
+        EXPECT_THAT(bytesOf("seen/" + digits + ".png"), StartsWith("\x89PNG"));
+    }
+    EXPECT_NE(bytesOf("seen/08.png"), bytesOf("seen/10.png"));
+    make({"frames", "out.glb", "--preview", "film.mp4", "--preview-size", "64x48", "--fps", "10"});
+    CommandOptions options;
+    options.directory = directory();
+    const auto probed = runProgram({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                                    "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", "film.mp4"},
+                                   options);
+    EXPECT_THAT(probed.output, StartsWith("64,48,10/1,5")) << probed.error;
+    expectFailure({"frames", "old.glb", "--preview", "film.gif"}, 2, {"--preview", "'film.gif'", "out/%04d.png"});
+    expectFailure({"frames", "old.glb", "--preview", "film.mp4", "--preview-size", "65x48"}, 2, {"even sides"});
+    expectFailure({"frames/f%04d.pgm", "old.glb", "--preview", "old.glb"}, 2, {"--preview"});
+}
+
 TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
 {
     for (const char* mode : {"total", "track"}) {
@@ -262,7 +285,7 @@ TEST_F(AnimateTest, SaysWhatItDid)
 {
     const auto result = run({"frames", "film.glb", "--volume", "20uL"});
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_THAT(result.error, HasSubstr("5 frames, 20 uL; vertices kept in 3 of 4 steps"));
+    EXPECT_THAT(result.error, HasSubstr("5 frames, 20 uL; vertices kept in 2 of 4 steps"));
     EXPECT_THAT(result.error, HasSubstr("film.glb: "));
     const auto piped = run({"frames", "-", "-q"});
     EXPECT_EQ(piped.exit_code, 0);
@@ -274,14 +297,65 @@ TEST_F(AnimateTest, ComplainsOfFramesByTheirNames)
     expectFailure({"frames/g%04d.pgm", "old.glb"}, 3, {"frames/g%04d.pgm", "no such file"});
     expectFailure({"nowhere/%d.pgm", "old.glb"}, 3, {"nowhere", "No such file"});
     expectFailure({"frames/f0008.pgm", "frames/none.pgm", "old.glb"}, 3, {"frames/none.pgm"});
-    writeFile(directory() / "frames/f0010.pgm", greymap(64, 48, [](int, int) { return 0; }));
-    expectFailure({"frames", "old.glb"}, 3, {"frames/f0010.pgm", "liquid"});
     writeFile(directory() / "frames/f0010.pgm", greymap(60, 48, [](int i, int) { return i > 30 ? 255 : 0; }));
     expectFailure({"frames", "old.glb"}, 3, {"frames/f0010.pgm", "60 x 48", "frames/f0008.pgm", "64 x 48"});
     fs::remove(directory() / "frames/f0010.pgm");
     expectFailure({"frames/f%04d.pgm", "old.glb"}, 3, {"frames/f0010.pgm is missing", "from 8 to 12"});
     fs::create_directory(directory() / "empty");
     expectFailure({"empty", "old.glb"}, 3, {"empty", "no picture"});
+}
+
+TEST_F(AnimateTest, OneFrameDecidesForAllWhatIsLiquid)
+{
+    // A dark disc that grows over the border, after a page without one.
+    for (int frame = 8; frame <= 12; ++frame) {
+        const double radius = frame == 8 ? -5.0 : 6.0 * (frame - 8) + 4.0;
+        writeFile(directory() / "frames" / name(frame - 8), greymap(64, 48, [=](int i, int j) {
+                      const double in = radius - std::hypot(i + 0.5 - 32.0, j + 0.5 - 24.0);
+                      return static_cast<int>(std::lround(255.0 * (1.0 - std::clamp(in + 0.5, 0.0, 1.0))));
+                  }));
+    }
+    writeFile(directory() / "frames" / name(4), greymap(64, 48, [](int i, int) { return i < 2 ? 255 : 0; }));
+    const auto told = report({"frames", "film.glb", "--width", "64mm"});
+    std::vector<double> areas;
+    for (const json& frame : told["frames"]) {
+        areas.push_back(1e6 * frame["footprint_area_m2"].get<double>());
+    }
+    EXPECT_EQ(areas[0], 0.0);
+    EXPECT_NEAR(areas[1], M_PI * 100.0, 3.0);
+    EXPECT_NEAR(areas[3], M_PI * 22.0 * 22.0, 6.0);
+    EXPECT_NEAR(areas[4], 62.0 * 48.0, 6.0);
+    ASSERT_THAT(told["warnings"], ElementsAre(HasSubstr("frame 5 by itself")));
+    EXPECT_THAT(told["warnings"][0].get<std::string>(), HasSubstr("as frames/f0009.pgm, by luma with dark as liquid"));
+}
+
+TEST_F(AnimateTest, FramesWithoutLiquidAreFrames)
+{
+    const auto dry = greymap(64, 48, [](int, int) { return 0; });
+    writeFile(directory() / "frames/f0008.pgm", dry);
+    writeFile(directory() / "frames/f0010.pgm", dry);
+    const json told = report({"frames", "film.glb", "--volume", "20uL", "--contact-sheet", "sheet.png"});
+    ASSERT_THAT(told["frames"], SizeIs(5));
+    EXPECT_THAT(volumes(told), ElementsAre(0.0, ::testing::DoubleNear(20e-9, 1e-16), 0.0,
+                                           ::testing::DoubleNear(20e-9, 1e-16), ::testing::DoubleNear(20e-9, 1e-16)));
+    const json& pause = told["frames"][2];
+    EXPECT_THAT(pause["droplets"], IsEmpty());
+    EXPECT_TRUE(pause["pressure_pa"].is_null());
+    EXPECT_TRUE(pause["contact_angle_deg"]["mean"].is_null());
+    EXPECT_NEAR(pause["volume_lost_m3"].get<double>(), 20e-9, 1e-16);
+    EXPECT_NEAR(told["frames"][3]["volume_gained_m3"].get<double>(), 20e-9, 1e-16);
+    fs::create_directory(directory() / "out");
+    for (const char* kind : {"obj", "ply", "stl", "glb", "gltf"}) {
+        make({"frames/f%04d.pgm", std::string("out/%d.") + kind});
+        EXPECT_TRUE(fs::exists(directory() / (std::string("out/8.") + kind))) << kind;
+    }
+    for (int frame = 0; frame < 5; ++frame) {
+        writeFile(directory() / "frames" / name(frame), dry);
+    }
+    expectFailure({"frames", "old.glb"}, 3, {"frames", "no liquid in any of 5 frames"});
+    fs::create_directory(directory() / "none");
+    expectFailure({"frames", "none/%d.obj"}, 3, {"no liquid"});
+    EXPECT_TRUE(fs::is_empty(directory() / "none"));
 }
 
 TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)

@@ -348,5 +348,42 @@ TEST(MaskAlpha, LumaAskedForSeesTheImageInFrontOfBlack)
     EXPECT_THAT(mask.coverage, ElementsAre(0, 0x64 * 257, 0x80 * 257, std::lround(0x64 * 257.0 * 0x80 * 257 / 65535)));
 }
 
+TEST(Mask, LevelsThatAreGivenAreTakenInsteadOfItsOwn)
+{
+    const Grey ring(40, 40, [](int x, int y) { return std::hypot(x - 20, y - 20) < 12 ? 0.2 : 0.9; });
+    const Mask own = decodeMask(ring.encoded());
+    ASSERT_TRUE(own.found);
+    EXPECT_EQ(own.found->channel, Channel::Luma);
+    EXPECT_NEAR(own.found->dry, 0.9, 1e-4);
+    EXPECT_NEAR(own.found->liquid, 0.2, 1e-4);
+    MaskOptions options;
+    options.levels = own.found;
+    EXPECT_EQ(decodeMask(ring.encoded(), options).coverage, own.coverage);
+    // Grown over the border it says the opposite by itself.
+    const Grey grown(40, 40, [](int x, int y) { return std::hypot(x - 20, y - 20) < 26 ? 0.2 : 0.9; });
+    const Mask alone = decodeMask(grown.encoded());
+    EXPECT_EQ(alone.at(20, 20), 0);
+    const Mask alike = decodeMask(grown.encoded(), options);
+    EXPECT_EQ(alike.at(20, 20), 65535);
+    EXPECT_EQ(alike.at(0, 0), 0);
+    EXPECT_TRUE(alike.inverted);
+    EXPECT_LT(alike.found->dry, alike.found->liquid) << "what it says by itself is still told";
+    // Of one level there is nothing to find, but it is one of the two.
+    const Grey dark(40, 40, [](int, int) { return 0.2; });
+    EXPECT_FALSE(decodeMask(dark.encoded()).found);
+    EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(65535));
+    options.invert = true;
+    EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(0));
+    // Without alpha an image is opaque.
+    options = {};
+    options.levels = MaskLevels{Channel::Alpha, 0.0, 1.0};
+    EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(65535));
+    options.levels->liquid = 0.0;
+    EXPECT_THROW(decodeMask(dark.encoded(), options), Error);
+    options.levels = MaskLevels{Channel::Luma, 0.0, 1.0};
+    options.channel = Channel::Luma;
+    EXPECT_THROW(decodeMask(dark.encoded(), options), Error);
+}
+
 }  // namespace
 }  // namespace droplet

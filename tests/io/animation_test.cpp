@@ -304,6 +304,48 @@ TEST(Animation, EqualFramesHaveNoDifference)
     }
 }
 
+TEST(Animation, FramesWithoutASurfaceShowNothing)
+{
+    const Film film = filmOf({3, 2});
+    // Two dry frames, a run of three, one dry, a run of two, two dry: ten frames.
+    const std::vector<int> order{-1, -1, 0, 1, 2, -1, 3, 4, -1, -1};
+    Animation animation({.frames_per_second = 10.0, .frames = order.size()});
+    for (const int k : order) {
+        if (k < 0) {
+            animation.addDry();
+        } else {
+            animation.add(film.frames[at(k)], film.continues[at(k)]);
+        }
+    }
+    std::ostringstream out;
+    animation.write(out);
+    tinygltf::Model model = parsed(out.str());
+    for (std::size_t frame = 0; frame < order.size(); ++frame) {
+        const auto time = static_cast<double>(static_cast<float>(static_cast<double>(frame) / 10.0));
+        if (order[frame] < 0) {
+            EXPECT_EQ(playedAt(model, time).nodes, 0U) << frame;
+            EXPECT_EQ(playedAt(model, time + 0.09).nodes, 0U) << frame;
+        } else {
+            expectShows(model, time, film.frames[at(order[frame])]);
+        }
+    }
+    // What was last before a pause stands still until then, and the film is as long as its frames.
+    expectShows(model, 0.499, film.frames[2]);
+    EXPECT_EQ(playedAt(model, 1.0).nodes, 0U);
+    float end = 0.0F;
+    for (const tinygltf::AnimationSampler& sampler : model.animations.at(0).samplers) {
+        end = std::max(end, numbersOf<float>(model, sampler.input).back());
+    }
+    EXPECT_FLOAT_EQ(end, 1.0F);
+    model.animations.clear();
+    expectShows(model, 0.0, film.frames[0]);
+
+    Animation again({.frames_per_second = 10.0});
+    again.add(film.frames[0], false);
+    again.addDry();
+    EXPECT_THROW(again.add(film.frames[1], true), Error) << "nothing goes on after a pause";
+}
+
 TEST(Animation, NamesAreThoseOfFrames)
 {
     const tinygltf::Model model = parsed(written(filmOf({2, 3})));

@@ -113,6 +113,19 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
     animate("single_frame.glb", {film[0]}, 1, true);
     const Surface odd = testing::soup({{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}, 5);
     animate("odd_number_of_triangles.glb", {odd, odd, odd}, 2, false);
+    Animation paused({.frames_per_second = 25.0});
+    for (int k = 0; k < 8; ++k) {
+        if (k % 4 < 2) {
+            paused.addDry();
+        } else {
+            paused.add(film[static_cast<std::size_t>(k)], k % 4 == 3);
+        }
+    }
+    std::ostringstream out;
+    paused.write(out);
+    files.push_back(stored("paused.glb", out.str()));
+    files.push_back(stored("nothing.glb", written(Surface{}, {})));
+    files.push_back(stored("nothing.gltf", written(Surface{}, {.binary = false})));
 
     const Verdict verdict = validated(files);
     EXPECT_EQ(verdict.exit_code, 0) << verdict.text;

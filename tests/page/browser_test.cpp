@@ -54,6 +54,14 @@ void makePages(const fs::path& folder)
     make("water.html", {"--material", "ink"});
     make("full.html", {"--json", (folder / "full.json").string()}, "80uL");
     make("exact.html", {"--model", "exact"});
+    fs::create_directory(folder / "frames");
+    for (const auto& [name, radius] : {std::pair("1.pgm", 24.0), std::pair("2.pgm", 14.0), std::pair("3.pgm", 0.0)}) {
+        writeFile(folder / "frames" / name, testing::discPicture(64, radius));
+    }
+    const auto film = runDroplet({"animate", (folder / "frames").string(), (folder / "film.glb").string(), "--html",
+                                  (folder / "film.html").string(), "--triangles", "800", "--volume", "40uL", "--fps",
+                                  "3", "--material", "ink", "-q"});
+    ASSERT_EQ(film.exit_code, 0) << film.error;
     std::ofstream hostile(folder / "hostile.html", std::ios::binary);
     const nlohmann::json report{
         {"input", {{"path", kHostile}}}, {"liquid", {{"name", kHostile}}}, {"warnings", {kHostile}}};
@@ -128,6 +136,19 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
 
     EXPECT_FALSE(seen["exact"]["slider"]);
     EXPECT_NE(seen["exact"]["state"], "failed");
+
+    const auto& film = seen["film"];
+    EXPECT_FALSE(film["refill"]);
+    EXPECT_EQ(film["duration"], 1.0);
+    EXPECT_GT(film["shown"][0], kSeen) << "another droplet";
+    EXPECT_GT(film["shown"][1], kSeen) << "nothing";
+    EXPECT_GT(film["shown"][2], kSeen) << "nothing at the end, before it begins again";
+    EXPECT_LT(film["shown"][3], kNoise);
+    EXPECT_THAT(film["moments"][1].get<std::string>(),
+                AllOf(HasSubstr("2 of 3"), HasSubstr("40.0"), HasSubstr("high")));
+    EXPECT_THAT(film["moments"][2].get<std::string>(), HasSubstr("3 of 3 · no liquid"));
+    EXPECT_EQ(film["words"], (nlohmann::json{"Play", "Pause"}));
+    EXPECT_EQ(film["moved_in_pause"], 0.0);
 
     const auto& hostile = seen["hostile"];
     EXPECT_FALSE(hostile["executed"]);

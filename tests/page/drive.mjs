@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens pages from disk in a real browser and uses them as people do: node drive.mjs CHROMIUM FOLDER FIGURES_JS
-// FOLDER holds full.json, a report, water.html, exact.html, hostile.html and picture.png. Prints one JSON object of what was seen; what of
+// FOLDER holds full.json, a report, water.html, exact.html, film.html, hostile.html and picture.png. Prints one JSON object of what was seen; what of
 // that is right is for the test to say.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -233,6 +233,40 @@ async function exact() {
     return seen;
 }
 
+/** A film of three frames a second: a droplet, another one, none. */
+async function film() {
+    const page = await open('film.html', { viewport: kWide, colorScheme: 'light', reducedMotion: 'reduce' });
+    const seen = { refill: await page.locator('#refill').isVisible(), moments: [], shown: [] };
+    const at = async (seconds) => {
+        await page.locator('#time').evaluate((slider, to) => {
+            slider.value = to;
+            slider.dispatchEvent(new Event('input', { bubbles: true }));
+        }, seconds);
+        seen.moments.push(await page.locator('#moment').innerText());
+        return look(page);
+    };
+    const first = await at(0);
+    for (const seconds of [0.4, 0.7, 1, 0]) {
+        seen.shown.push(difference(first, await at(seconds)));
+    }
+    seen.duration = Number(await page.locator('#time').getAttribute('max'));
+    const time = async () => Number(await page.locator('#time').inputValue());
+    seen.words = [await page.locator('#play').innerText()];
+    await page.locator('#play').click();
+    await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.2);
+    seen.words.push(await page.locator('#play').innerText());
+    await page.locator('#play').click();
+    const paused = await time();
+    await settle(page);
+    seen.moved_in_pause = await time() - paused;
+    await page.context().close();
+    // Where motion is welcome it plays by itself.
+    const plays = await open('film.html', { viewport: kWide });
+    await plays.waitForFunction(() => Number(document.getElementById('time').value) > 0.1);
+    await plays.context().close();
+    return seen;
+}
+
 async function hostile() {
     const page = await open('hostile.html', { viewport: kWide });
     const seen = await page.evaluate(() => ({
@@ -257,7 +291,7 @@ async function hostile() {
 }
 
 try {
-    const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json') };
+    const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json'), film: await film() };
     Object.assign(seen, { complaints: [...complaints], outside });
     complaints.length = 0;
     seen.hostile = await hostile();

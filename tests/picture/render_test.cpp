@@ -411,6 +411,39 @@ TEST(Camera, FramesATurntableOnceForAllTurns)
 }
 
 // A point on the right comes to the front when the droplet is turned counter-clockwise by three quarters.
+TEST(Camera, StaysWhereItIsForWhatIsFramed)
+{
+    for (const View view : kViews) {
+        RenderOptions options = small(view);
+        options.ground = slopes();
+        const Surface wide = roundDroplet({.outer = 4e-3, .height = 1.5e-3});
+        const Surface narrow = roundDroplet({.outer = 1e-3, .height = 0.5e-3});
+        options.framed = around(narrow, around(wide));
+        const std::array pictures{render(wide, options), render(narrow, options), render(Surface{}, options)};
+        for (const Picture& picture : pictures) {
+            for (const int y : {0, options.height - 1}) {
+                EXPECT_EQ(pixelAt(picture, 0, y), pixelAt(pictures[0], 0, y));
+                EXPECT_EQ(pixelAt(picture, options.width - 1, y), pixelAt(pictures[0], options.width - 1, y));
+            }
+        }
+        const auto differing = [&](const Picture& a, const Picture& b) {
+            int count = 0;
+            for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+                count += a.rgb[i] != b.rgb[i] ? 1 : 0;
+            }
+            return count;
+        };
+        EXPECT_GT(differing(pictures[0], pictures[2]), differing(pictures[1], pictures[2])) << "it is larger";
+        EXPECT_GT(differing(pictures[1], pictures[2]), 0);
+        options.framed.reset();
+        EXPECT_NE(pixelAt(render(narrow, options), 0, 0), pixelAt(pictures[1], 0, 0)) << "it is nearer then";
+    }
+    EXPECT_FALSE(around(Surface{}));
+    RenderOptions options = small();
+    options.framed = ViewBox{{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}};
+    EXPECT_THROW(render(roundDroplet(), options), Error);
+}
+
 TEST(Camera, TurnsTheDropletCounterClockwise)
 {
     const Scene scene(roundDroplet(), RenderOptions{});

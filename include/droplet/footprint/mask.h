@@ -20,6 +20,13 @@ enum class Channel {
     Luma,   ///< bright is liquid, as it stands: no look at the border, no stretching of levels
 };
 
+/// Levels of a channel, in [0, 1], that are dry and liquid.
+struct MaskLevels {
+    Channel channel = Channel::Luma;  ///< never Auto
+    double dry = 0.0;
+    double liquid = 1.0;
+};
+
 /// How the pixels of an image become coverage by liquid.
 struct MaskOptions {
     Channel channel = Channel::Auto;
@@ -32,6 +39,9 @@ struct MaskOptions {
     std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
     double vector_seconds = 10.0;  ///< that drawing an SVG may take, by the clock and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< that drawing an SVG may take beside its pixels [B], ≥ 64 MiB
+    std::optional<MaskLevels> levels = {};          ///< with Channel::Auto: taken instead of the image's own, so that
+                                                    ///< the frames of a sequence are read alike; an image without
+                                                    ///< alpha is opaque then
 };
 
 /// How much of every pixel liquid covers, and how that was decided.
@@ -47,6 +57,9 @@ struct Mask {
     double segment_confidence = 1.0;  ///< how much the picture looks like a mask taken that way, in [0, 1]
     double level_dry = 0.0;           ///< channel level in [0, 1] that became coverage 0
     double level_liquid = 1.0;        ///< channel level in [0, 1] that became coverage 65535
+
+    std::optional<MaskLevels> found;  ///< with Channel::Auto: what the image by itself says, before `invert`; empty if
+                                      ///< nothing stands out in it, as in an image of one level
 
     std::optional<double> drawn_scale;     ///< of an SVG image: pixels of the mask per CSS px of the page, > 0
     std::optional<double> physical_width;  ///< of an SVG image that states its size in cm, mm, in, pt or pc [m]

@@ -44,6 +44,7 @@ struct TraceOptions {
     double speck_size = 3.0;           ///< loops that enclose less than this are dropped [px²], ≥ 0
     bool corners = true;               ///< keep sharp corners sharp; otherwise everything is faired
     CleanOptions clean = {};           ///< what is done to the mask first
+    bool may_be_dry = false;           ///< without liquid: an outline without loops, not an error
 
     /// @throws Error InvalidArgument
     void validate() const;
@@ -61,8 +62,8 @@ double pixelSize(const Mask& mask, const TraceOptions& options);
 /// the number of pixels.
 /// @param mask     valid
 /// @param options  threshold, physical size, speck size
-/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only, or if its
-///                 borders are longer than 2²³ sides of pixels
+/// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only, unless it may
+///                 be dry, or if its borders are longer than 2²³ sides of pixels
 Outline trace(const Mask& mask, const TraceOptions& options = {});
 
 }  // namespace droplet

@@ -31,8 +31,8 @@ struct AnimationOptions {
 /// weights are animated LINEAR, so that between frames vertices move; runs longer than 64 frames go on in another node,
 /// which begins with the frame that the one before ends with, so nothing jumps there. Which run is shown, is animated
 /// by scale, STEP, 1 or 0, for all viewers can do that. The last frame is shown for as long as all others, then the
-/// animation may begin again. Without an animation, the first frame is shown. Texture coordinates are those of a run's
-/// first frame; contact angles are left out.
+/// animation may begin again. In frames without a surface no run is shown. Without an animation, the first surface is.
+/// Texture coordinates are those of a run's first frame; contact angles are left out.
 class Animation {
 public:
     /// @throws Error InvalidArgument
@@ -47,9 +47,12 @@ public:
     ///                   would reach 2 GiB
     void add(const Surface& surface, bool continues);
 
+    /// A frame in which nothing is shown.
+    void addDry();
+
     /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.
     /// @return       bytes handed to the stream
-    /// @throws Error InvalidArgument if there is no frame
+    /// @throws Error InvalidArgument if no frame has a surface
     std::uint64_t write(std::ostream& out) const;
 
 private:

@@ -33,7 +33,8 @@ struct WriteOptions {
     std::optional<std::string> material_file = {};  ///< of OBJ: the file that writeMtl made, by its name beside it
 };
 
-/// Writes a surface to a stream in the given format.
+/// Writes a surface to a stream in the given format; one without vertices, as of a frame without liquid, as a file that
+/// holds nothing.
 /// @return       bytes handed to the stream, which is left failed if it did not take everything
 /// @throws Error InvalidArgument as the writers of each format
 std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format format, const WriteOptions& options = {});

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "droplet/droplet.h"
@@ -11,7 +12,8 @@ namespace droplet {
 
 /// What is kept from frame to frame.
 enum class VolumeMode {
-    Total,  ///< the volume of all droplets together, which share it as one reservoir (thesis 4.2.4)
+    Total,  ///< the volume of all droplets together, which share it as one reservoir (thesis 4.2.4); all of it is gone
+            ///< in frames without liquid and back after them
     Track,  ///< the volume of every droplet, through merging and splitting
 };
 
@@ -19,7 +21,8 @@ enum class VolumeMode {
 struct SequenceOptions {
     DropletOptions droplet;  ///< of every frame; how much liquid: of the first, and of droplets that come from nowhere
     VolumeMode volume_mode = VolumeMode::Total;
-    bool keep_vertices = true;  ///< move a mesh with its footprint where that is possible; else triangulate every frame
+    bool keep_vertices = true;  ///< move a mesh with its footprint, or keep its triangles far from where the rim
+                                ///< changed, where that is possible; else triangulate every frame
 
     /// @throws Error InvalidArgument also with a fill_range, volumes of each droplet, or with VolumeMode::Total unless
     ///               fill.sharing is Total
@@ -38,15 +41,19 @@ struct FrameLineage;
 
 /// One frame of a sequence.
 struct Frame {
-    Droplet droplet;
+    Droplet droplet;                 ///< without meshes and surface where there is no liquid
     std::vector<Ancestry> droplets;  ///< one per droplet
-    bool continues = false;      ///< the surface is that of the frame before, moved: vertex by vertex, same triangles
-    double volume_gained = 0.0;  ///< by droplets that come from nowhere; with VolumeMode::Total 0 [m³]
-    double volume_lost = 0.0;    ///< by droplets that went nowhere; with VolumeMode::Total 0 [m³]
+    bool continues = false;  ///< the surface is that of the frame before, moved: vertex by vertex, same triangles
+    std::optional<double> vertices_kept;  ///< share of the meshes' vertices that the frame before had, there or moved;
+                                          ///< empty if there is no frame before, or no liquid in one of the two
+    double volume_gained = 0.0;  ///< by droplets that come from nowhere; with VolumeMode::Total only after a frame
+                                 ///< without liquid [m³]
+    double volume_lost = 0.0;    ///< by droplets that went nowhere; with VolumeMode::Total only into such a frame [m³]
     std::shared_ptr<const FrameLineage> lineage;  ///< of firstFrame() and nextFrame(), for nextFrame()
 };
 
 /// The first frame: makeDroplet(), with one pressure for all if the total volume is to be kept.
+/// @param outline  without loops: a frame without liquid
 /// @throws Error as makeDroplet
 Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
@@ -61,10 +68,15 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// droplet.solve.fill says, or a lost one.
 ///
 /// Where every droplet goes on as one droplet with as many holes, meshes move along (mesh/follow.h), and droplets stand
-/// in the order they had.
+/// in the order they had. Elsewhere, with the linear model and without grading, droplets keep their triangles far from
+/// where their rims changed (mesh/patch.h), and the edge's length is that of the frames before, as long as that gives
+/// half to twice the triangles asked for.
 ///
-/// Guarantees: with VolumeMode::Track volumes are those of the frame before − lost + gained, with VolumeMode::Total the
-/// same in every frame, to 1e-9.
+/// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next are new. The
+/// first droplets of all are filled as droplet.solve.fill says, whenever they come.
+///
+/// Guarantees: volumes are those of the frame before − lost + gained, and with VolumeMode::Total the same in every
+/// frame with liquid, to 1e-9.
 /// @param before   the frame before, as firstFrame() or nextFrame() made it, of a picture of the same extent
 /// @throws Error   as makeDroplet; InvalidInput if the extent is another; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});

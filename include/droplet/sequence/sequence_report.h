@@ -16,11 +16,12 @@ namespace droplet {
 
 /// What of a frame is worth telling once it is made.
 struct FrameReport {
-    std::string input;                  ///< its picture as given, or which of the video's frames
-    std::optional<std::string> output;  ///< its file, where every frame has its own
-    bool continues = false;             ///< as in Frame
-    double volume_gained = 0.0;         ///< as in Frame [m³]
-    double volume_lost = 0.0;           ///< as in Frame [m³]
+    std::string input;                    ///< its picture as given, or which of the video's frames
+    std::optional<std::string> output;    ///< its file, where every frame has its own
+    bool continues = false;               ///< as in Frame
+    std::optional<double> vertices_kept;  ///< as in Frame
+    double volume_gained = 0.0;           ///< as in Frame [m³]
+    double volume_lost = 0.0;             ///< as in Frame [m³]
     ShapeFigures total;
     std::optional<double> pressure;  ///< [Pa]; empty when droplets have pressures of their own
     std::size_t vertices = 0;        ///< of the surface
@@ -49,9 +50,13 @@ struct SequenceReport {
     std::vector<FrameReport> frames;
     std::vector<std::string> warnings;
     std::size_t grave_warnings = 0;  ///< so many of the first are told even where only errors are
-    double time_total = 0.0;        ///< [s]
-    std::uint64_t peak_memory = 0;  ///< [bytes]
+    double time_total = 0.0;         ///< [s]
+    std::uint64_t peak_memory = 0;   ///< [bytes]
 
+    /// Mean of the frames' vertices_kept; empty if no frame has it.
+    [[nodiscard]] std::optional<double> meanKept() const;
+    /// How many frames have no liquid.
+    [[nodiscard]] std::size_t dry() const;
     /// How many frames continue the one before.
     [[nodiscard]] std::size_t kept() const;
 };
