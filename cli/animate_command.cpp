@@ -221,12 +221,16 @@ private:
     void writeFrame(const std::string& path, bool closed)
     {
         const auto write = [&](const std::string& file, const droplet::Surface& surface) {
-            report_.bytes += droplet::writeWhole(
-                file,
-                [&](std::ostream& out) {
-                    writeSurface(surface, out, options_.format, {options_.settings.material, closed});
-                },
+            std::uint64_t bytes = 0;
+            writeTogether(
+                surfaceFiles(
+                    surface,
+                    {file,
+                     options_.format,
+                     {.material = options_.settings.material, .closed = closed, .unit = options_.settings.unit}},
+                    bytes),
                 options_.run.files);
+            report_.bytes += bytes;
         };
         const bool dry = frame_->droplets.empty();
         if (dry && report_.dry() == report_.frames.size()) {
