@@ -281,6 +281,7 @@ private:
         render.width = preview.width;
         render.height = preview.height;
         render.view = preview.view;
+        render.camera = preview.camera;
         render.look = droplet::lookOf(options_.settings.material);
         render.extent = frame_->droplet.domain.extent;
         render.framed = seen_;

@@ -89,7 +89,7 @@ void readFilm(const CommandLine& line, AnimateOptions& options)
     readView(line, preview);
     const auto path = line.value("--preview");
     if (!path) {
-        for (const char* option : {"--view", "--preview-size"}) {
+        for (const char* option : {"--view", "--camera", "--preview-size"}) {
             if (line.value(option)) {
                 options.settings.warnings.push_back(std::string(option) + " has no effect without --preview");
             }

@@ -83,7 +83,7 @@ _droplet_shape()
                     --smooth --fill-holes --keep'
                 case ${COMP_WORDS[1]} in
                     animate) choices="$picture $making $running --volume-mode --fps --contact-sheet --preview
-                        --view --preview-size --html --json" ;;
+                        --view --camera --preview-size --html --json" ;;
                     batch)
                         choices="$picture $making $running --format --fill-range --json
                             --output --recursive --keep-going --no-resume --shard --manifest --contact-sheet --one-scale"

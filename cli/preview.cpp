@@ -143,10 +143,6 @@ void readView(const CommandLine& line, PreviewOptions& options)
     if (const auto camera = line.value("--camera")) {
         options.camera = cameraOf(*camera);
     }
-    const auto background = line.value("--background");
-    if (background) {
-        options.cut_out = choice<bool>(*background, {{"ground", false}, {"none", true}});
-    }
     if (const auto size = line.value("--preview-size")) {
         readSize(*size, options);
     }
@@ -156,6 +152,12 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
 {
     PreviewOptions options;
     readView(line, options);
+    if (const auto background = line.value("--background")) {
+        options.cut_out = choice<bool>(*background, {{"ground", false}, {"none", true}});
+    }
+    if (const auto environment = line.value("--environment")) {
+        options.environment = environment->text;
+    }
     const auto ground = line.value("--ground");
     if (ground) {
         options.ground = ground->text;

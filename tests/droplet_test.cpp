@@ -656,7 +656,7 @@ Mask noiseMask(std::uint32_t seed)
 }
 
 // On these rims recovered angles fall to -1 degree at single vertices.
-TEST(Droplet, LeavesNoRimDownwardWhereItIsNowhereBelowTheGround)
+TEST(Droplet, HasNoAngleBelowTheGroundWhereItIsNowhereBelow)
 {
     for (const std::uint32_t seed : {9U, 11U}) {
         DropletOptions options = plain();
@@ -670,7 +670,7 @@ TEST(Droplet, LeavesNoRimDownwardWhereItIsNowhereBelowTheGround)
             EXPECT_NEAR(figures.contact_angle.mean / kDegree, 15.0, 1e-6);
         }
         for (const HeightField& field : droplet.solution.droplets) {
-            EXPECT_GE(*std::min_element(field.rim_slope.begin(), field.rim_slope.end()), 0.0);
+            EXPECT_GE(*std::min_element(field.contact_angle.begin(), field.contact_angle.end()), 0.0);
         }
     }
 }

@@ -120,9 +120,9 @@ HeightField fieldOf(const Energy& energy, Sheet&& sheet, double surface_tension)
         above = field.thicknessAt(v) >= 0.0;
     }
     for (std::uint32_t v = 0; v < rim; ++v) {
+        field.rim_slope.push_back(energy.slopeOf(v, sheet.flux[v]));
         // A sheet that is nowhere below the ground leaves no rim downward, whatever was recovered there.
         const double flux = above ? std::max(sheet.flux[v], energy.groundFlux(v)) : sheet.flux[v];
-        field.rim_slope.push_back(energy.slopeOf(v, flux));
         field.contact_angle.push_back(energy.contactAngle(v, flux).first);
     }
     return field;
