@@ -49,8 +49,9 @@ public:
     [[nodiscard]] double slopeOf(std::uint32_t rim_vertex, double flux) const;
     /// The flux of a sheet that lies on the ground there.
     [[nodiscard]] double groundFlux(std::uint32_t rim_vertex) const;
-    /// The angle between liquid and ground at a rim vertex [rad], and its derivative by the flux. Where the liquid cannot
-    /// be below the ground it is not negative: beside dry ground and on ragged rims recovered ones swing about 0.
+    /// The angle between liquid and ground at a rim vertex [rad], and its derivative by the flux. Where the liquid
+    /// cannot be below the ground it is not negative: beside dry ground and on ragged rims recovered ones swing about
+    /// 0.
     [[nodiscard]] std::pair<double, double> contactAngle(std::uint32_t rim_vertex, double flux) const;
 
     /// Whether the liquid's surface lies still on the ground without a pressure: level and flat.

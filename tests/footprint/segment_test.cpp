@@ -263,7 +263,8 @@ class NoMaskTest : public ::testing::TestWithParam<NoMask> {};
 TEST_P(NoMaskTest, IsToldSoUnlessItIsInsistedOn)
 {
     const Bytes picture = png(painted(GetParam().size, GetParam().colour));
-    EXPECT_THAT(messageOf(picture), ::testing::AllOf(HasSubstr("is no picture of a footprint"), HasSubstr("--segment")));
+    EXPECT_THAT(messageOf(picture),
+                ::testing::AllOf(HasSubstr("is no picture of a footprint"), HasSubstr("--segment")));
     MaskOptions options;
     options.insist = true;
     EXPECT_LT(decodeMask(picture, options).segment_confidence, 0.3);
