@@ -32,7 +32,10 @@ std::string countText(std::size_t count)
 std::string percent(double share)
 {
     constexpr double kLeast = 1e-3;
-    return share < kLeast ? "less than 0.1 %" : numberText(100.0 * share, 2) + " %";
+    constexpr double kWhole = 0.1;  // from here on without a decimal, which two digits would write as 9.5e+02
+    return share < kLeast    ? "less than 0.1 %"
+           : share >= kWhole ? numberText(std::round(100.0 * share)) + " %"
+                             : numberText(100.0 * share, 2) + " %";
 }
 
 /// By how much the linear model errs that is known without the exact one: the area it takes for that of its own
