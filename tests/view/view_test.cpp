@@ -381,7 +381,8 @@ TEST(View, LampsByNightAreBrighterThanTheirPixels)
     Picture night = filled(160, 90, {12, 14, 20}, {8, 8, 8});
     for (const int x : {40, 41, 42, 43, 120, 121, 122, 123}) {
         for (const int y : {30, 31, 32, 33}) {
-            std::copy_n(std::array<std::uint8_t, 3>{255, 190, 90}.data(), 3, &night.rgb[3U * (160U * y + x)]);
+            std::copy_n(std::array<std::uint8_t, 3>{255, 190, 90}.data(), 3,
+                        &night.rgb[3U * (160U * static_cast<unsigned>(y) + static_cast<unsigned>(x))]);
         }
     }
     const auto brightness = [&](std::optional<double> boost) {
