@@ -63,7 +63,7 @@ void check(const AnimateOptions& options, const Frames& frames)
         }
         for (const std::size_t number : numbers) {
             outputs.push_back({name, files ? files->at(number) : path});
-            if (const auto material = materialFile(outputs.back().path, options.format); material && files) {
+            if (const auto material = materialFile(outputs.back().path, options.format); material) {
                 outputs.push_back({std::string(name) + "'s material", *material});
             }
         }
@@ -232,11 +232,10 @@ private:
                 options_.run.files);
             report_.bytes += bytes;
         };
-        const bool dry = frame_->droplets.empty();
-        if (dry && report_.dry() == report_.frames.size()) {
-            return;
-        }
         if (report_.dry() == report_.frames.size()) {
+            if (frame_->droplets.empty()) {
+                return;
+            }
             for (const droplet::FrameReport& earlier : report_.frames) {
                 write(*earlier.output, {});
             }
@@ -247,24 +246,30 @@ private:
     /// So many of a sequence's frames are enough to see how it goes.
     static constexpr std::size_t kMostTiles = 60;
 
+    /// Whether one of so many is on the sheet.
+    [[nodiscard]] static bool isChosen(std::size_t frame, std::size_t count)
+    {
+        return count <= kMostTiles || frame * kMostTiles / count != (frame + 1) * kMostTiles / count;
+    }
+
     /// Keeps a frame's surface until all are known, for they have one camera. Where nobody knows how many will come,
     /// twice as many as the sheet takes are kept at most, evenly.
     void keepForSheet(const droplet::FrameReport& report, const std::shared_ptr<const droplet::Surface>& surface)
     {
         const std::size_t number = report_.frames.size();
         const std::size_t count = frames_.count().value_or(0);
-        const bool chosen = count > kMostTiles ? number * kMostTiles / count != (number + 1) * kMostTiles / count
-                                               : number % sheet_step_ == 0;
-        if (!chosen) {
+        if (!isChosen(number, count) || number % sheet_step_ != 0) {
             return;
         }
-        const std::string what = report.droplets.empty() ? "no liquid"
-                                 : report.pressure       ? fmt::format("{:.3g} Pa", *report.pressure)
-                                                         : fmt::format("{} droplets", report.droplets.size());
-        shots_.push_back({surface, report.droplets.empty()
-                                       ? fmt::format("frame {}: {}", number + 1, what)
-                                       : fmt::format("frame {}: {}, {:.3g} mm high", number + 1, what,
-                                                     report.total.height_max / droplet::kMillimetre)});
+        std::string caption = fmt::format("frame {}: ", number + 1);
+        if (report.droplets.empty()) {
+            caption += "no liquid";
+        } else {
+            caption += report.pressure ? fmt::format("{:.3g} Pa", *report.pressure)
+                                       : fmt::format("{} droplets", report.droplets.size());
+            caption += fmt::format(", {:.3g} mm high", report.total.height_max / droplet::kMillimetre);
+        }
+        shots_.push_back({surface, std::move(caption)});
         if (count == 0 && shots_.size() == 2 * kMostTiles) {
             for (std::size_t k = 0; k < kMostTiles; ++k) {
                 shots_[k] = std::move(shots_[2 * k]);
@@ -323,8 +328,7 @@ private:
         const droplet::RenderOptions render = cameraOf(tile);
         std::vector<droplet::Tile> tiles;
         for (std::size_t k = 0; k < shots_.size(); ++k) {
-            const std::size_t most = std::min(shots_.size(), kMostTiles);
-            if (k * most / shots_.size() != (k + 1) * most / shots_.size()) {
+            if (isChosen(k, shots_.size())) {
                 tiles.push_back({droplet::render(*shots_[k].surface, render), shots_[k].caption});
             }
         }

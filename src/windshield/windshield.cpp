@@ -51,7 +51,9 @@ public:
           p_(parameters),
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
-          rules_{caps_.reach(), sphere(parameters.still_diameter)}
+          rules_{caps_.reach(), sphere(parameters.still_diameter)},
+          untorn_(caps_.volumeOfHeight(parameters.tear_off_weber * parameters.forces.liquid.surface_tension /
+                                       parameters.forces.air.density))
     {
     }
 
@@ -362,11 +364,10 @@ private:
 
     double partsOf(std::size_t i) const
     {
-        const double wind = sizeOf(wind_[i]);
-        const double highest =
-            p_.tear_off_weber * p_.forces.liquid.surface_tension / (p_.forces.air.density * wind * wind);
+        // Its height goes with the square of the wind, so the volume with the sixth power.
+        const double squared = dot(wind_[i], wind_[i]);
         const double whole = s_.droplets[i].volume;
-        return std::min(std::ceil(whole / caps_.volumeOfHeight(highest)), std::floor(whole / rules_.greatest));
+        return std::min(std::ceil(whole * squared * squared * squared / untorn_), std::floor(whole / rules_.greatest));
     }
 
     /// @param cells  of the droplets before any was torn
@@ -491,6 +492,7 @@ private:
     double dt_;
     CapScale caps_;
     StillRules rules_;
+    double untorn_ = 0.0;                // volume that a wind of 1 m/s just does not tear [m³]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // how many running droplets there were
     // Of every running droplet, in their order:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,7 @@
 
 #include "support/command.h"
 #include "support/paths.h"
+#include "support/photographs.h"
 
 namespace droplet {
 namespace {
@@ -260,6 +262,10 @@ TEST_F(AnimateTest, PreviewsAreFramesOfOneCameraOrAVideo)
         EXPECT_THAT(bytesOf("seen/" + digits + ".png"), StartsWith("\x89PNG"));
     }
     EXPECT_NE(bytesOf("seen/08.png"), bytesOf("seen/10.png"));
+    const std::string from_above = bytesOf("seen/08.png");
+    make({"frames/f%04d.pgm", "film.glb", "--preview", "seen/%02d.png", "--preview-size", "64x48", "--camera",
+          "0deg,20deg"});
+    EXPECT_NE(bytesOf("seen/08.png"), from_above);
     make({"frames", "out.glb", "--preview", "film.mp4", "--preview-size", "64x48", "--fps", "10"});
     CommandOptions options;
     options.directory = directory();
@@ -327,6 +333,33 @@ TEST_F(AnimateTest, OneFrameDecidesForAllWhatIsLiquid)
     EXPECT_NEAR(areas[4], 62.0 * 48.0, 6.0);
     ASSERT_THAT(told["warnings"], ElementsAre(HasSubstr("frame 5 by itself")));
     EXPECT_THAT(told["warnings"][0].get<std::string>(), HasSubstr("as frames/f0009.pgm, by luma with dark as liquid"));
+}
+
+// One level cannot tell liquid from ground in this light: a first frame that is taken as a photograph decides so for
+// all.
+TEST_F(AnimateTest, APhotographFirstMakesAllFramesPhotographs)
+{
+    fs::create_directory(directory() / "light");
+    for (const double dimmed : {1.0, 0.8}) {
+        const testing::Photograph photograph = testing::photograph(
+            testing::inkSpill(320.0),
+            [=](Vec2 p) {
+                const auto [red, green, blue] = testing::gradientLight()(p);
+                return std::array{dimmed * red, dimmed * green, dimmed * blue};
+            },
+            0.01);
+        writeFile(directory() / (dimmed < 1.0 ? "light/2.pgm" : "light/1.pgm"),
+                  greymap(photograph.width, photograph.height, [&](int x, int y) {
+                      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(photograph.width) +
+                                      static_cast<std::size_t>(x);
+                      return static_cast<int>(std::lround(255.0 * photograph.rgb[at][1]));
+                  }));
+    }
+    make({"light", "film.glb", "--json", "report.json"});
+    for (const json& frame : json::parse(bytesOf("report.json"))["frames"]) {
+        EXPECT_THAT(frame["droplets"], SizeIs(testing::inkSpill().droplets));
+        EXPECT_EQ(frame["holes"], testing::inkSpill().holes);
+    }
 }
 
 TEST_F(AnimateTest, FramesWithoutLiquidAreFrames)

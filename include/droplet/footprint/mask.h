@@ -39,9 +39,9 @@ struct MaskOptions {
     std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
     double vector_seconds = 10.0;  ///< that drawing an SVG may take, by the clock and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< that drawing an SVG may take beside its pixels [B], ≥ 64 MiB
-    std::optional<MaskLevels> levels = {};          ///< with Channel::Auto: taken instead of the image's own, so that
-                                                    ///< the frames of a sequence are read alike; an image without
-                                                    ///< alpha is opaque then
+    std::optional<MaskLevels> levels = {};  ///< with Channel::Auto: taken instead of the image's own, so that
+                                            ///< the frames of a sequence are read alike; an image without
+                                            ///< alpha is opaque then
 };
 
 /// How much of every pixel liquid covers, and how that was decided.
