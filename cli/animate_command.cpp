@@ -160,7 +160,6 @@ private:
         sequence_.volume_mode = options_.volume_mode;
         sequence_.droplet = options_.settings.droplet;
         sequence_.droplet.trace = options_.footprint.trace;
-        sequence_.droplet.trace.may_be_dry = true;
         if (mask.physical_width && !options_.footprint.sized) {
             sequence_.droplet.trace.width = *mask.physical_width;
         }

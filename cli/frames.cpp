@@ -127,10 +127,11 @@ Frames::Frames(const std::vector<std::string>& inputs)
 void Frames::decide(const droplet::MaskOptions& options)
 {
     while (auto frame = read(options)) {
-        if (done_ == 1 || frame->mask.found) {
+        const bool decides = frame->mask.found || frame->mask.segment != droplet::Segmentation::Threshold;
+        if (done_ == 1 || decides) {
             decision_ = Decision{frame->name, levelsOf(frame->mask, options.invert), frame->mask.segment};
         }
-        if (frame->mask.found || decision_->segment != droplet::Segmentation::Threshold) {
+        if (decides) {
             if (done_ == 1) {
                 first_picture_ = std::move(frame);
                 return;

@@ -221,13 +221,28 @@ double shareOfWhite(std::int64_t level)
 }
 
 /// What a mask takes over from its picture: all but the coverage.
-Mask blankMask(const Image& image)
+/// @param of  Image or Mask
+template <typename Picture>
+Mask blankMask(const Picture& of)
 {
     Mask mask;
-    mask.width = image.width;
-    mask.height = image.height;
-    mask.drawn_scale = image.drawn_scale;
-    mask.physical_width = image.physical_width;
+    mask.width = of.width;
+    mask.height = of.height;
+    mask.drawn_scale = of.drawn_scale;
+    mask.physical_width = of.physical_width;
+    return mask;
+}
+
+/// The mask of a picture in which a way of segmentation finds nothing.
+/// @param of  Image or Mask
+template <typename Picture>
+Mask dryMask(const Picture& of, const MaskOptions& options, Segmentation segment)
+{
+    Mask mask = blankMask(of);
+    mask.coverage.assign(static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height),
+                         options.invert ? std::numeric_limits<std::uint16_t>::max() : 0);
+    mask.segment = segment;
+    mask.inverted = options.invert;
     return mask;
 }
 
@@ -375,6 +390,9 @@ Mask decided(std::span<const std::byte> encoded, const MaskOptions& options, Lev
         return std::move(*other);
     }
     if (look.has_rim && mask.segment_confidence < kNoMask && !options.insist) {
+        if (!other && options.may_be_dry) {
+            return dryMask(image, options, Segmentation::Threshold);
+        }
         throw Error(ErrorCode::InvalidInput,
                     "is no picture of a footprint: it does not fall into liquid and dry with an edge between them; "
                     "--segment or --threshold takes it all the same");
@@ -388,7 +406,15 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
         if (options.colour) {
-            return *segmented(decode(encoded, options, true), options, Segmentation::Colour);
+            const Image image = decode(encoded, options, true);
+            if (auto found = segmented(image, options, Segmentation::Colour)) {
+                return std::move(*found);
+            }
+            if (options.may_be_dry) {
+                return dryMask(image, options, Segmentation::Colour);
+            }
+            throw Error(ErrorCode::InvalidInput, "nothing in the picture has the colour " + text(*options.colour) +
+                                                     "; its most common colours are " + commonColours(image));
         }
         const bool by_levels = options.segment == Segmentation::Auto || options.segment == Segmentation::Threshold;
         LevelMask levels = maskFromImage(decode(encoded, options, false), options);
@@ -403,6 +429,9 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
         }
         if (auto found = segmented(inFrontOfBlack(decode(encoded, options, true)), options, options.segment)) {
             return std::move(*found);
+        }
+        if (options.may_be_dry) {
+            return dryMask(mask, options, options.segment);
         }
         throw Error(ErrorCode::InvalidInput,
                     std::string("--segment ") + name(options.segment) + " finds no edge in the picture, so no liquid");

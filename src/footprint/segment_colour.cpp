@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "droplet/error.h"
 #include "footprint/segmentation.h"
 
 namespace droplet {
@@ -73,7 +72,8 @@ cv::Mat pixelsOf(const Image& image, const CssColour& colour)
     return found;
 }
 
-/// The colours that most of a picture has, for whoever asked for another.
+}  // namespace
+
 std::string commonColours(const Image& image)
 {
     struct Bin {
@@ -109,14 +109,11 @@ std::string commonColours(const Image& image)
     return list.empty() ? "none, all of it is transparent" : list;
 }
 
-}  // namespace
-
-Segmented segmentColour(const Image& image, const CssColour& colour)
+std::optional<Segmented> segmentColour(const Image& image, const CssColour& colour)
 {
     const cv::Mat found = pixelsOf(image, colour);
     if (cv::countNonZero(found) == 0) {
-        throw Error(ErrorCode::InvalidInput, "nothing in the picture has the colour " + text(colour) +
-                                                 "; its most common colours are " + commonColours(image));
+        return std::nullopt;
     }
     constexpr int kReach = 3;  // for the colours on either side of a rim [px]
     cv::Mat inside;

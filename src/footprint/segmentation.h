@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "droplet/footprint/css_colour.h"
@@ -64,9 +65,12 @@ std::optional<Segmented> segmentAdaptive(const LevelView& luma);
 /// @param image  with colour
 std::optional<Segmented> segmentGrabCut(const Image& image);
 
-/// The regions of a colour.
+/// The regions of a colour; none if nothing has it.
 /// @param image  with colour
-/// @throws Error InvalidInput: nothing is of that colour
-Segmented segmentColour(const Image& image, const CssColour& colour);
+std::optional<Segmented> segmentColour(const Image& image, const CssColour& colour);
+
+/// The colours that most of a picture has, for whoever asked for another.
+/// @param image  with colour
+std::string commonColours(const Image& image);
 
 }  // namespace droplet

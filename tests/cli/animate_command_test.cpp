@@ -336,29 +336,40 @@ TEST_F(AnimateTest, OneFrameDecidesForAllWhatIsLiquid)
 }
 
 // One level cannot tell liquid from ground in this light: a first frame that is taken as a photograph decides so for
-// all.
+// all, and so paper without liquid is known for what it is, first or last.
 TEST_F(AnimateTest, APhotographFirstMakesAllFramesPhotographs)
 {
     fs::create_directory(directory() / "light");
-    for (const double dimmed : {1.0, 0.8}) {
+    const auto shoot = [&](const char* name, double brightness, bool wet) {
+        testing::Scene scene = testing::inkSpill(320.0);
+        if (!wet) {
+            scene.outside = [](Vec2) { return 1.0e3; };
+        }
         const testing::Photograph photograph = testing::photograph(
-            testing::inkSpill(320.0),
+            scene,
             [=](Vec2 p) {
                 const auto [red, green, blue] = testing::gradientLight()(p);
-                return std::array{dimmed * red, dimmed * green, dimmed * blue};
+                return std::array{brightness * red, brightness * green, brightness * blue};
             },
             0.01);
-        writeFile(directory() / (dimmed < 1.0 ? "light/2.pgm" : "light/1.pgm"),
-                  greymap(photograph.width, photograph.height, [&](int x, int y) {
+        writeFile(directory() / "light" / name, greymap(photograph.width, photograph.height, [&](int x, int y) {
                       const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(photograph.width) +
                                       static_cast<std::size_t>(x);
                       return static_cast<int>(std::lround(255.0 * photograph.rgb[at][1]));
                   }));
-    }
+    };
+    shoot("1.pgm", 1.0, false);
+    shoot("2.pgm", 1.0, true);
+    shoot("3.pgm", 0.8, true);
+    shoot("4.pgm", 0.8, false);
     make({"light", "film.glb", "--json", "report.json"});
-    for (const json& frame : json::parse(bytesOf("report.json"))["frames"]) {
-        EXPECT_THAT(frame["droplets"], SizeIs(testing::inkSpill().droplets));
-        EXPECT_EQ(frame["holes"], testing::inkSpill().holes);
+    const json frames = json::parse(bytesOf("report.json"))["frames"];
+    for (const std::size_t k : {0U, 3U}) {
+        EXPECT_THAT(frames[k]["droplets"], IsEmpty());
+    }
+    for (const std::size_t k : {1U, 2U}) {
+        EXPECT_THAT(frames[k]["droplets"], SizeIs(testing::inkSpill().droplets));
+        EXPECT_EQ(frames[k]["holes"], testing::inkSpill().holes);
     }
 }
 

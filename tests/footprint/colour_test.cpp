@@ -104,6 +104,13 @@ TEST(FootprintColour, WhatIsNotThereIsRefusedWithWhatIs)
                 AllOf(HasSubstr("#00ff00"), HasSubstr("#e306"), HasSubstr("#ffffff")));
 }
 
+TEST(FootprintColour, WithoutItAFrameIsDry)
+{
+    MaskOptions options = of("lime");
+    options.may_be_dry = true;
+    EXPECT_EQ(covered(decodeMask(bytesOf(icon()), options)), 0.0);
+}
+
 TEST(FootprintColour, IsInvertedLast)
 {
     MaskOptions options = of("white");

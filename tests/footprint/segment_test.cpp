@@ -319,5 +319,25 @@ TEST(Segment, FlatAndTinyPicturesHoldNothing)
     }
 }
 
+TEST(Segment, WithoutAnEdgeAFrameIsDry)
+{
+    const Bytes paper = png(painted({200, 150}, [](Vec2 p) {
+        const double level = 0.95 - 0.6 * p.x;
+        return std::array{level, level, level};
+    }));
+    EXPECT_THAT(messageOf(paper), HasSubstr("is no picture of a footprint"));
+    for (const Segmentation segment : {Segmentation::Auto, Segmentation::Adaptive, Segmentation::GrabCut}) {
+        for (const bool invert : {false, true}) {
+            MaskOptions options = by(segment);
+            options.may_be_dry = true;
+            options.invert = invert;
+            const Mask mask = decodeMask(paper, options);
+            mask.validate();
+            EXPECT_THAT(mask.coverage, ::testing::Each(invert ? 65535 : 0));
+            EXPECT_FALSE(mask.found);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace droplet

@@ -36,6 +36,8 @@ struct MaskOptions {
     Segmentation segment = Segmentation::Auto;      ///< Auto with a channel but Auto is Threshold; alpha that
                                                     ///< is used goes before it
     bool insist = false;                            ///< take a picture even if it does not look like a mask
+    bool may_be_dry = false;                        ///< a picture without an edge, or without the colour, is a mask
+                                                    ///< without liquid, as a frame may be
     std::optional<CssColour> colour = {};           ///< what has it is liquid, whatever segment and channel say
     double vector_seconds = 10.0;  ///< that drawing an SVG may take, by the clock and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< that drawing an SVG may take beside its pixels [B], ≥ 64 MiB
@@ -107,7 +109,8 @@ struct Mask {
 /// @param options  which channel, whether to invert, largest size
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, of a kind not read, codecs not
 ///                 installed, no alpha where alpha was asked;
-///                 no mask, whichever way it is taken, unless insist; nothing of the colour;
+///                 no mask, whichever way it is taken, unless insist; no edge or nothing of the colour, unless
+///                 may_be_dry;
 ///                 SVG: no area; over 64 MiB, 250 000 tags, 500 000 references, vector_seconds or vector_memory;
 ///                 nested too deeply; librsvg or the program that draws with it missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});
