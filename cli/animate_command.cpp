@@ -108,8 +108,8 @@ std::string compactList(const std::vector<std::size_t>& numbers)
 /// The sequence on its way to files and report.
 class Sequence {
 public:
-    Sequence(const AnimateOptions& options, Frames& frames, const droplet::Progress& progress)
-        : options_(options), frames_(frames), progress_(progress), around_(readSurroundings(options.settings))
+    Sequence(const AnimateOptions& options, Frames& frames, ProgressDisplay& display)
+        : options_(options), frames_(frames), display_(display), around_(readSurroundings(options.settings))
     {
         report_.inputs = options.inputs;
         report_.output = options.output;
@@ -128,7 +128,7 @@ public:
 
     droplet::SequenceReport make()
     {
-        progress_(Stage::Read);
+        beginFrame();
         while (const auto picture = frames_.next(options_.footprint.mask)) {
             try {
                 add(*picture);
@@ -138,7 +138,7 @@ public:
                 }
                 throw;
             }
-            progress_(Stage::Read);
+            beginFrame();
         }
         if (report_.dry() == report_.frames.size()) {
             throw Error(
@@ -154,6 +154,15 @@ public:
     }
 
 private:
+    void beginFrame()
+    {
+        const std::size_t number = report_.frames.size() + 1;
+        const auto count = frames_.count();
+        display_.restart(count ? fmt::format("frame {} of {}", std::min(number, *count), *count)
+                               : fmt::format("frame {}", number));
+        progress_(Stage::Read);
+    }
+
     void begin(const FramePicture& picture)
     {
         const droplet::Mask& mask = picture.mask;
@@ -296,25 +305,32 @@ private:
         return render;
     }
 
-    void filmFrames() const
+    /// A picture for the preview or the sheet.
+    [[nodiscard]] droplet::Picture draw(const droplet::Surface& surface, const droplet::RenderOptions& render)
+    {
+        const droplet::Picture picture = droplet::render(surface, render);
+        display_.tellDrawn(++drawn_, film_.size() + std::min(shots_.size(), kMostTiles));
+        return picture;
+    }
+
+    void filmFrames()
     {
         const droplet::RenderOptions render = cameraOf(*options_.preview);
         for (const FilmFrame& frame : film_) {
             droplet::writeWhole(
                 options_.preview_files->at(frame.number),
-                [&](std::ostream& out) { droplet::writePng(droplet::render(*frame.surface, render), out); },
-                options_.run.files);
+                [&](std::ostream& out) { droplet::writePng(draw(*frame.surface, render), out); }, options_.run.files);
         }
     }
 
-    void filmVideo(std::ostream& out) const
+    void filmVideo(std::ostream& out)
     {
         const PreviewOptions& preview = *options_.preview;
         const droplet::RenderOptions render = cameraOf(preview);
         VideoWriter video(
             {preview.path, codecFor(preview.path), preview.width, preview.height, report_.frames_per_second});
         for (const FilmFrame& frame : film_) {
-            video.add(droplet::render(*frame.surface, render));
+            video.add(draw(*frame.surface, render));
         }
         video.finish(out);
     }
@@ -328,7 +344,7 @@ private:
         std::vector<droplet::Tile> tiles;
         for (std::size_t k = 0; k < shots_.size(); ++k) {
             if (isChosen(k, shots_.size())) {
-                tiles.push_back({droplet::render(*shots_[k].surface, render), shots_[k].caption});
+                tiles.push_back({draw(*shots_[k].surface, render), shots_[k].caption});
             }
         }
         return droplet::contactSheet(tiles);
@@ -414,7 +430,8 @@ private:
 
     const AnimateOptions& options_;
     Frames& frames_;
-    const droplet::Progress& progress_;
+    ProgressDisplay& display_;
+    const droplet::Progress progress_ = [this](Stage stage) { display_.begin(stage); };
     StageClock clock_;
     Surroundings around_;
     droplet::SequenceOptions sequence_;
@@ -434,6 +451,7 @@ private:
     std::vector<FilmFrame> film_;           ///< for the preview
     std::vector<Shot> shots_;               ///< for the sheet
     std::size_t sheet_step_ = 1;            ///< every so manieth frame is kept for it
+    std::size_t drawn_ = 0;                 ///< pictures of film and sheet
     droplet::SequenceReport report_;
 };
 
@@ -482,23 +500,14 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
 
 void tell(const droplet::SequenceReport& report, const RunOptions& run)
 {
-    if (run.verbosity == Verbosity::Quiet) {
-        tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
-        return;
+    const bool is_quiet = run.verbosity == Verbosity::Quiet;
+    if (!is_quiet && run.progress != ProgressMode::Json) {
+        std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    if (run.progress == ProgressMode::Json) {
-        for (const std::string& warning : report.warnings) {
-            std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false,
-                                                                   nlohmann::json::error_handler_t::replace)
-                      << "\n";
-        }
-        return;
+    const std::size_t told = is_quiet ? report.grave_warnings : report.warnings.size();
+    for (std::size_t i = 0; i < told; ++i) {
+        tellWarning(report.warnings[i], run.progress);
     }
-    std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose);
-    for (const std::string& warning : report.warnings) {
-        std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n";
-    }
-    std::cerr << std::flush;
 }
 
 }  // namespace
@@ -524,13 +533,7 @@ int runAnimate(int argc, const char* const* argv)
     ProgressDisplay progress(options.run.verbosity == Verbosity::Quiet && options.run.progress == ProgressMode::Auto
                                  ? ProgressMode::None
                                  : options.run.progress);
-    const droplet::Progress begin = [&](Stage stage) {
-        if (stage == Stage::Read) {
-            progress.restart();  // the next frame
-        }
-        progress.begin(stage);
-    };
-    const droplet::SequenceReport report = Sequence(options, frames, begin).make();
+    const droplet::SequenceReport report = Sequence(options, frames, progress).make();
     progress.finish();
     tell(report, options.run);
     return 0;

@@ -225,9 +225,7 @@ int runBatch(int argc, const char* const* argv)
             work.fingerprint = fingerprintOf({settings, hashOf(picture)});
             // Taken by what is made, and gone as soon as that no longer needs it.
             work.make = [&job, &around, picture = std::move(picture)]() mutable {
-                const droplet::Report made = makeShape(job, around, std::move(picture));
-                tellGraveIfQuiet(made.warnings, made.grave_warnings, job.run, job.input + ": ");
-                return figuresOf(made);
+                return figuresOf(makeShape(job, around, std::move(picture)));
             };
             return work;
         };

@@ -5,8 +5,8 @@ namespace cli {
 
 BatchFigures figuresOf(const droplet::Report& report)
 {
-    return {report.output.triangles, report.output.vertices,  report.output.topology.closed,
-            report.total.volume,     report.total.height_max, report.warnings};
+    return {report.output.triangles, report.output.vertices, report.output.topology.closed, report.total.volume,
+            report.total.height_max, report.warnings,        report.grave_warnings};
 }
 
 const char* name(ItemStatus status)

@@ -18,6 +18,7 @@ struct BatchFigures {
     double volume = 0.0;      ///< [m³]
     double height_max = 0.0;  ///< [m]
     std::vector<std::string> warnings;
+    std::size_t grave_warnings = 0;  ///< so many of the first, when it is made: they are told even if all is quiet
 };
 
 /// What the manifest says of a droplet, from the report of the run that made it.

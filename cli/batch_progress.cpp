@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "shape_command.h"
 #include "terminal.h"
 
 namespace cli {
@@ -33,6 +34,10 @@ BatchProgress::BatchProgress(std::size_t items, const BatchOptions& options)
 void BatchProgress::tell(const BatchItem& item, const ManifestRow& row)
 {
     ++told_;
+    for (std::size_t i = 0; row.file && i < row.file->figures.grave_warnings; ++i) {
+        eraseBar();
+        tellWarning(item.name + ": " + row.file->figures.warnings[i], options_.progress);
+    }
     if (options_.progress == ProgressMode::Json) {
         std::cerr << Json{{"item", told_},
                           {"of", items_},

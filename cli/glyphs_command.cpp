@@ -220,8 +220,8 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
                     options.font + ": " + lacking(selection.missing) + ", and nothing is left");
     }
     equaliseHeights(font, selection.glyphs, options);
-    if (!selection.missing.empty()) {
-        tellWarning(lacking(selection.missing) + "; left out", options.shape.run);
+    if (!selection.missing.empty() && options.shape.run.verbosity != Verbosity::Quiet) {
+        tellWarning(lacking(selection.missing) + "; left out", options.shape.run.progress);
     }
     for (const char32_t character : selection.missing) {
         set.batch.left_out.push_back({droplet::shownCharacter(character), "the font has no glyph for it"});

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "terminal.h"
 
@@ -20,14 +21,6 @@ constexpr std::size_t kCellsPerStage = 4;
 std::string rounded(double value, int decimals)
 {
     return fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string bar(droplet::Stage stage, double elapsed)
-{
-    const std::size_t full = kCellsPerStage * static_cast<std::size_t>(stage);
-    const std::size_t cells = kCellsPerStage * kStages;
-    return "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " + name(stage) + " " +
-           rounded(elapsed, 1) + " s";
 }
 
 }  // namespace
@@ -61,10 +54,22 @@ void ProgressDisplay::begin(droplet::Stage stage)
     }
 }
 
-void ProgressDisplay::restart()
+void ProgressDisplay::restart(std::string item)
 {
     const std::lock_guard lock(mutex_);
     stage_.reset();
+    item_ = std::move(item);
+}
+
+void ProgressDisplay::tellDrawn(std::size_t drawn, std::size_t count)
+{
+    const std::lock_guard lock(mutex_);
+    drawn_ = drawn;
+    to_draw_ = count;
+    if (mode_ == ProgressMode::Json) {
+        std::cerr << fmt::format(R"({{"drawn":{},"of":{},"elapsed_s":{}}})", drawn, count, rounded(elapsed(), 3))
+                  << std::endl;
+    }
 }
 
 void ProgressDisplay::finish()
@@ -73,6 +78,19 @@ void ProgressDisplay::finish()
     if (mode_ == ProgressMode::Json && stage_) {
         writeLine(*stage_, true);
     }
+}
+
+std::string ProgressDisplay::bar() const
+{
+    constexpr std::size_t kCells = kCellsPerStage * kStages;
+    std::size_t full = kCellsPerStage * static_cast<std::size_t>(*stage_);
+    std::string what = item_.empty() ? name(*stage_) : item_ + ": " + name(*stage_);
+    if (to_draw_ > 0) {
+        full = kCells * drawn_ / to_draw_;
+        what = fmt::format("pictures: {} of {}", drawn_, to_draw_);
+    }
+    return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + what + " " + rounded(elapsed(), 1) +
+           " s";
 }
 
 void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
@@ -88,7 +106,7 @@ void ProgressDisplay::drawUntilStopped()
     for (auto next = start_ + kPatience; !stopping_.wait_until(lock, next, [this] { return stopped_; });
          next = Clock::now() + kRefresh) {
         if (stage_) {
-            std::cerr << kEraseLine << bar(*stage_, elapsed()) << std::flush;
+            std::cerr << kEraseLine << bar() << std::flush;
             drawn = true;
         }
     }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "droplet/progress.h"
@@ -25,13 +27,18 @@ public:
     void begin(droplet::Stage stage);
 
     /// What follows is told anew: the same stages of another item.
-    void restart();
+    /// @param item  how the bar calls it, such as "frame 3 of 12"
+    void restart(std::string item);
+
+    /// So many of the pictures of all items are drawn.
+    void tellDrawn(std::size_t drawn, std::size_t count);
 
     /// The run is over and went well.
     void finish();
 
 private:
     [[nodiscard]] double elapsed() const { return secondsSince(start_); }
+    [[nodiscard]] std::string bar() const;
     void writeLine(droplet::Stage stage, bool done) const;
     void drawUntilStopped();
     void stop();
@@ -41,6 +48,9 @@ private:
     std::mutex mutex_;
     std::condition_variable stopping_;
     std::optional<droplet::Stage> stage_;
+    std::string item_;
+    std::size_t drawn_ = 0;
+    std::size_t to_draw_ = 0;  ///< 0 before the first is drawn
     bool stopped_ = false;
     std::thread drawer_;  ///< a long stage must not keep the bar from moving
 };

@@ -317,10 +317,10 @@ void tell(const droplet::Report& report, const RunOptions& run)
     if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
         std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    for (const std::string& warning : report.warnings) {
-        tellWarning(warning, run);
+    const std::size_t told = run.verbosity == Verbosity::Quiet ? report.grave_warnings : report.warnings.size();
+    for (std::size_t i = 0; i < told; ++i) {
+        tellWarning(report.warnings[i], run.progress);
     }
-    tellGraveIfQuiet(report.warnings, report.grave_warnings, run);
 }
 
 }  // namespace
@@ -435,31 +435,15 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     checkFiles(inputs, outputs, options.run.files);
 }
 
-void tellWarning(const std::string& warning, const RunOptions& run)
+void tellWarning(const std::string& warning, ProgressMode progress)
 {
-    if (run.verbosity == Verbosity::Quiet) {
-        return;
-    }
-    if (run.progress == ProgressMode::Json) {
+    if (progress == ProgressMode::Json) {
         std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                   << "\n"
                   << std::flush;
         return;
     }
     std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
-}
-
-void tellGraveIfQuiet(const std::vector<std::string>& warnings, std::size_t grave, const RunOptions& run,
-                      const std::string& subject)
-{
-    if (run.verbosity != Verbosity::Quiet) {
-        return;
-    }
-    RunOptions loud = run;
-    loud.verbosity = Verbosity::Normal;
-    for (std::size_t i = 0; i < grave; ++i) {
-        tellWarning(subject + warnings[i], loud);
-    }
 }
 
 void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)

@@ -60,13 +60,8 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkShape(const ShapeOptions& options, const std::string& input_name);
 
-/// Says a warning on standard error, unless all is to be quiet.
-void tellWarning(const std::string& warning, const RunOptions& run);
-
-/// Says the first `grave` of the warnings, which are told even if all is to be quiet; nothing if it is not.
-/// @param subject  stands before each, such as "in.png: "
-void tellGraveIfQuiet(const std::vector<std::string>& warnings, std::size_t grave, const RunOptions& run,
-                      const std::string& subject = "");
+/// Writes a warning to standard error.
+void tellWarning(const std::string& warning, ProgressMode progress);
 
 /// Makes one droplet with as many threads as asked for, shows how far it is, and tells what came of it.
 /// @param make  is given whom to tell of every stage

@@ -466,6 +466,14 @@ TEST_F(AnimateTest, ProgressIsToldOfEveryFrame)
     EXPECT_GE(solved, 5U) << told;
 }
 
+TEST_F(AnimateTest, ProgressIsToldOfEveryPicture)
+{
+    const std::string told = run({"frames/f0008.pgm", "frames/f0009.pgm", "out.glb", "--progress", "json", "--preview",
+                                  "%d.png", "--preview-size", "32x24", "--contact-sheet", "sheet.png"})
+                                 .error;
+    EXPECT_THAT(told, AllOf(HasSubstr(R"({"drawn":1,"of":4,)"), HasSubstr(R"({"drawn":4,"of":4,)")));
+}
+
 TEST_F(AnimateTest, EdgesTooShortAreRefusedBeforeMemoryIsFull)
 {
     CommandOptions options;

@@ -19,6 +19,7 @@ namespace droplet {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using testing::CommandOptions;
 using testing::CommandResult;
 using ::testing::ElementsAre;
@@ -164,6 +165,14 @@ TEST_F(Glyphs, WhatStandsIsSkippedAndWhatChangedIsMade)
     // More glyphs: those there are stand.
     EXPECT_THAT(glyphs({"--charset", "abc", "-o", "{name}.stl", "--triangles", "200", "--em", "30mm"}).error,
                 HasSubstr("made       1 of 3, 2 skipped"));
+}
+
+TEST_F(Glyphs, ATowerIsToldEvenIfQuiet)
+{
+    const CommandResult result =
+        glyphs({"--charset", "o", "-o", "{name}.glb", "--height", "40mm", "--triangles", "500", "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.error, AllOf(HasSubstr("warning: glyph 'o'"), HasSubstr("40 mm high, but a puddle")));
 }
 
 TEST_F(Glyphs, SharesTakeEveryGlyphOnce)
