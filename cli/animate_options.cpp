@@ -15,7 +15,8 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape animate", "from pictures of a moving footprint to an animated droplet",
+    static const CommandText text{"droplet-shape animate",
+                                  "make animated droplets from the frames of a moving footprint",
                                   "[OPTIONS] INPUT... OUTPUT",
                                   std::string(kUnitsText) +
                                       "\n"
@@ -33,29 +34,25 @@ const CommandText& commandText()
 void declareAnimate(CommandLine& line)
 {
     line.addArguments("FILES",
-                      "INPUT... OUTPUT: the frames, as frames/%04d.png, as\n"
-                      "several pictures, a folder of them or a video, which\n"
-                      "takes ffmpeg; then a .glb that plays, or a file for\n"
-                      "every frame, as out/%04d.glb, .gltf, .obj, .ply, .stl");
-    line.add("Sequence", "--volume-mode", "NAME",
-             "what stays: total, the volume of all droplets, as one\n"
-             "reservoir; track, that of each, through merging and\n"
-             "splitting [total]");
-    line.add("Sequence", "--fps", "N", "frames per second [24, or the video's]");
+                      "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, or a "
+                      "video, which needs ffmpeg. OUTPUT is a .glb that plays, or a pattern for one file per frame "
+                      "such as out/%04d.glb, .gltf, .obj, .ply or .stl");
+    line.add("Sequence", "--volume-mode", "total|track",
+             "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
+             "through merging and splitting [total]");
+    line.add("Sequence", "--fps", "N", "Frames per second [24, or the video's]");
     line.add("Sequence", "--contact-sheet", "FILE",
-             "write a PNG of the frames side by side, up to 60 of\n"
-             "them; - is standard output");
+             "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");
     line.add("Picture", "--preview", "FILE",
-             "write pictures of it: out/%04d.png, one for every\n"
-             "frame, or a .mp4, .mkv, .mov or .webm, which takes\n"
-             "ffmpeg");
+             "Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which "
+             "needs ffmpeg");
     declareView(line);
     declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
     declareHtml(line);
-    line.add("Run", "--json", "FILE", "write a report; - is standard output");
+    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
     declareRun(line);
 }
 

@@ -28,11 +28,11 @@ namespace fs = std::filesystem;
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape batch", "from many pictures to a droplet each", "[OPTIONS] INPUT... -o OUTPUT",
-        std::string("In OUTPUT and --json stand, of each picture,\n"
-                    "  {stem} its name without extension, {name} its whole name, {ext} its extension,\n"
-                    "  {dir} its folder below the one given, {parent} the name of its folder,\n"
-                    "  {index} its number; {{ and }} are braces\n"
+        "droplet-shape batch", "make droplets from many pictures", "[OPTIONS] INPUT... -o OUTPUT",
+        std::string("Placeholders in OUTPUT and --json:\n"
+                    "  {stem} is the picture's name without extension, {name} the whole name,\n"
+                    "  {ext} the extension, {dir} its folder below INPUT, {parent} the name of its\n"
+                    "  folder, {index} its number; {{ and }} are braces\n"
                     "\n") +
             kUnitsText +
             "\n"
@@ -49,10 +49,10 @@ const CommandText& commandText()
 
 void declare(CommandLine& line)
 {
-    line.addArguments("INPUT", "pictures, and folders of pictures");
-    line.add("Batch", "-o,--output", "OUTPUT", "where each droplet goes, such as 'out/{stem}.glb'");
-    line.addFlag("Batch", "--recursive", "look into folders of folders, too");
-    line.add("Batch", "--json", "FILE", "write a report of each, such as 'out/{stem}.json'");
+    line.addArguments("INPUT", "Pictures and folders of pictures");
+    line.add("Batch", "-o,--output", "OUTPUT", "Pattern of the output files, such as 'out/{stem}.glb'");
+    line.addFlag("Batch", "--recursive", "Read subfolders, too");
+    line.add("Batch", "--json", "FILE", "Write a report for each picture, such as 'out/{stem}.json'");
     declareBatch(line);
     declareShapes(line);
     declareRun(line);

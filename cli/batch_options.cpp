@@ -69,14 +69,14 @@ std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLi
 void declareBatch(CommandLine& line)
 {
     constexpr const char* kGroup = "Batch";
-    line.addFlag(kGroup, "--keep-going", "go on after an item that failed");
-    line.addFlag(kGroup, "--no-resume", "make again what stands as it would be made");
-    line.add(kGroup, "--shard", "SHARE", "2/8 makes every 8th item, from the second on");
+    line.addFlag(kGroup, "--keep-going", "Continue after an item that failed");
+    line.addFlag(kGroup, "--no-resume", "Make again what is up to date");
+    line.add(kGroup, "--shard", "SHARE", "Make one share of the items: 2/8 makes every 8th, beginning with the second");
     line.add(kGroup, "--manifest", "FILE",
-             "what became of every item, as JSON\n"
-             "[manifest.json in the folder of all outputs]");
-    line.add(kGroup, "--contact-sheet", "FILE", "draw all of them on one picture, PNG");
-    line.addFlag(kGroup, "--one-scale", "as large on it as they are, none enlarged");
+             "File that lists the result of every item, as JSON [manifest.json in the folder of all outputs]");
+    line.add(kGroup, "--contact-sheet", "FILE", "Draw all droplets on one PNG, each with its name");
+    line.addFlag(kGroup, "--one-scale",
+                 "Draw all droplets on the contact sheet at one scale; otherwise each fills its place");
 }
 
 BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern)

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,15 +17,42 @@
 namespace cli {
 namespace {
 
+constexpr std::size_t kColumn = 26;  // where descriptions begin
+constexpr std::size_t kWidth = 80;
+
+/// Breaks a description into lines that fit beside the names.
+std::string wrapped(const std::string& text)
+{
+    std::istringstream words(text);
+    std::string lines;
+    std::size_t column = 0;
+    for (std::string word; words >> word;) {
+        if (column + 1 + word.size() > kWidth - kColumn) {
+            lines += "\n";
+            column = 0;
+        } else if (column > 0) {
+            lines += " ";
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+    }
+    return lines;
+}
+
 class HelpFormatter : public CLI::Formatter {
 public:
     explicit HelpFormatter(const CommandText& text) : usage_("\nUsage: " + text.name + " " + text.usage + "\n")
     {
-        column_width(26);
+        column_width(kColumn);
         label("Positionals", "Arguments");
     }
 
-    std::string make_usage(const CLI::App* /*app*/, std::string /*name*/) const override { return usage_; }
+    std::string make_usage(const CLI::App* app, std::string /*name*/) const override
+    {
+        const bool has_arguments = !app->get_options([](const CLI::Option* o) { return o->get_positional(); }).empty();
+        return has_arguments ? usage_ : usage_ + "\n";
+    }
 
     /// One empty line between groups: the base class leaves two between all but the first.
     std::string make_group(std::string group, bool is_positional,
@@ -65,7 +93,7 @@ public:
 
     void add(const char* group, const char* names, const char* type, const std::string& description)
     {
-        app_.add_option(names)->description(description)->type_name(type)->group(group)->take_all();
+        app_.add_option(names)->description(wrapped(description))->type_name(type)->group(group)->take_all();
     }
 
     void addList(const char* group, const char* names, const char* type, const std::string& description)
@@ -76,19 +104,19 @@ public:
 
     void addFlag(const char* group, const char* names, const std::string& description)
     {
-        app_.add_flag(names)->description(description)->group(group);
+        app_.add_flag(names)->description(wrapped(description))->group(group);
     }
 
     void addArgument(const char* name, const std::string& description)
     {
-        app_.add_option(name)->description(description);
+        app_.add_option(name)->description(wrapped(description));
         arguments_ += (arguments_.empty() ? "" : " and ") + std::string(name);
     }
 
     void addArguments(const char* name, const std::string& description)
     {
         // CLI11 wants to know how many at most, and fills up to the least number but where extra ones are allowed.
-        app_.add_option(name)->description(description)->expected(0, 1 << 29)->allow_extra_args()->take_all();
+        app_.add_option(name)->description(wrapped(description))->expected(0, 1 << 29)->allow_extra_args()->take_all();
     }
 
     void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }

@@ -33,7 +33,8 @@ public:
     /// An option with a value.
     /// @param group  heading in the help
     /// @param names  such as `--width` or `-j,--threads`
-    /// @param type   name of its value in the help
+    /// @param type   name of its value in the help, or the words it may be: `LENGTH`, `linear|exact`, `V|every`
+    /// @param description  ends in its default, in brackets
     void add(const char* group, const char* names, const char* type, const std::string& description);
     /// An option that may be given several times.
     void addList(const char* group, const char* names, const char* type, const std::string& description);

@@ -8,12 +8,12 @@ namespace cli {
 
 void declareCommon(CommandLine& line, const char* group, const std::string& example)
 {
-    line.add(group, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(group, "-q,--quiet", "say nothing but errors");
+    line.add(group, "-j,--threads", "N", "Maximum number of threads [all cores]");
+    line.addFlag(group, "-q,--quiet", "Print only errors");
     line.add(group, "--config", "FILE",
              "take options from lines such as " + example + ";\nthe command line goes before them");
-    line.addFlag(group, "-h,--help", "print this help");
-    line.addFlag(group, "--version", "print the version");
+    line.addFlag(group, "-h,--help", "Print this help");
+    line.addFlag(group, "--version", "Print the version");
 }
 
 std::optional<std::string> textAskedFor(const CommandLine& line)

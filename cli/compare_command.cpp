@@ -37,17 +37,17 @@ constexpr Range kAngle{droplet::Dimension::Angle, 1e-9, 3.2, "over 0deg, up to 1
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape compare", "how far two surfaces differ", "[OPTIONS] A B",
-        "Surfaces are .glb, .gltf, .obj, .ply or .stl. With a tolerance, topology must be the\n"
-        "same, too, and the exit code says whether all is within.\n"
+        "droplet-shape compare", "measure the difference of two surfaces", "[OPTIONS] A B",
+        "Surfaces are .glb, .gltf, .obj, .ply or .stl. With a tolerance, the topologies must\n"
+        "agree, too, and the exit code says whether both surfaces do.\n"
         "\n"
         "Examples:\n"
         "  droplet-shape compare reference.glb new.glb --tolerance 0.01mm\n"
         "  droplet-shape compare coarse.glb fine.glb --json difference.json\n"
         "\n"
         "Exit codes:\n"
-        "  0 done, within every tolerance; 1 the two differ by more than a tolerance, or\n"
-        "  internal error; 2 usage; 3 a surface is unreadable; 4 output cannot be written"};
+        "  0 done, within every tolerance; 1 a tolerance is exceeded, or internal error;\n"
+        "  2 usage; 3 a surface is unreadable; 4 output cannot be written"};
     return text;
 }
 
@@ -64,18 +64,17 @@ struct Options {
 
 void declare(CommandLine& line)
 {
-    line.addArgument("A", "a surface");
-    line.addArgument("B", "another");
+    line.addArgument("A", "Surface to compare with");
+    line.addArgument("B", "Surface to compare");
     constexpr const char* kAllowed = "Allowed";
-    line.add(kAllowed, "--tolerance", "LENGTH", "largest distance of either one's points from the other");
-    line.add(kAllowed, "--volume-tolerance", "SHARE", "difference of volumes, as in 0.1%");
-    line.add(kAllowed, "--normal-tolerance", "ANGLE", "rms angle between normals");
+    line.add(kAllowed, "--tolerance", "LENGTH", "Largest distance of a point of one surface from the other");
+    line.add(kAllowed, "--volume-tolerance", "SHARE", "Largest difference of the volumes, such as 0.1% of A's");
+    line.add(kAllowed, "--normal-tolerance", "ANGLE", "Largest rms angle between normals");
     constexpr const char* kRun = "Run";
-    line.add(kRun, "--json", "FILE", "write a report; - is standard output");
+    line.add(kRun, "--json", "FILE", "Write a report; - is standard output");
     line.add(kRun, "--picture", "FILE",
-             "draw A with how far it lies outside B, or inside,\n"
-             "in colours: .png; - is standard output");
-    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+             "Draw A as PNG, coloured by its distance outside or inside B; - is standard output");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareCommon(line, kRun, "tolerance = \"0.01mm\"");
 }
 

@@ -284,104 +284,99 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
 void declareFootprint(CommandLine& line)
 {
     constexpr const char* kGroup = "Footprint";
-    line.add(kGroup, "--width", "LENGTH", "width of the picture; SVG's own if stated [20mm]");
-    line.add(kGroup, "--pixel-size", "LENGTH", "or edge of one pixel");
-    line.add(kGroup, "--channel", "NAME",
-             "what shows the liquid: alpha, luma, or auto: alpha\n"
-             "where some of the picture is transparent, else what\n"
-             "differs from the colour of its border [auto]");
-    line.add(kGroup, "--threshold", "F", "coverage at which liquid begins, over 0, under 1 [0.5]");
-    line.addFlag(kGroup, "--invert", "exchange liquid and dry");
-    line.add(kGroup, "--segment", "NAME",
-             "how liquid is told from dry: threshold, for drawings\n"
-             "and scans; adaptive, for photographs in uneven light;\n"
-             "grabcut, by colours; auto decides and says so [auto]");
-    line.add(kGroup, "--colour", "COLOUR", "take what is of this colour: red, #e30613");
-    line.add(kGroup, "--smooth", "LENGTH", "smooth away bends and spots narrower than that");
-    line.add(kGroup, "--fill-holes", "AREA", "fill holes smaller than that, such as glints");
-    line.add(kGroup, "--keep", "N", "keep the N largest droplets alone");
-    line.add(kGroup, "--speck-size", "F", "drop spots and holes of less than F square pixels [3]");
+    line.add(kGroup, "--width", "LENGTH", "Width of the picture; an SVG may state its own [20mm]");
+    line.add(kGroup, "--pixel-size", "LENGTH", "Size of one pixel, instead of --width");
+    line.add(kGroup, "--channel", "auto|alpha|luma",
+             "Channel that shows the liquid: auto takes alpha if the picture has transparent parts, else what differs "
+             "from the brightness of its border [auto]");
+    line.add(kGroup, "--threshold", "F", "Coverage at which liquid begins, between 0 and 1 [0.5]");
+    line.addFlag(kGroup, "--invert", "Exchange liquid and dry");
+    line.add(kGroup, "--segment", "auto|threshold|adaptive|grabcut",
+             "How to separate liquid from dry: threshold for drawings and scans, adaptive for photographs in uneven "
+             "light, grabcut by colour; auto chooses and reports its choice [auto]");
+    line.add(kGroup, "--colour", "COLOUR", "Take the regions of this colour, such as red or #e30613");
+    line.add(kGroup, "--smooth", "LENGTH", "Remove spots, and bends of the rim, that are narrower than this");
+    line.add(kGroup, "--fill-holes", "AREA", "Fill holes smaller than this, such as glints: 1mm2");
+    line.add(kGroup, "--keep", "N", "Keep only the N largest droplets");
+    line.add(kGroup, "--speck-size", "F", "Drop spots and holes smaller than F square pixels [3]");
     line.exclude({"--width", "--pixel-size"});
 }
 
 void declareMaskOut(CommandLine& line)
 {
-    line.add("Footprint", "--mask-out", "FILE", "write the mask that was used, PNG; - is stdout");
+    line.add("Footprint", "--mask-out", "FILE", "Write the mask that was used, as PNG; - is standard output");
 }
 
 void declareLiquid(CommandLine& line)
 {
     constexpr const char* kGroup = "Liquid";
-    line.add(kGroup, "--contact-angle", "ANGLE", "mean angle along the rim, under 90deg [40deg]");
-    line.add(kGroup, "--volume", "VOLUME", "or volume");
-    line.add(kGroup, "--height", "LENGTH", "or largest height");
-    line.add(kGroup, "--fill", "NAME",
-             "each droplet gets that much, or they share it as one\n"
-             "reservoir of one pressure: each, total [each]");
-    line.add(kGroup, "--liquid", "NAME", "water, ethanol, glycerol, mercury, honey, all at 20 C\n[water]");
-    line.add(kGroup, "--surface-tension", "S", "instead of the liquid's own");
-    line.add(kGroup, "--density", "D", "instead of the liquid's own");
-    line.add(kGroup, "--model", "NAME",
-             "area of the liquid's surface: linear, good to slopes\n"
-             "of some 50deg; exact [linear]");
+    line.add(kGroup, "--contact-angle", "ANGLE",
+             "Amount of liquid, by the mean contact angle along the rim, under 90deg [40deg]");
+    line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
+    line.add(kGroup, "--height", "LENGTH", "Amount of liquid, by its largest height");
+    line.add(kGroup, "--fill", "each|total",
+             "each: every droplet gets this amount; total: all droplets share it at one pressure [each]");
+    line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
+    line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
+    line.add(kGroup, "--density", "D", "Density, instead of the liquid's own");
+    line.add(kGroup, "--model", "linear|exact",
+             "Model of the surface's area: linear is good for slopes up to about 50deg, exact for all slopes [linear]");
     line.exclude({"--contact-angle", "--volume", "--height"});
 }
 
 void declareGround(CommandLine& line)
 {
     constexpr const char* kGroup = "Gravity and ground";
-    line.add(kGroup, "--gravity", "G", "into the ground; negative under a ceiling [9.81m/s2]");
-    line.add(kGroup, "--tilt", "ANGLE", "of the ground: 90deg a wall, 180deg a ceiling [0deg]");
+    line.add(kGroup, "--gravity", "G", "Gravity into the ground; negative under a ceiling [9.81m/s2]");
+    line.add(kGroup, "--tilt", "ANGLE", "Tilt of the ground: 90deg is a wall, 180deg a ceiling [0deg]");
     line.add(kGroup, "--tilt-direction", "ANGLE",
-             "of downhill, counter-clockwise from the picture's\n"
-             "right: -90deg is toward its lower edge [-90deg]");
+             "Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower edge [-90deg]");
     line.add(kGroup, "--surface", "GROUND",
-             "a height map's file, white is high; sphere:R=40mm; or\n"
-             "cylinder:R=33mm,axis=y, its axis x, y or an angle;\n"
-             "R < 0 is a bowl or a gutter [flat]");
-    line.add(kGroup, "--surface-depth", "LENGTH", "height of white over black in the height map");
-    line.addFlag(kGroup, "--no-penetration", "keep the liquid above the ground, or leave it dry");
-    line.add(kGroup, "--onto", "OBJECT", "lay the droplets on a .glb or .gltf by its uv");
+             "Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis "
+             "x, y or an angle; R < 0 is a bowl or a gutter [flat]");
+    line.add(
+        kGroup, "--surface-depth", "LENGTH",
+        "Height of white above black in the height map; samples that are floating-point numbers are metres without it");
+    line.addFlag(kGroup, "--no-penetration",
+                 "Keep the liquid above the ground; where it would sink in, the ground stays dry");
+    line.add(kGroup, "--onto", "OBJECT",
+             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates");
     line.add(kGroup, "--advancing", "ANGLE",
-             "contact angle beyond which the rim moves out; with\n"
-             "--receding the report says if droplets would slide");
-    line.add(kGroup, "--receding", "ANGLE", "contact angle below which the rim moves in");
+             "Advancing contact angle; with --receding the report says whether droplets slide");
+    line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing");
     line.exclude({"--surface", "--onto"});
 }
 
 void declareSurface(CommandLine& line)
 {
     constexpr const char* kGroup = "Surface";
-    line.add(kGroup, "--triangles", "N", "about so many on the footprint: 5000, 5k, 1M [40k]");
-    line.add(kGroup, "--edge", "LENGTH", "or length of their edges");
-    line.add(kGroup, "--grading", "N",
-             "edges far from the rim up to N times as long as there:\n"
-             "1, 2, 4, 8, 16, 32, 64 [1]");
-    line.addFlag(kGroup, "--open", "leave out the base");
-    line.add(kGroup, "--material", "NAME",
-             "look in glTF and pictures: water, ink, mercury, honey,\nplain [the liquid's own]");
-    line.add(kGroup, "--unit", "NAME", "length of 1 in obj and stl: m, cm, mm [mm]");
+    line.add(kGroup, "--triangles", "N", "Approximate number of triangles on the footprint: 5000, 5k, 1M [40k]");
+    line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles");
+    line.add(kGroup, "--grading", "1|2|4|8|16|32|64",
+             "Largest edge length far from the rim, as a multiple of the length at the rim [1]");
+    line.addFlag(kGroup, "--open", "Leave out the base");
+    line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
+             "Look in glTF, OBJ, previews and the page; does not change the shape [the liquid's own]");
+    line.add(kGroup, "--unit", "m|cm|mm", "Unit of length in OBJ and STL [mm]");
     line.exclude({"--triangles", "--edge"});
 }
 
 void declareRun(CommandLine& line)
 {
     constexpr const char* kGroup = "Run";
-    line.addFlag(kGroup, "--no-clobber", "do not replace existing files");
-    line.add(kGroup, "--solver", "NAME",
-             "of the linear system: auto, whichever is fastest; llt,\n"
-             "Eigen's factorisation; multigrid, by iteration [auto]");
-    line.add(kGroup, "-j,--threads", "N", "use at most N threads [all cores]");
-    line.addFlag(kGroup, "-q,--quiet", "say nothing but errors");
-    line.addFlag(kGroup, "-v,--verbose", "say more: every droplet, times, memory");
-    line.add(kGroup, "--progress", "NAME",
-             "auto: a bar on a terminal; json: a line of JSON per\n"
-             "stage in place of the summary; none [auto]");
+    line.addFlag(kGroup, "--no-clobber", "Do not replace existing files");
+    line.add(kGroup, "--solver", "auto|llt|multigrid",
+             "Solver of the linear system: llt is Eigen's factorisation, multigrid iterates, auto takes the faster one "
+             "[auto]");
+    line.add(kGroup, "-j,--threads", "N", "Maximum number of threads [all cores]");
+    line.addFlag(kGroup, "-q,--quiet", "Print only errors, and warnings of results that cannot be right");
+    line.addFlag(kGroup, "-v,--verbose", "Print more: every droplet, times, memory");
+    line.add(kGroup, "--progress", "auto|none|json",
+             "auto shows a bar on a terminal; json writes a line of JSON for each stage instead of the summary [auto]");
     line.add(kGroup, "--config", "FILE",
-             "take options from lines such as width = \"8cm\";\n"
-             "the command line goes before them");
-    line.addFlag(kGroup, "-h,--help", "print this help");
-    line.addFlag(kGroup, "--version", "print the version");
+             "Read options from a TOML file with lines such as width = \"8cm\"; the command line takes precedence");
+    line.addFlag(kGroup, "-h,--help", "Print this help");
+    line.addFlag(kGroup, "--version", "Print the version");
     line.exclude({"--quiet", "--verbose"});
 }
 

@@ -68,22 +68,23 @@ double viscosityFactor(const Given& given, double contact_angle)
 void declareForces(CommandLine& line)
 {
     constexpr const char* kCoating = "Coating";
-    line.add(kCoating, "--contact-angle", "ANGLE", "of droplets at rest [by preset]");
-    line.add(kCoating, "--viscosity-factor", "V",
-             "of viscous drag, per radius and speed: 0.5Pa.s; or\n"
-             "artistic, which is that; or wedge, of water by wedge\n"
-             "theory [by preset]");
-    line.add(kCoating, "--kinetic-fraction", "F", "of friction that is left while moving [1]");
+    line.add(kCoating, "--contact-angle", "ANGLE",
+             "Contact angle of droplets at rest, from 1deg to 179deg [by preset]");
+    line.add(
+        kCoating, "--viscosity-factor", "V|artistic|wedge",
+        "Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge theory [by preset]");
+    line.add(kCoating, "--kinetic-fraction", "F", "Friction of a moving droplet, as a fraction of that at rest [1]");
     constexpr const char* kAir = "Air";
-    line.add(kAir, "--drag-coefficient", "C", "of droplets in the wind [1]");
-    line.add(kAir, "--boundary-layer", "L", "thickness of the layer in which wind is slower\n[by preset]");
-    line.add(kAir, "--profile-exponent", "N", "wind there goes with height to the N: 1/7 is 0.143 [0.5]");
-    line.add(kAir, "--air-density", "D", "[1.204kg/m3]");
+    line.add(kAir, "--drag-coefficient", "C", "Drag coefficient of droplets in the wind [1]");
+    line.add(kAir, "--boundary-layer", "L", "Thickness of the layer in which the wind is slower [by preset]");
+    line.add(kAir, "--profile-exponent", "N",
+             "Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one [0.5]");
+    line.add(kAir, "--air-density", "D", "Density of the air [1.204kg/m3]");
     constexpr const char* kLiquid = "Liquid";
-    line.add(kLiquid, "--liquid", "NAME", "water, ethanol, glycerol, mercury, honey, all at 20 C\n[water]");
-    line.add(kLiquid, "--surface-tension", "S", "instead of the liquid's own");
-    line.add(kLiquid, "--density", "D", "instead of the liquid's own");
-    line.add(kLiquid, "--gravity", "G", "downwards [9.81m/s2]");
+    line.add(kLiquid, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
+    line.add(kLiquid, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
+    line.add(kLiquid, "--density", "D", "Density, instead of the liquid's own");
+    line.add(kLiquid, "--gravity", "G", "Gravity, downwards [9.81m/s2]");
 }
 
 droplet::ForceModel readForces(const CommandLine& line, droplet::ForceModel model)

@@ -16,14 +16,11 @@ constexpr const char* kUsage = "usage: droplet-shape glyphs --font FILE --text T
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape glyphs", "from a font to a line of type, or to a droplet per glyph",
+        "droplet-shape glyphs", "make droplets from type",
         "[OPTIONS] --font FILE (--text TEXT | --charset SET | --all | --list) -o OUTPUT",
-        std::string("A SET is characters and ranges of them, such as A-Za-z or U+0391-U+03A9, or\n"
-                    "@FILE, all characters of a text file. With --charset and --all there stand in\n"
-                    "OUTPUT and --json, of each glyph,\n"
-                    "  {name} the font's name for it, safe on any file system (--list shows it),\n"
-                    "  {gid} its index, {codepoint} its character, such as U+0041;\n"
-                    "  {{ and }} are braces\n"
+        std::string("Placeholders in OUTPUT and --json, for --charset and --all:\n"
+                    "  {name} is the font's name of the glyph, made safe for file systems (see --list),\n"
+                    "  {gid} its index, {codepoint} its character, such as U+0041; {{ and }} are braces\n"
                     "\n") +
             kUnitsText +
             "\n"
@@ -34,7 +31,7 @@ const CommandText& commandText()
             "    -o 'out/{name}.glb' --equal-height\n"
             "\n"
             "Exit codes:\n"
-            "  0 done; 1 internal error; 2 usage; 3 font unreadable or nothing in it to make;\n"
+            "  0 done; 1 internal error; 2 usage; 3 font unreadable or without these glyphs;\n"
             "  4 output cannot be written; 5 no such droplet exists; 6 some glyphs failed, and\n"
             "  the manifest says which and why"};
     return text;
@@ -43,22 +40,26 @@ const CommandText& commandText()
 void declare(CommandLine& line)
 {
     constexpr const char* kGroup = "Type";
-    line.add(kGroup, "--font", "FILE", "TrueType, OpenType, collection, WOFF or Type 1");
-    line.add(kGroup, "--face-index", "N", "which font of a collection, from 0 [0]");
-    line.addList(kGroup, "--axis", "AXIS", "of a variable font, such as wght=700; for several\naxes several times");
-    line.add(kGroup, "--text", "TEXT", "set a text into one file; \\n begins a new line, \\\\ is\na backslash");
-    line.add(kGroup, "--charset", "SET", "or make a file for each of these characters");
-    line.addFlag(kGroup, "--all", "or for every glyph of the font");
-    line.addFlag(kGroup, "--list", "or list glyphs and axes, and make nothing");
-    line.add(kGroup, "-o,--output", "OUTPUT", "water.glb, or of many glyphs 'out/{name}.glb'");
-    line.add(kGroup, "--em", "LENGTH", "size: edge of the em square [20mm]");
-    line.add(kGroup, "--tolerance", "LENGTH", "farthest a flattened curve may lie off [em/20000]");
-    line.add(kGroup, "--align", "NAME", "lines of a text: start, centre, end [start]");
-    line.add(kGroup, "--line-spacing", "F", "distance of lines, in the font's own [1]");
-    line.addFlag(kGroup, "--equal-height",
-                 "all letters as high as the letter o is at the contact\n"
-                 "angle, or as --height says");
-    line.add(kGroup, "--json", "FILE", "write a report, of many glyphs such as\n'out/{name}.json'");
+    line.add(kGroup, "--font", "FILE", "Font: TrueType, OpenType, a collection, WOFF or Type 1");
+    line.add(kGroup, "--face-index", "N", "Index of the font in a collection [0]");
+    line.addList(kGroup, "--axis", "AXIS", "Axis of a variable font, such as wght=700; may be given several times");
+    line.add(kGroup, "--text", "TEXT", "Write this text to one file; \\n begins a new line, \\\\ is a backslash");
+    line.add(kGroup, "--charset", "SET",
+             "Write one file for each of these characters: A-Za-z&, U+0391-U+03A9, or @words.txt for all characters of "
+             "a text file");
+    line.addFlag(kGroup, "--all", "Write one file for each glyph of the font");
+    line.addFlag(kGroup, "--list", "Print the font's axes and glyphs; write nothing");
+    line.add(kGroup, "-o,--output", "OUTPUT",
+             "Output file, such as water.glb; for many glyphs a pattern, such as 'out/{name}.glb'");
+    line.add(kGroup, "--em", "LENGTH", "Type size: edge of the em square [20mm]");
+    line.add(kGroup, "--tolerance", "LENGTH", "Largest error of a curve drawn as lines [em/20000]");
+    line.add(kGroup, "--align", "start|centre|end",
+             "Alignment of the lines of a text; Hebrew and Arabic start on the right [start]");
+    line.add(kGroup, "--line-spacing", "F", "Distance of lines, as a multiple of the font's own [1]");
+    line.addFlag(
+        kGroup, "--equal-height",
+        "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
+    line.add(kGroup, "--json", "FILE", "Write a report; for many glyphs a pattern such as 'out/{name}.json'");
     line.exclude({"--text", "--charset", "--all", "--list"});
     declareBatch(line);
     declareDroplets(line);

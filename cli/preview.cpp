@@ -103,34 +103,33 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
 
 void declarePreview(CommandLine& line)
 {
-    line.add("Picture", "--preview", "FILE", "write a picture of it, PNG; - is standard output");
+    line.add("Picture", "--preview", "FILE", "Write a rendered picture, as PNG; - is standard output");
     declareView(line);
     line.add("Picture", "--ground", "PICTURE",
-             "what it stands on: laid as the footprint's picture is,\n"
-             "or on the object of --onto [a table with a ruling]");
-    line.add("Picture", "--environment", "FILE",
-             "what shines, not lamps: a picture of all around,\n"
-             "twice as wide as high; EXR and HDR hold light");
-    line.add("Picture", "--background", "NAME",
-             "ground; or none: transparent but for the droplet and\n"
-             "its shadow [ground]");
-    line.add("Picture", "--preview-colour", "NAME",
-             "look; or contours of heights, or contact-angle along\n"
-             "the rim, with a legend [look]");
+             "Picture on the ground, aligned with the footprint's picture; with --onto, the object's texture [a table "
+             "with a ruling]");
+    line.add(
+        "Picture", "--environment", "FILE",
+        "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
+    line.add("Picture", "--background", "ground|none",
+             "none makes the preview transparent except for the droplet and its shadow [ground]");
+    line.add("Picture", "--preview-colour", "look|contours|contact-angle",
+             "Colours of the preview: look of the material; contours of the height, or contact-angle along the rim, "
+             "with a legend [look]");
     if (!line.knows("--colour")) {
-        line.add("Picture", "--colour", "NAME", "its older name");
+        line.add("Picture", "--colour", "look|contours|contact-angle", "Old name of --preview-colour");
     }
-    line.add("Picture", "--turntable", "N", "N pictures of a whole turn, FILE-001.png and so on");
+    line.add("Picture", "--turntable", "N", "Write N previews of a full turn, FILE-001.png and so on; up to 360");
 }
 
 void declareView(CommandLine& line)
 {
-    line.add("Picture", "--view", "NAME", "three-quarter, top, side [three-quarter]");
+    line.add("Picture", "--view", "three-quarter|top|side", "Direction of the preview's view [three-quarter]");
     line.add("Picture", "--camera", "PLACE",
-             "or where the camera stands: azimuth from the picture's\n"
-             "right and elevation, such as -60deg,30deg");
+             "Camera position, instead of --view: azimuth, counter-clockwise from the picture's right, and elevation, "
+             "such as -60deg,30deg");
     line.exclude({"--view", "--camera"});
-    line.add("Picture", "--preview-size", "SIZE", "width and height in pixels [1280x960]");
+    line.add("Picture", "--preview-size", "SIZE", "Width and height of the preview in pixels [1280x960]");
 }
 
 void readView(const CommandLine& line, PreviewOptions& options)

@@ -13,15 +13,15 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape", "from the picture of a footprint to a 3D droplet of liquid",
+    static const CommandText text{"droplet-shape", "make 3D droplets of liquid from the picture of a footprint",
                                   "[OPTIONS] INPUT OUTPUT",
                                   "Commands:\n"
-                                  "  animate      frames of a moving footprint; see animate --help\n"
-                                  "  batch        a droplet of each of many pictures; see batch --help\n"
-                                  "  compare      how far two surfaces differ; see compare --help\n"
-                                  "  glyphs       a line of type, or a droplet per glyph; see glyphs --help\n"
-                                  "  wind-tunnel  which way droplets run in the wind; see wind-tunnel --help\n"
-                                  "  windshield   rain on the windshield of a moving car; see windshield --help\n"
+                                  "  animate      Make animated droplets from frames or a video; see animate --help\n"
+                                  "  batch        Make droplets from many pictures; see batch --help\n"
+                                  "  compare      Measure the difference of two surfaces; see compare --help\n"
+                                  "  glyphs       Make droplets from type; see glyphs --help\n"
+                                  "  wind-tunnel  Compute how droplets move in the wind; see wind-tunnel --help\n"
+                                  "  windshield   Show rain on the windshield of a moving car; see windshield --help\n"
                                   "\n" +
                                       std::string(kUnitsText) +
                                       "\n"
@@ -45,18 +45,16 @@ const CommandText& commandText()
 void declareShape(CommandLine& line)
 {
     line.addArgument("INPUT",
-                     "picture of the footprint: PNG, JPEG, SVG, TIFF, WebP,\n"
-                     "BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or HDR;\n"
-                     "- is standard input");
-    line.addArgument("OUTPUT",
-                     "the droplet: .glb, .gltf, .obj, .ply or .stl;\n"
-                     "- is standard output and needs --format");
+                     "Picture of the footprint: PNG, JPEG, SVG, TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or "
+                     "HDR; - is standard input");
+    line.addArgument("OUTPUT", "The droplet: .glb, .gltf, .obj, .ply or .stl; - is standard output and needs --format");
     declareShapes(line);
     declareMaskOut(line);
     declarePreview(line);
-    line.add("Run", "--json", "FILE", "write a report; - is standard output");
+    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
     declareHtml(line);
-    line.add("Run", "--export-evolver", "FILE", "write the droplets for Surface Evolver");
+    line.add("Run", "--export-evolver", "FILE",
+             "Write the droplets as input for Surface Evolver; - is standard output");
     declareRun(line);
 }
 
@@ -139,13 +137,11 @@ void declareDroplets(CommandLine& line)
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
-    line.add("Surface", "--format", "NAME",
-             "glb, gltf, obj, ply, stl, whatever OUTPUT ends in\n"
-             "[by OUTPUT's extension]");
+    line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
+             "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--fill-range", "RANGE",
-             "add a slider to glb or gltf that fills and drains the\n"
-             "droplet: 0..2, from none to twice its liquid; of the\n"
-             "linear model alone");
+             "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
+             "linear model only");
 }
 
 void declareShapes(CommandLine& line)
@@ -156,9 +152,7 @@ void declareShapes(CommandLine& line)
 
 void declareHtml(CommandLine& line)
 {
-    line.add("Run", "--html", "FILE",
-             "write a page that shows the droplet in a browser, all\n"
-             "in one file; - is standard output");
+    line.add("Run", "--html", "FILE", "Write one page that shows the droplet in a browser; - is standard output");
 }
 
 std::optional<std::string> readHtml(const CommandLine& line)

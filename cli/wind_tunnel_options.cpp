@@ -27,9 +27,9 @@ constexpr NumberRange kHysteresis{0.0, 2.0, "numbers from 0 to 2"};
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape wind-tunnel", "which way droplets run on a slope in the wind", "[OPTIONS] [OUTPUT...]",
-        "Sweeps every volume with every wind, slope and hysteresis. Lists are 10,20,30uL, or\n"
-        "ranges with a step: 10..100uL:10, 0..16m/s:0.25; a unit may be written once for all.\n"
+        "droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind", "[OPTIONS] [OUTPUT...]",
+        "Every volume is combined with every wind, slope and hysteresis. A LIST is 10,20,30uL,\n"
+        "or a range with a step: 10..100uL:10, 0..16m/s:0.25; the last unit is that of all.\n"
         "\n"
         "Quantities carry a unit:\n"
         "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
@@ -49,38 +49,36 @@ const CommandText& commandText()
 
 void declare(CommandLine& line)
 {
-    line.addArguments("OUTPUT",
-                      "a table: .csv, .json; a chart: .svg, .png; - is a\n"
-                      "table on standard output");
+    line.addArguments("OUTPUT", "Table, .csv or .json, or chart, .svg or .png; - is a table on standard output");
     constexpr const char* kSweep = "Sweep";
-    line.add(kSweep, "--preset", "NAME",
-             "where values are from that no option gives: hashimoto,\n"
-             "a measured plane; thesis, fitted to it; or both, as in\n"
-             "thesis,hashimoto [hashimoto]");
-    line.add(kSweep, "--volume", "LIST", "of droplets [by preset]");
-    line.add(kSweep, "--wind", "LIST", "up the slope [0..16m/s:0.25]");
-    line.add(kSweep, "--slope", "LIST", "of the ground from the horizontal [35deg]");
+    line.add(kSweep, "--preset", "hashimoto|thesis|thesis,hashimoto",
+             "Named set of default values: hashimoto, a measured plane; thesis, fitted to it; or both side by side "
+             "[hashimoto]");
+    line.add(kSweep, "--volume", "LIST", "Volumes of the droplets [by preset]");
+    line.add(kSweep, "--wind", "LIST", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
+    line.add(kSweep, "--slope", "LIST", "Slopes of the ground, from horizontal [35deg]");
     line.add(kSweep, "--hysteresis", "LIST",
-             "cosine of the receding less that of the advancing\n"
-             "contact angle [by preset]");
-    line.add(kSweep, "--falling-angle", "ANGLE", "or the slope at which a droplet begins to run");
-    line.add(kSweep, "--falling-volume", "V", "which droplet that is, or every [30uL]");
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
+    line.add(kSweep, "--falling-angle", "ANGLE", "Hysteresis, by the slope at which a droplet begins to run");
+    line.add(kSweep, "--falling-volume", "V|every",
+             "Volume of the droplet that runs at --falling-angle; every: all of them do [30uL]");
     declareForces(line);
     constexpr const char* kOut = "Charts and series";
-    line.add(kOut, "--chart", "FILE", "draw acceleration over wind: .svg, .png");
-    line.add(kOut, "--map", "FILE", "draw what droplets do over wind and volume: .svg, .png");
-    line.add(kOut, "--measured", "BAND",
-             "winds between which droplets were seen to stay, to\n"
-             "stand beside [7..11m/s for presets as they are]");
-    line.add(kOut, "--trace", "FILE", "follow one droplet over time: .csv, .json");
-    line.add(kOut, "--time", "TIME", "how long [1s]");
-    line.add(kOut, "--trace-step", "TIME", "between its lines [10ms]");
-    line.add(kOut, "--initial-speed", "SPEED", "up the slope; negative is down [0m/s]");
-    line.add(kOut, "--gust", "SPEED", "by which the wind rises and falls [0m/s]");
-    line.add(kOut, "--gust-period", "TIME", "from one gust to the next [1s]");
+    line.add(kOut, "--chart", "FILE",
+             "Draw the acceleration at rest against the wind, a curve for each volume: .svg or .png");
+    line.add(kOut, "--map", "FILE", "Draw what droplets do at each wind and volume: .svg or .png");
+    line.add(
+        kOut, "--measured", "BAND",
+        "Measured range of winds in which droplets stay, drawn beside the results [7..11m/s for unchanged presets]");
+    line.add(kOut, "--trace", "FILE", "Write the motion of one droplet over time: .csv or .json");
+    line.add(kOut, "--time", "TIME", "Duration of the trace [1s]");
+    line.add(kOut, "--trace-step", "TIME", "Time between two lines of the trace [10ms]");
+    line.add(kOut, "--initial-speed", "SPEED", "Speed at the start, up the slope; negative is down [0m/s]");
+    line.add(kOut, "--gust", "SPEED", "Amplitude of the wind's gusts [0m/s]");
+    line.add(kOut, "--gust-period", "TIME", "Time from one gust to the next [1s]");
     constexpr const char* kRun = "Run";
-    line.add(kRun, "--json", "FILE", "write all of it as JSON; - is standard output");
-    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+    line.add(kRun, "--json", "FILE", "Write all results as JSON; - is standard output");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareCommon(line, kRun, "slope = \"45deg\"");
     line.exclude({"--hysteresis", "--falling-angle"});
 }

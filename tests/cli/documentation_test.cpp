@@ -16,13 +16,14 @@
 namespace droplet {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::readFile;
 using testing::runDroplet;
 using testing::runProgram;
-using ::testing::SizeIs;
 
 std::string sourceFile(const std::string& name)
 {
@@ -83,7 +84,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
         script += " '" + word + "'";
     }
     script += "); COMP_CWORD=" + std::to_string(words.size()) + R"(; _droplet_shape; printf '%s\n' "${COMPREPLY[@]}")";
-    const std::string file = testing::inSource("cli/droplet-shape.bash");
+    const std::string file = testing::inSource("cli/completion/droplet-shape.bash");
     const auto result = runProgram({"bash", "-c", script, "bash", file});
     EXPECT_EQ(result.error, "");
     std::istringstream lines(result.output);
@@ -96,16 +97,11 @@ std::vector<std::string> completions(const std::vector<std::string>& words)
     return offered;
 }
 
-TEST(Documentation, HelpManualAndCompletionKnowTheSameOptions)
+TEST(Documentation, TablesManualAndCompletionsAreMadeFromTheHelp)
 {
-    EXPECT_THAT(longOptions(help()), SizeIs(58));
-    auto known = longOptions(help());
-    for (const std::string& command : commands()) {
-        known.merge(longOptions(help(command)));
-    }
-    EXPECT_EQ(longOptions(manual()), known);
-    known.insert("--option");  // of a comment
-    EXPECT_EQ(longOptions(sourceFile("droplet-shape.bash")), known);
+    const auto made = runProgram({testing::inSource("scripts/make-docs"), "--check", testing::kCommand});
+    EXPECT_EQ(made.exit_code, 0) << "run scripts/make-docs\n" << made.output << made.error;
+    EXPECT_EQ(made.output, "");
 }
 
 TEST(Documentation, CompletionOffersTheOptionsOfTheCommandThatStandsFirst)
@@ -125,20 +121,13 @@ TEST(Documentation, CompletionOffersTheOptionsOfTheCommandThatStandsFirst)
 TEST(Documentation, EveryOptionInTheHelpIsAccepted)
 {
     for (const std::string& option : longOptions(help())) {
-        EXPECT_THAT(runDroplet({option}).error, ::testing::Not(HasSubstr("unknown option"))) << option;
+        EXPECT_THAT(runDroplet({option}).error, Not(HasSubstr("unknown option"))) << option;
     }
     for (const std::string& command : commands()) {
         for (const std::string& option : longOptions(help(command))) {
-            EXPECT_THAT(runDroplet({command, option}).error, ::testing::Not(HasSubstr("unknown option")))
+            EXPECT_THAT(runDroplet({command, option}).error, Not(HasSubstr("unknown option")))
                 << command << " " << option;
         }
-    }
-}
-
-TEST(Documentation, ManualHasASectionForEveryCommand)
-{
-    for (const std::string& command : commands()) {
-        EXPECT_THAT(manual(), HasSubstr("\n.SS droplet-shape " + command + "\n"));
     }
 }
 
@@ -198,9 +187,9 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
     }
     EXPECT_EQ(completions({"--liquid", ""}), names);
     for (const char* option : {"--channel", "--fill", "--liquid", "--model", "--material", "--format", "--progress",
-                               "--grading", "--solver", "--view", "--segment", "--colour", "--preview-colour"}) {
+                               "--grading", "--solver", "--view", "--segment", "--preview-colour"}) {
         const auto offered = completions({option, ""});
-        EXPECT_THAT(offered, ::testing::Not(IsEmpty())) << option;
+        EXPECT_THAT(offered, Not(IsEmpty())) << option;
         for (const std::string& name : offered) {
             // Without INPUT a run ends there, once all options have been understood.
             EXPECT_THAT(runDroplet({option, name}).error, HasSubstr("INPUT is missing")) << option << " " << name;
@@ -218,6 +207,45 @@ TEST(Documentation, CompletionOffersFiles)
          {"--json", "--preview", "--ground", "--surface", "--onto", "--export-evolver", "--config"}) {
         EXPECT_THAT(completions({option, beginning}), ElementsAre(beginning + " logo.png")) << option;
     }
+}
+
+/// What fish offers after a line.
+std::string offeredByFish(const std::string& line)
+{
+    const std::string file = testing::inSource("cli/completion/droplet-shape.fish");
+    const auto result = runProgram({"fish", "--no-config", "-c", "source '" + file + "'; complete -C '" + line + "'"});
+    EXPECT_EQ(result.exit_code, 0) << "fish (Debian: fish) completes";
+    EXPECT_EQ(result.error, "");
+    return result.output;
+}
+
+TEST(Documentation, FishCompletesOptionsOfTheCommandAndTheirWords)
+{
+    EXPECT_THAT(offeredByFish("droplet-shape --volume"),
+                AllOf(HasSubstr("--volume\t"), Not(HasSubstr("--volume-mode"))));
+    EXPECT_THAT(offeredByFish("droplet-shape animate --volume"), HasSubstr("--volume-mode\t"));
+    EXPECT_THAT(offeredByFish("droplet-shape anim"), HasSubstr("animate\t"));
+    EXPECT_THAT(offeredByFish("droplet-shape --model "), AllOf(HasSubstr("linear"), HasSubstr("exact")));
+}
+
+/// What the completion for zsh offers after these words: the specifications that it hands to zsh's own functions.
+std::string offeredByZsh(const std::string& words)
+{
+    const std::string file = testing::inSource("cli/completion/_droplet-shape");
+    const auto result = runProgram({"zsh", "-f", "-c",
+                                    "_arguments() { print -rl -- \"$@\"; }; _describe() { print -rl -- ${(P)2}; }; "
+                                    "words=(droplet-shape " +
+                                        words + " ''); CURRENT=${#words}; source '" + file + "'"});
+    EXPECT_EQ(result.exit_code, 0) << "zsh (Debian: zsh) completes";
+    EXPECT_EQ(result.error, "");
+    return result.output;
+}
+
+TEST(Documentation, ZshCompletesOptionsOfTheCommandAndTheirWords)
+{
+    EXPECT_THAT(offeredByZsh(""), AllOf(HasSubstr("animate:"), HasSubstr("\n--model["), HasSubstr(":(linear exact)\n"),
+                                        Not(HasSubstr("--volume-mode["))));
+    EXPECT_THAT(offeredByZsh("animate"), AllOf(HasSubstr("--volume-mode["), HasSubstr(":(total track)\n")));
 }
 
 TEST(Documentation, ManualIsCleanRoff)

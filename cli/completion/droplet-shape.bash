@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Completion of droplet-shape for bash. Made by scripts/make-docs.
+
+_droplet_shape()
+{
+    COMPREPLY=()
+    local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]}
+    # bash takes the '=' of --option=value for a word of its own.
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $previous == = ]]; then
+        previous=${COMP_WORDS[COMP_CWORD-2]}
+    fi
+    local options choices= files=
+    case $command in
+        animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --one-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
+        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --one-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        wind-tunnel) options='--preset --volume --wind --slope --hysteresis --falling-angle --falling-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
+        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper --seed --glass-width --glass-height --radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --layer --codec --quality --maps --map-width --droplets --moving-only --model --json --resume --no-clobber --threads --quiet --config --help --version' ;;
+        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+    esac
+    [[ ' animate batch compare glyphs wind-tunnel windshield ' == *" $command "* ]] || command=
+    case $command:$previous in
+        *:--width) return ;;
+        *:--pixel-size) return ;;
+        *:--channel) choices='auto alpha luma' ;;
+        *:--threshold) return ;;
+        *:--segment) choices='auto threshold adaptive grabcut' ;;
+        glyphs:--colour) choices='look contours contact-angle' ;;
+        *:--colour) return ;;
+        *:--smooth) return ;;
+        *:--fill-holes) return ;;
+        *:--keep) return ;;
+        *:--speck-size) return ;;
+        *:--mask-out) files=1 ;;
+        *:--contact-angle) return ;;
+        *:--volume) return ;;
+        *:--height) return ;;
+        *:--fill) choices='each total' ;;
+        *:--liquid) choices='water ethanol glycerol mercury honey' ;;
+        *:--surface-tension) return ;;
+        *:--density) return ;;
+        windshield:--model) files=1 ;;
+        *:--model) choices='linear exact' ;;
+        *:--gravity) return ;;
+        *:--tilt) return ;;
+        *:--tilt-direction) return ;;
+        *:--surface) files=1 ;;
+        *:--surface-depth) return ;;
+        *:--onto) files=1 ;;
+        *:--advancing) return ;;
+        *:--receding) return ;;
+        *:--triangles) return ;;
+        *:--edge) return ;;
+        *:--grading) choices='1 2 4 8 16 32 64' ;;
+        *:--material) choices='water ink mercury honey plain' ;;
+        *:--unit) choices='m cm mm' ;;
+        *:--format) choices='glb gltf obj ply stl' ;;
+        *:--fill-range) return ;;
+        *:--preview) files=1 ;;
+        *:--view) choices='three-quarter top side' ;;
+        *:--camera) return ;;
+        *:--preview-size) return ;;
+        *:--ground) files=1 ;;
+        *:--environment) files=1 ;;
+        windshield:--background) files=1 ;;
+        *:--background) choices='ground none' ;;
+        *:--preview-colour) choices='look contours contact-angle' ;;
+        *:--turntable) return ;;
+        *:--json) files=1 ;;
+        *:--html) files=1 ;;
+        *:--export-evolver) files=1 ;;
+        *:--solver) choices='auto llt multigrid' ;;
+        *:-j) return ;;
+        *:--threads) return ;;
+        *:--progress) choices='auto none json' ;;
+        *:--config) files=1 ;;
+        *:--volume-mode) choices='total track' ;;
+        *:--fps) return ;;
+        *:--contact-sheet) files=1 ;;
+        *:-o) files=1 ;;
+        *:--output) files=1 ;;
+        *:--shard) return ;;
+        *:--manifest) files=1 ;;
+        *:--tolerance) return ;;
+        *:--volume-tolerance) return ;;
+        *:--normal-tolerance) return ;;
+        *:--picture) files=1 ;;
+        *:--font) files=1 ;;
+        *:--face-index) return ;;
+        *:--axis) return ;;
+        *:--text) return ;;
+        *:--charset) return ;;
+        *:--em) return ;;
+        *:--align) choices='start centre end' ;;
+        *:--line-spacing) return ;;
+        windshield:--preset) return ;;
+        *:--preset) choices='hashimoto thesis thesis,hashimoto' ;;
+        *:--wind) return ;;
+        *:--slope) return ;;
+        *:--hysteresis) return ;;
+        *:--falling-angle) return ;;
+        *:--falling-volume) choices='every' ;;
+        *:--viscosity-factor) choices='artistic wedge' ;;
+        *:--kinetic-fraction) return ;;
+        *:--drag-coefficient) return ;;
+        *:--boundary-layer) return ;;
+        *:--profile-exponent) return ;;
+        *:--air-density) return ;;
+        *:--chart) files=1 ;;
+        *:--map) files=1 ;;
+        *:--measured) return ;;
+        *:--trace) files=1 ;;
+        *:--time) return ;;
+        *:--trace-step) return ;;
+        *:--initial-speed) return ;;
+        *:--gust) return ;;
+        *:--gust-period) return ;;
+        *:--rain) return ;;
+        *:--speed) return ;;
+        *:--drive-cycle) files=1 ;;
+        *:--noise) return ;;
+        *:--wiper) return ;;
+        *:--seed) return ;;
+        *:--glass-width) return ;;
+        *:--glass-height) return ;;
+        *:--radius) return ;;
+        *:--still-diameter) return ;;
+        *:--film) return ;;
+        *:--warm-up) return ;;
+        *:--size) return ;;
+        *:--field-of-view) return ;;
+        *:--eye-distance) return ;;
+        *:--eye) return ;;
+        *:--look-at) return ;;
+        *:--samples) return ;;
+        *:--exposure) return ;;
+        *:--highlight-boost) return ;;
+        *:--codec) return ;;
+        *:--quality) return ;;
+        *:--maps) files=1 ;;
+        *:--map-width) return ;;
+        *:--droplets) files=1 ;;
+    esac
+    if [[ -n $choices ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")
+    elif [[ -z $files && $word == -* ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+    else
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+        if ((COMP_CWORD == 1)); then
+            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare glyphs wind-tunnel windshield' -- "$word")
+        fi
+    fi
+}
+complete -o filenames -F _droplet_shape droplet-shape
