@@ -15,8 +15,7 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape animate",
-                                  "make animated droplets from the frames of a moving footprint",
+    static const CommandText text{"droplet-shape animate", "make animated droplets from frames or a video",
                                   "[OPTIONS] INPUT... OUTPUT",
                                   std::string(kUnitsText) +
                                       "\n"

@@ -39,7 +39,7 @@ const CommandText& commandText()
             "Examples:\n"
             "  droplet-shape batch masks/*.png -o 'out/{stem}.glb'\n"
             "  droplet-shape batch masks --recursive -o 'out/{dir}/{stem}.glb' --keep-going\n"
-            "  droplet-shape batch masks -o 'out/{stem}.stl' --json 'out/{stem}.json' --shard 2/8\n"
+            "  droplet-shape batch masks -o '{stem}.stl' --json '{stem}.json' --shard 2/8\n"
             "\n"
             "Exit codes:\n"
             "  0 all made; 1 internal error; 2 usage; 3 no pictures; 4 manifest cannot be\n"

@@ -36,18 +36,17 @@ constexpr Range kAngle{droplet::Dimension::Angle, 1e-9, 3.2, "over 0deg, up to 1
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape compare", "measure the difference of two surfaces", "[OPTIONS] A B",
-        "Surfaces are .glb, .gltf, .obj, .ply or .stl. With a tolerance, the topologies must\n"
-        "agree, too, and the exit code says whether both surfaces do.\n"
-        "\n"
-        "Examples:\n"
-        "  droplet-shape compare reference.glb new.glb --tolerance 0.01mm\n"
-        "  droplet-shape compare coarse.glb fine.glb --json difference.json\n"
-        "\n"
-        "Exit codes:\n"
-        "  0 done, within every tolerance; 1 a tolerance is exceeded, or internal error;\n"
-        "  2 usage; 3 a surface is unreadable; 4 output cannot be written"};
+    static const CommandText text{"droplet-shape compare", "measure the difference of two surfaces", "[OPTIONS] A B",
+                                  "Surfaces are .glb, .gltf, .obj, .ply or .stl. With a tolerance, the topologies\n"
+                                  "must agree, too, and the exit code says whether both surfaces do.\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape compare reference.glb new.glb --tolerance 0.01mm\n"
+                                  "  droplet-shape compare coarse.glb fine.glb --json difference.json\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done, within every tolerance; 1 a tolerance is exceeded, or internal error;\n"
+                                  "  2 usage; 3 a surface is unreadable; 4 output cannot be written"};
     return text;
 }
 

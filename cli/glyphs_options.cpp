@@ -17,23 +17,24 @@ const CommandText& commandText()
 {
     static const CommandText text{
         "droplet-shape glyphs", "make droplets from type",
-        "[OPTIONS] --font FILE (--text TEXT | --charset SET | --all | --list) -o OUTPUT",
+        "[OPTIONS] --font FILE -o OUTPUT",
         std::string("Placeholders in OUTPUT and --json, for --charset and --all:\n"
-                    "  {name} is the font's name of the glyph, made safe for file systems (see --list),\n"
-                    "  {gid} its index, {codepoint} its character, such as U+0041; {{ and }} are braces\n"
+                    "  {name} is the font's name of the glyph, made safe for files (see --list),\n"
+                    "  {gid} its index, {codepoint} its character, such as U+0041; {{ and }} are\n"
+                    "  braces\n"
                     "\n") +
             kUnitsText +
             "\n"
             "Examples:\n"
             "  droplet-shape glyphs --font Serif.ttf --text Water -o water.glb\n"
             "  droplet-shape glyphs --font Serif.ttf --charset A-Za-z -o 'out/{name}.glb'\n"
-            "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all --triangles 5k \\\n"
+            "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all \\\n"
             "    -o 'out/{name}.glb' --equal-height\n"
             "\n"
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 font unreadable or without these glyphs;\n"
-            "  4 output cannot be written; 5 no such droplet exists; 6 some glyphs failed, and\n"
-            "  the manifest says which and why"};
+            "  4 output cannot be written; 5 no such droplet exists; 6 some glyphs failed,\n"
+            "  and the manifest says which and why"};
     return text;
 }
 

@@ -15,13 +15,13 @@ const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape", "make 3D droplets of liquid from the picture of a footprint",
                                   "[OPTIONS] INPUT OUTPUT",
-                                  "Commands:\n"
-                                  "  animate      Make animated droplets from frames or a video; see animate --help\n"
-                                  "  batch        Make droplets from many pictures; see batch --help\n"
-                                  "  compare      Measure the difference of two surfaces; see compare --help\n"
-                                  "  glyphs       Make droplets from type; see glyphs --help\n"
-                                  "  wind-tunnel  Compute how droplets move in the wind; see wind-tunnel --help\n"
-                                  "  windshield   Show rain on the windshield of a moving car; see windshield --help\n"
+                                  "Commands, each with a --help of its own:\n"
+                                  "  animate      Make animated droplets from frames or a video\n"
+                                  "  batch        Make droplets from many pictures\n"
+                                  "  compare      Measure the difference of two surfaces\n"
+                                  "  glyphs       Make droplets from type\n"
+                                  "  wind-tunnel  Compute how droplets move in the wind\n"
+                                  "  windshield   Show rain on the windshield of a moving car\n"
                                   "\n" +
                                       std::string(kUnitsText) +
                                       "\n"

@@ -26,24 +26,25 @@ constexpr NumberRange kHysteresis{0.0, 2.0, "numbers from 0 to 2"};
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind", "[OPTIONS] [OUTPUT...]",
-        "Every volume is combined with every wind, slope and hysteresis. A LIST is 10,20,30uL,\n"
-        "or a range with a step: 10..100uL:10, 0..16m/s:0.25; the last unit is that of all.\n"
-        "\n"
-        "Quantities carry a unit:\n"
-        "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
-        "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
-        "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
-        "  acceleration m/s2 mm/s2 g\n"
-        "\n"
-        "Examples:\n"
-        "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
-        "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45,60deg --map map.png\n"
-        "  droplet-shape wind-tunnel --volume 30uL --wind 9m/s --gust 2m/s --trace run.csv\n"
-        "\n"
-        "Exit codes:\n"
-        "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
+    static const CommandText text{"droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind",
+                                  "[OPTIONS] [OUTPUT...]",
+                                  "Every volume is combined with every wind, slope and hysteresis. A LIST is\n"
+                                  "10,20,30uL, or a range with a step: 10..100uL:10, 0..16m/s:0.25; a unit at the\n"
+                                  "end applies to all its numbers.\n"
+                                  "\n"
+                                  "Quantities carry a unit:\n"
+                                  "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
+                                  "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
+                                  "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
+                                  "  acceleration m/s2 mm/s2 g\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
+                                  "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45deg --map map.png\n"
+                                  "  droplet-shape wind-tunnel --volume 30uL --wind 9m/s --gust 2m/s --trace a.csv\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
     return text;
 }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Completion of droplet-shape for fish. Made by scripts/make-docs.
 
-complete -c droplet-shape -n __fish_use_subcommand -a animate -d 'make animated droplets from the frames of a moving footprint'
+complete -c droplet-shape -n __fish_use_subcommand -a animate -d 'make animated droplets from frames or a video'
 complete -c droplet-shape -n __fish_use_subcommand -a batch -d 'make droplets from many pictures'
 complete -c droplet-shape -n __fish_use_subcommand -a compare -d 'measure the difference of two surfaces'
 complete -c droplet-shape -n __fish_use_subcommand -a glyphs -d 'make droplets from type'

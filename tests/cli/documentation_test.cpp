@@ -45,7 +45,7 @@ std::vector<std::string> commands()
         if (listed && line.rfind("  ", 0) == 0) {
             names.push_back(line.substr(2, line.find(' ', 2) - 2));
         }
-        listed = line == "Commands:" || (listed && !line.empty());
+        listed = line.starts_with("Commands") || (listed && !line.empty());
     }
     return names;
 }

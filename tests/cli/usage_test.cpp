@@ -54,9 +54,13 @@ TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
 
 TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 {
-    std::istringstream help(run({"--help"}).output);
-    for (std::string line; std::getline(help, line);) {
-        EXPECT_LE(line.size(), 80U) << line;
+    for (const std::string command : {"", "animate", "batch", "compare", "glyphs", "wind-tunnel", "windshield"}) {
+        std::istringstream help(
+            run(command.empty() ? std::vector<std::string>{"--help"} : std::vector<std::string>{command, "--help"})
+                .output);
+        for (std::string line; std::getline(help, line);) {
+            EXPECT_LE(line.size(), 80U) << command << ": " << line;
+        }
     }
 }
 
