@@ -214,6 +214,14 @@ std::string details(const Report& report)
     text += line("solve", model + ", " + report.solve.method + ", " + counted(report.solve.unknowns, "unknown") +
                               ", residual " + digits(report.solve.residual, 2) +
                               (report.pressure ? ", pressure " + digits(*report.pressure) + " Pa" : ""));
+    const droplet::ShapeFigures& total = report.total;
+    if (report.physics.model == droplet::Model::Linear && total.steep_area > 0.0) {
+        text +=
+            line("slopes", fmt::format("over 50° on {:.2g} % of the footprint, where the linear model overstates the "
+                                       "liquid's area: by {:.2g} % in all",
+                                       100.0 * total.steep_area / total.footprint_area,
+                                       100.0 * (total.linear_area / total.liquid_area - 1.0)));
+    }
     text += table(report);
     std::string times;
     for (std::size_t stage = 0; stage < droplet::kStageCount; ++stage) {

@@ -238,6 +238,8 @@ Json shapeSection(const ShapeFigures& figures, const Json& pressure, const std::
             {"depth_max_m", figures.depth_max},
             {"dry_area_m2", figures.dry_area},
             {"liquid_area_m2", figures.liquid_area},
+            {"linear_area_m2", figures.linear_area},
+            {"steep_area_m2", figures.steep_area},
             {"surface_energy_j", figures.surface_energy},
             {"gravity_energy_j", figures.gravity_energy},
             {"energy_j", figures.surface_energy + figures.gravity_energy},

@@ -47,6 +47,8 @@ Report sampleReport()
     total.height_max = 1.5e-3;
     total.depth_max = 1.6e-5;
     total.liquid_area = 1.3e-4;
+    total.linear_area = 1.4e-4;
+    total.steep_area = 1.1e-5;
     total.surface_energy = 9e-6;
     total.gravity_energy = 4.1e-7;
     total.slope_max = 55.0 * kDegree;
@@ -107,9 +109,9 @@ TEST(Report, HoldsEveryKeyOfTheSchema)
                 IsSupersetOf({"method", "unknowns", "iterations", "newton_steps", "residual", "converged"}));
     EXPECT_THAT(keysOf(text, "/shape"),
                 IsSupersetOf({"volume_m3", "volume_ul", "pressure_pa", "height_max_m", "depth_max_m", "dry_area_m2",
-                              "liquid_area_m2", "surface_energy_j", "gravity_energy_j", "energy_j", "bond_number",
-                              "contact_angle_deg", "slope_max_deg", "projected_width_m", "would_slide",
-                              "driving_force_n", "retention_force_n"}));
+                              "liquid_area_m2", "linear_area_m2", "steep_area_m2", "surface_energy_j",
+                              "gravity_energy_j", "energy_j", "bond_number", "contact_angle_deg", "slope_max_deg",
+                              "projected_width_m", "would_slide", "driving_force_n", "retention_force_n"}));
     EXPECT_THAT(keysOf(text, "/shape/contact_angle_deg"), IsSupersetOf({"min", "mean", "max", "min_at_m", "max_at_m"}));
     EXPECT_THAT(keysOf(text, "/droplets/1"), IsSupersetOf({"footprint_area_m2", "rim_length_m", "holes", "volume_m3",
                                                            "pressure_pa", "height_max_m", "contact_angle_deg"}));
@@ -193,6 +195,8 @@ TEST(Report, PutsEveryValueUnderItsOwnName)
     EXPECT_EQ(shape["depth_max_m"], 1.6e-5);
     EXPECT_EQ(shape["dry_area_m2"], 2.2e-6);
     EXPECT_EQ(shape["liquid_area_m2"], 1.3e-4);
+    EXPECT_EQ(shape["linear_area_m2"], 1.4e-4);
+    EXPECT_EQ(shape["steep_area_m2"], 1.1e-5);
     EXPECT_EQ(shape["surface_energy_j"], 9e-6);
     EXPECT_EQ(shape["gravity_energy_j"], 4.1e-7);
     EXPECT_EQ(shape["energy_j"], 9e-6 + 4.1e-7);
