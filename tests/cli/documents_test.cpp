@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -139,6 +141,37 @@ TEST(Readme, EveryCommandHasAPage)
                     AllOf(HasSubstr("\n# `droplet-shape " + command + "`"), HasSubstr("\n<!-- options of " + command)));
     }
     EXPECT_THAT(list, HasSubstr("\n  windshield "));
+}
+
+/// All strings of the program's sources, one that is broken over lines in one piece.
+std::string wordsOfSources()
+{
+    std::string words;
+    for (const char* folder : {"src", "cli"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(inSource(folder))) {
+            if (entry.path().extension() == ".cpp") {
+                words += testing::readFile(entry.path());
+            }
+        }
+    }
+    return std::regex_replace(words, std::regex(R"("\s*\n\s*")"), "");
+}
+
+TEST(Readme, TroubleshootingShowsMessagesOfTheProgram)
+{
+    const std::string words = wordsOfSources() + std::strerror(ENOSPC);
+    int count = 0;
+    for (const std::string& line : linesOf(sourceFile("docs/troubleshooting.md"))) {
+        std::smatch message;
+        if (!std::regex_search(line, message, std::regex("^\\| `([^`]+)`"))) {
+            continue;
+        }
+        std::istringstream parts(std::regex_replace(message.str(1), std::regex(" *… *"), "\n"));
+        for (std::string part; std::getline(parts, part); ++count) {
+            EXPECT_NE(words.find(part), std::string::npos) << part << " in " << line;
+        }
+    }
+    EXPECT_GT(count, 50);
 }
 
 /// The keys of a report as docs/reports.md shows them: those without others below them share a line with their
@@ -302,7 +335,7 @@ TEST(Readme, LinksLeadSomewhere)
         const auto more = markdownIn(folder);
         names.insert(names.end(), more.begin(), more.end());
     }
-    names.emplace_back("CHANGELOG.md");
+    names.insert(names.end(), {"CHANGELOG.md", "CONTRIBUTING.md", "RELEASING.md"});
     for (const std::string& name : names) {
         SCOPED_TRACE(name);
         for (const std::string& target : relativeLinksOf(sourceFile(name))) {
