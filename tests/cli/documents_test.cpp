@@ -166,7 +166,7 @@ TEST(Readme, TroubleshootingShowsMessagesOfTheProgram)
         if (!std::regex_search(line, message, std::regex("^\\| `([^`]+)`"))) {
             continue;
         }
-        std::istringstream parts(std::regex_replace(message.str(1), std::regex(" *… *"), "\n"));
+        std::istringstream parts(std::regex_replace(message.str(1), std::regex(";? *… *"), "\n"));
         for (std::string part; std::getline(parts, part); ++count) {
             EXPECT_NE(words.find(part), std::string::npos) << part << " in " << line;
         }
