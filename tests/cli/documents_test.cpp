@@ -331,7 +331,7 @@ std::string destinationOf(const std::string& document, const std::string& target
 TEST(Readme, LinksLeadSomewhere)
 {
     std::vector<std::string> names = documents();
-    for (const char* folder : {"bench", "data"}) {
+    for (const char* folder : {"bench", "data", "examples"}) {
         const auto more = markdownIn(folder);
         names.insert(names.end(), more.begin(), more.end());
     }
