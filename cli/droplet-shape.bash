@@ -23,6 +23,7 @@ _droplet_shape()
                 choices='ground none'
             fi
             ;;
+        --model-animation) choices='nodes texture' ;;
         --unit) choices='m cm mm' ;;
         --format) choices='glb gltf obj ply stl' ;;
         --grading) choices='1 2 4 8 16 32 64' ;;
@@ -103,7 +104,8 @@ _droplet_shape()
                         --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
                         --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
                         --gravity --time --warm-up --fps --background --fit --size --field-of-view
-                        --eye-distance --eye --look-at --samples --exposure --highlight-boost --layer --codec --quality --maps --map-width --droplets --moving-only --model --json
+                        --eye-distance --eye --look-at --samples --exposure --highlight-boost --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation
+                        --json
                         --resume --no-clobber --threads --quiet --config --help --version' ;;
                     *) choices="$picture --mask-out $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac
