@@ -16,33 +16,24 @@ const kPage = `<!doctype html><canvas id="view" width="480" height="300"></canva
 <script type="importmap">{"imports": {"three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"}}</script>`;
 
 /** In the page: shows a model and returns what is needed to play it. */
-async function show({ file, bare }) {
-    const { AmbientLight, AnimationMixer, MeshPhysicalMaterial, OrthographicCamera, Scene, WebGLRenderer } = await import('three');
+async function show(file) {
+    const { AmbientLight, MeshPhysicalMaterial, OrthographicCamera, Scene, WebGLRenderer } = await import('three');
     const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
     const { playDroplets } = await import('/example.js');
     const gltf = await new GLTFLoader().loadAsync(file);
-    const started = performance.now();
-    let play;
-    if (gltf.animations.length > 0) {
-        const mixer = new AnimationMixer(gltf.scene);
-        mixer.clipAction(gltf.animations[0]).play();
-        play = (seconds) => mixer.setTime(seconds);
-    } else {
-        play = (await playDroplets(gltf)).show;
-    }
+    const { show: play } = await playDroplets(gltf);
     gltf.scene.getObjectByName('glass').visible = false;
     const renderer = new WebGLRenderer({ canvas: document.getElementById('view').cloneNode(), preserveDrawingBuffer: true });
     const scene = new Scene();
     scene.add(gltf.scene);
-    if (bare) {  // opaque and white: what is drawn is seen, whatever is behind it
-        scene.add(new AmbientLight(0xffffff, 3));
-        gltf.scene.traverse((object) => {
-            if (object.isMesh) {
-                const { onBeforeCompile } = object.material;
-                object.material = Object.assign(new MeshPhysicalMaterial({ color: 0xffffff }), { onBeforeCompile });
-            }
-        });
-    }
+    // Opaque and white: what is drawn is seen.
+    scene.add(new AmbientLight(0xffffff, 3));
+    gltf.scene.traverse((object) => {
+        if (object.isMesh) {
+            const { onBeforeCompile } = object.material;
+            object.material = Object.assign(new MeshPhysicalMaterial({ color: 0xffffff }), { onBeforeCompile });
+        }
+    });
     const camera = new OrthographicCamera(-0.24, 0.24, 0.15, -0.15, 0.01, 10);
     camera.position.set(0, 1.1, 1);
     camera.lookAt(0, 0.1, 0);
@@ -50,7 +41,7 @@ async function show({ file, bare }) {
         play(seconds);
         renderer.render(scene, camera);
     };
-    window.model = { draw, renderer, started, scene, camera, play };
+    window.model = { draw, renderer };
 }
 
 /** In the page: which pixels show something at a time. */
@@ -93,7 +84,7 @@ try {
                 contentType: path.endsWith('.js') ? 'text/javascript' : 'application/octet-stream' }) : route.fulfill({ status: 204 });
         });
         await page.goto('http://droplets.test/');
-        await page.evaluate(show, { file: `/${name}.glb`, bare: true });
+        await page.evaluate(show, `/${name}.glb`);
         views[name] = [];
         for (const frame of frames) {
             const { shown, calls, picture } = await page.evaluate(pixels, (frame + 0.01) / Number(rate));

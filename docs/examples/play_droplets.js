@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays droplets of `windshield --model FILE --model-animation texture` in three.js, in one draw call.
-import { InstancedBufferGeometry, NoColorSpace, Sphere, Vector3 } from 'three';
+// Plays droplets of `windshield --model` in three.js: in either form, a texture in one draw call.
+import { AnimationMixer, InstancedBufferGeometry, NoColorSpace, PropertyBinding, Sphere, Vector3 } from 'three';
 
 const kVertex = /* glsl */ `
 uniform sampler2D droplets;
@@ -43,14 +43,32 @@ vec3 turned(vec4 turn, vec3 v) {
 }
 `;
 
+/** three.js looks through the whole scene for each track's joint, which takes seconds; here a map knows them. */
+function playJoints({ scene, animations: [clip] }) {
+    const objects = new Map();
+    scene.traverse((object) => objects.set(object.uuid, object).set(object.name, object));
+    const { findNode } = PropertyBinding;
+    PropertyBinding.findNode = (root, name) => objects.get(name) ?? findNode(root, name);
+    const mixer = new AnimationMixer(scene);
+    mixer.clipAction(clip).play();
+    PropertyBinding.findNode = findNode;
+    return { show: (seconds) => mixer.setTime(seconds), duration: clip.duration };
+}
+
 /**
  * Makes the droplets of a loaded model visible.
  * @param gltf  what GLTFLoader returns; its scene is changed
  * @return      a function that shows them as they are at a time [s] from the film's start, and the film's duration [s]
  */
 export async function playDroplets(gltf) {
+    if (gltf.animations.length > 0) {
+        return playJoints(gltf);
+    }
     const mesh = gltf.scene.getObjectByName('droplets');
     const about = mesh.userData;
+    if (about.texture === undefined) {
+        return { show: () => {}, duration: 0 };  // nothing moves
+    }
     const texture = await gltf.parser.getDependency('texture', about.texture);
     texture.colorSpace = NoColorSpace;
     texture.generateMipmaps = false;
