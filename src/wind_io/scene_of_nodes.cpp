@@ -344,6 +344,10 @@ public:
         // Views come first: the tracks' is the last one in the buffer.
         const int resting = spans.rests.empty() ? -1 : addHerd(resting_, "droplets at rest");
         const int running = spans.runs.empty() ? -1 : addHerd(running_, "droplets on their way");
+        if (!written_.empty()) {
+            // They change nothing, but some readers cannot do without.
+            bind_ = addArray(model_, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, kDropletsOfMesh + kAnchors);
+        }
         model_.animations.emplace_back().name = "rain";
         tracks_.emplace(model_, static_cast<int>(model_.bufferViews.size()));
         addRests(spans.rests, resting);
@@ -367,6 +371,9 @@ public:
             writeNet(pane_, bytes);
             for (const Herd* herd : written_) {
                 writeHerd(*herd, bytes);
+            }
+            for (std::size_t k = 0; !written_.empty() && k < kDropletsOfMesh + kAnchors; ++k) {
+                bytes.f32(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
             }
             for (const std::uint32_t word : tracks_->words()) {
                 bytes.u32(word);
@@ -436,6 +443,7 @@ private:
         }
         for (std::size_t k = 0; k < joints.size(); k += kDropletsOfMesh) {
             tinygltf::Skin skin;
+            skin.inverseBindMatrices = bind_;
             const auto first = joints.begin() + static_cast<std::ptrdiff_t>(k);
             skin.joints.assign(first, first + static_cast<std::ptrdiff_t>(kDropletsOfMesh));
             skin.joints.insert(skin.joints.end(), anchors_.begin(), anchors_.end());
@@ -592,6 +600,7 @@ private:
     tinygltf::Model model_;
     tinygltf::Scene scene_;
     int root_ = 0;
+    int bind_ = -1;  ///< accessor of inverse bind matrices
     std::vector<int> anchors_;
     std::optional<Tracks> tracks_;
 };
