@@ -285,7 +285,7 @@ std::vector<double> rounded(const Numbers& numbers, int decimals)
     return result;
 }
 
-/// A mesh of many droplets, each bound to the joint of its number, and where the anchors are.
+/// A mesh of many droplets, each bound to the joint of its number; the last vertices are the anchors'.
 struct Herd {
     Net net;
     std::vector<std::size_t> joints;  ///< by vertex
@@ -408,7 +408,6 @@ private:
     int addHerd(const Herd& herd, const char* name)
     {
         const int mesh = addNet(model_, herd.net, name, 0);
-        // The indices stand behind these two in the model, but in the buffer where addNet has put them.
         const auto add_bytes = [&](bool normalised) {
             const int accessor = addArray(model_, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
                                           TINYGLTF_TYPE_VEC4, herd.joints.size());
