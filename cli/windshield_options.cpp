@@ -123,6 +123,8 @@ void declare(CommandLine& line)
     line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "of those, only droplets that move");
     line.add(kOut, "--model", "FILE", "droplets as an animated .glb");
+    line.add(kOut, "--model-animation", "NAME",
+             "nodes: joints that every reader plays; texture: one\ndraw call, for a shader of your own [nodes]");
     line.add(kOut, "--json", "FILE", "write a report, with the water's balance every second;\n- is standard output");
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "go on where a run of the same options was interrupted");
@@ -332,6 +334,13 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         }
         options.model = model->text;
     }
+    if (const auto animation = line.value("--model-animation")) {
+        options.model_animation = choice<droplet::SceneAnimation>(
+            *animation, {{"nodes", droplet::SceneAnimation::Nodes}, {"texture", droplet::SceneAnimation::Texture}});
+        if (!options.model) {
+            refuse("--model-animation needs --model");
+        }
+    }
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");
     if (options.resume && !options.files) {
@@ -369,8 +378,9 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.output_options.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     // Options that tell how to go about it, or how far, are no part of what is shown.
-    const std::set<std::string> beside{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
-                                       "--config", "--json",   "--droplets",   "--model",   "--moving-only"};
+    const std::set<std::string> beside{"--time",  "--resume",      "--no-clobber",     "--threads",
+                                       "--quiet", "--config",      "--json",           "--droplets",
+                                       "--model", "--moving-only", "--model-animation"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (beside.count(name) == 0) {

@@ -9,6 +9,7 @@
 #include "droplet/io/output.h"
 #include "droplet/view/glass_maps.h"
 #include "droplet/view/view.h"
+#include "droplet/wind_io/droplet_scene.h"
 #include "droplet/windshield/windshield.h"
 #include "numbered_path.h"
 #include "video_writer.h"
@@ -41,6 +42,7 @@ struct WindshieldOptions {
     std::optional<std::string> droplets;
     bool moving_only = false;  ///< no rows of droplets at rest
     std::optional<std::string> model;
+    droplet::SceneAnimation model_animation = droplet::SceneAnimation::Nodes;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;
     std::string fingerprint;  ///< of all options that tell what the frames show

@@ -131,6 +131,7 @@ void WindshieldRun::begin()
         droplet::DropletSceneOptions scene;
         scene.frames_per_second = options_.frames_per_second;
         scene.shape = report_.view.shape;
+        scene.animation = options_.model_animation;
         scene_.emplace(plan_.parameters.glass, scene);
     }
     frames_.begin();

@@ -117,9 +117,9 @@ TEST_F(WindshieldCommand, FramesAreTheSameAtAnyNumberOfThreads)
 TEST_F(WindshieldCommand, EverythingComesOut)
 {
     std::filesystem::create_directory(path("f"));
-    const CommandResult run =
-        play(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
-                                path("d.csv"), "--model", path("d.glb"), "--json", "-", "--wiper", "1.5s"});
+    const CommandResult run = play(
+        path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"),
+                           "--model", path("d.glb"), "--model-animation", "texture", "--json", "-", "--wiper", "1.5s"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
@@ -528,6 +528,8 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--maps", "m.png"}, 2, "%d");
     expectRefused({"--droplets", "d.txt"}, 2, ".csv or .json");
     expectRefused({"--moving-only"}, 2, "--moving-only needs --droplets");
+    expectRefused({"--model-animation", "texture"}, 2, "--model-animation needs --model");
+    expectRefused({"--model", "m.glb", "--model-animation", "bones"}, 2, "--model-animation");
     expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
     expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
     expectRefused({"--look-at", "1m,2m"}, 2, "three lengths: to the right, ahead and up");

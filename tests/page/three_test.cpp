@@ -75,5 +75,53 @@ TEST(Three, PlaysOneMeshAfterAnother)
     EXPECT_EQ(order.size(), seen.at("meshes").size());
 }
 
+// In a real browser both forms of a model show the same droplets, the texture's by the shader of the documentation.
+TEST(Three, PlaysRainByNodesAndByTexture)
+{
+    testing::ScratchDirectory scratch;
+    const auto path = [&](const char* name) { return (scratch.path() / name).string(); };
+    for (const char* animation : {"nodes", "texture"}) {
+        const auto run = runDroplet({"windshield",
+                                     path("last.png"),
+                                     "--preset",
+                                     "figure-3.11",
+                                     "--rain",
+                                     "25mm/h",
+                                     "--glass-width",
+                                     "0.4m",
+                                     "--glass-height",
+                                     "0.2m",
+                                     "--warm-up",
+                                     "2s",
+                                     "--time",
+                                     "1s",
+                                     "--size",
+                                     "32x18",
+                                     "--samples",
+                                     "1",
+                                     "--model",
+                                     path((std::string(animation) + ".glb").c_str()),
+                                     "--model-animation",
+                                     animation,
+                                     "-q"});
+        ASSERT_EQ(run.exit_code, 0) << run.error;
+    }
+    const auto run = runProgram({"node", testing::kRainPlayer, testing::kChromium, testing::kThree,
+                                 testing::inSource("examples/three/play_droplets.js"), path("nodes.glb"),
+                                 path("texture.glb"), "30", "0", "29"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto seen = nlohmann::json::parse(run.output);
+    SCOPED_TRACE(seen.dump(1));
+    EXPECT_THAT(seen.at("complaints"), ::testing::IsEmpty());
+    EXPECT_EQ(seen.at("calls").at("texture"), 1);
+    EXPECT_LT(seen.at("calls").at("nodes"), 40);
+    ASSERT_THAT(seen.at("frames"), SizeIs(2));
+    for (const auto& frame : seen.at("frames")) {
+        EXPECT_GT(frame.at("nodes"), 2000);
+        EXPECT_LT(frame.at("different").get<int>(), frame.at("nodes").get<int>() / 10);
+    }
+    EXPECT_NE(seen.at("frames").at(0).at("nodes"), seen.at("frames").at(1).at("nodes")) << "it moves";
+}
+
 }  // namespace
 }  // namespace droplet

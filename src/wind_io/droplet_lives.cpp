@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wind_io/droplet_lives.h"
+
+#include <cmath>
+#include <utility>
+
+#include "io/axes.h"
+#include "io/byte_stream.h"
+
+namespace droplet {
+namespace {
+
+/// The quaternion of a turn that takes the axes x, y and z to these, x first, w last.
+std::array<double, 4> quaternion(Vec3 x, Vec3 y, Vec3 z)
+{
+    // S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978) 223: the largest first.
+    const double trace = x.x + y.y + z.z;
+    const std::array<double, 4> squares{1.0 + 2.0 * x.x - trace, 1.0 + 2.0 * y.y - trace, 1.0 + 2.0 * z.z - trace,
+                                        1.0 + trace};
+    const auto most = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
+    const double s = 0.5 / std::sqrt(squares[most]);
+    const double xy = x.y + y.x;
+    const double yz = y.z + z.y;
+    const double zx = z.x + x.z;
+    const double wx = y.z - z.y;
+    const double wy = z.x - x.z;
+    const double wz = x.y - y.x;
+    switch (most) {
+        case 0:
+            return {s * squares[0], s * xy, s * zx, s * wx};
+        case 1:
+            return {s * xy, s * squares[1], s * yz, s * wy};
+        case 2:
+            return {s * zx, s * yz, s * squares[2], s * wz};
+        default:
+            return {s * wx, s * wy, s * wz, s * squares[3]};
+    }
+}
+
+}  // namespace
+
+float DropletPose::restRadius() const
+{
+    return std::cbrt(along * across * across);
+}
+
+Vec3 DropletPose::normal() const
+{
+    return turnedBy(turn, {0.0, 1.0, 0.0});
+}
+
+bool DropletPose::looksLike(const DropletPose& other) const
+{
+    constexpr float kRadius = 0.01F;
+    constexpr float kOutline = 0.25F;
+    double cosine = 0.0;  // of half the turn from one to the other
+    for (std::size_t i = 0; i < 4; ++i) {
+        cosine += static_cast<double>(turn[i] * other.turn[i]);
+    }
+    const double square = std::min(cosine * cosine, 1.0);
+    const double sine = square < 0.5 ? 1.0 : 2.0 * std::sqrt(square * (1.0 - square));
+    const float aside = static_cast<float>(sine) * (other.along - other.across);
+    const bool faces = dot(normal(), other.normal()) > std::cos(kFacing);
+    return faces && std::abs(restRadius() - other.restRadius()) <= kRadius * other.restRadius() &&
+           std::max(aside, std::abs(along - other.along)) <= kOutline * other.across;
+}
+
+const DropletPose& DropletLife::at(std::uint32_t frame) const
+{
+    const auto after = std::upper_bound(samples.begin(), samples.end(), frame,
+                                        [](std::uint32_t f, const DropletSample& sample) { return f < sample.frame; });
+    return (after - 1)->pose;
+}
+
+Vec3 inFile(Vec3 v)
+{
+    return yUp({0.0 - v.x, 0.0 - v.y, v.z});  // its front is +Z once it is +Y up: half a turn
+}
+
+Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v)
+{
+    const Vec3 u{static_cast<double>(turn[0]), static_cast<double>(turn[1]), static_cast<double>(turn[2])};
+    const Vec3 t = 2.0 * cross(u, v);
+    return v + static_cast<double>(turn[3]) * t + cross(u, t);
+}
+
+DropletPose DropletLives::poseOf(const RunningDroplet& droplet, const GlassPlace& place, const DropletLife& life) const
+{
+    const double speed = length(droplet.velocity);
+    const RunningShape rest = runningShape(droplet.volume, 0.0, shape_);
+    const RunningShape shape = runningShape(droplet.volume, speed, shape_);
+    const double longer = std::pow((shape.half_length + shape.contact_radius) / shape.contact_radius, 2.0 / 3.0);
+    DropletPose pose;
+    pose.moves = speed > 0.0;
+    const Vec3 point = inFile(place.point);
+    pose.place = {toFloat(point.x), toFloat(point.y), toFloat(point.z)};
+    pose.along = toFloat(rest.contact_radius * longer);
+    pose.across = toFloat(rest.contact_radius / std::sqrt(longer));
+    if (speed == 0.0 && !life.samples.empty()) {
+        pose.turn = life.samples.back().pose.turn;  // at rest it is the same all around
+        return pose;
+    }
+    const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
+    const Vec3 x = inFile(along.x * place.across + along.y * place.up);
+    const Vec3 y = inFile(place.normal);
+    // across, up and normal are left-handed; a turn is made of the way, the normal and what is square to both.
+    const std::array<double, 4> turn = quaternion(x, y, cross(x, y));
+    std::transform(turn.begin(), turn.end(), pose.turn.begin(), toFloat);
+    return pose;
+}
+
+void DropletLives::add(const WindshieldState& state)
+{
+    std::size_t there = 0;
+    for (const RunningDroplet& droplet : state.droplets) {
+        const auto place = glass_.place(droplet.position);
+        if (!place) {
+            continue;
+        }
+        ++there;
+        DropletLife& life = lives_[droplet.id];
+        if (!life.samples.empty() && life.end < frames_) {
+            earlier_.push_back(std::exchange(life, {}));
+        }
+        const DropletPose pose = poseOf(droplet, *place, life);
+        if (life.samples.empty() || life.samples.back().pose != pose) {
+            life.samples.push_back({frames_, pose});
+            ++samples_;
+        }
+        life.end = frames_ + 1;
+    }
+    most_ = std::max(most_, there);
+    ++frames_;
+}
+
+std::vector<const DropletLife*> DropletLives::all() const
+{
+    std::vector<const DropletLife*> all;
+    all.reserve(earlier_.size() + lives_.size());
+    for (const DropletLife& life : earlier_) {
+        all.push_back(&life);
+    }
+    for (const auto& [id, life] : lives_) {
+        if (!life.samples.empty()) {
+            all.push_back(&life);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const DropletLife* a, const DropletLife* b) { return a->begin() < b->begin(); });
+    return all;
+}
+
+}  // namespace droplet

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// docs/formats.md, "Droplets in a texture", has the texture's layout.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/picture/picture.h"
+#include "io/gltf_model.h"
+#include "wind_io/droplet_nets.h"
+#include "wind_io/scene_files.h"
+
+namespace droplet {
+namespace {
+
+/// What viewers' graphics processors take, across and down.
+constexpr std::size_t kLargestSide = 8192;
+constexpr std::size_t kTexels = 4;  ///< of a droplet in a frame
+constexpr std::size_t kMostColumns = kLargestSide / kTexels;
+
+std::size_t blocksOf(std::size_t slots)
+{
+    return std::max<std::size_t>((slots + kMostColumns - 1) / kMostColumns, 1);
+}
+
+/// Of numbers that become integers.
+struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void take(float number)
+    {
+        low = std::min(low, static_cast<double>(number));
+        high = std::max(high, static_cast<double>(number));
+    }
+    /// The same, but not empty.
+    [[nodiscard]] Range widened() const
+    {
+        return low < high ? *this : low > high ? Range{1.0, 2.0} : Range{low, low + std::max(std::abs(low), 1e-3)};
+    }
+};
+
+class SceneOfTexture {
+public:
+    SceneOfTexture(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options)
+        : frames_(lives.frames()),
+          options_(options),
+          pane_(glassNet(glass)),
+          cap_(capNet(options.shape.contact_angle, {.around = 16, .rings = 5}))
+    {
+        struct Span {
+            const DropletLife* life;
+            std::uint32_t begin;
+            std::uint32_t end;
+        };
+        std::vector<Span> spans;
+        for (const DropletLife* life : lives.all()) {
+            spans.push_back({life, life->begin(), life->end});
+            for (const DropletSample& sample : life->samples) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    places_[i].take(sample.pose.place[i]);
+                }
+                sizes_.take(sample.pose.along);
+                sizes_.take(sample.pose.across);
+                radii_ += static_cast<double>(sample.pose.restRadius());
+            }
+        }
+        radii_ /= static_cast<double>(std::max<std::size_t>(lives.samples(), 1));
+        for (Range& range : places_) {
+            range = range.widened();
+        }
+        sizes_ = sizes_.widened();
+        const auto slots = pooled(spans, 1);  // an empty frame tells one droplet from the next
+        slots_ = slots.size();
+        const std::size_t blocks = blocksOf(slots_);
+        checkTexture(slots_, frames_);
+        columns_ = std::max<std::size_t>((slots_ + blocks - 1) / blocks, 1);
+        Picture picture;
+        picture.width = static_cast<int>(kTexels * columns_);
+        picture.height = static_cast<int>(blocks * frames_);
+        picture.rgb.assign(3 * kTexels * columns_ * blocks * frames_, 0);
+        for (std::size_t slot = 0; slot < slots_; ++slot) {
+            for (const std::size_t number : slots[slot]) {
+                draw(*spans[number].life, slot, picture);
+            }
+        }
+        std::ostringstream png;
+        writePng(picture, png);
+        png_ = std::move(png).str();
+        png_.append((4 - png_.size() % 4) % 4, '\0');
+    }
+
+    std::uint64_t write(std::ostream& out) const
+    {
+        tinygltf::Model model = makeBareModel(options_.material, radii_, true);
+        tinygltf::Scene scene;
+        scene.nodes.push_back(addGlass(model, pane_));
+        tinygltf::Node node;
+        node.name = "droplets";
+        node.mesh = addNet(model, cap_, "droplet", 0);
+        node.scale = {0.0, 0.0, 0.0};  // until a shader has put it where droplets are
+        node.extras = mapping();
+        scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+        model.nodes.push_back(std::move(node));
+        model.scenes.push_back(std::move(scene));
+        model.defaultScene = 0;
+
+        addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, png_.size());
+        model.accessors.pop_back();  // pictures have views alone
+        tinygltf::Image image;
+        image.name = "droplets";
+        image.mimeType = "image/png";
+        image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+        model.images.push_back(std::move(image));
+        tinygltf::Sampler sampler;
+        sampler.minFilter = TINYGLTF_TEXTURE_FILTER_NEAREST;
+        sampler.magFilter = TINYGLTF_TEXTURE_FILTER_NEAREST;
+        sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        model.samplers.push_back(sampler);
+        tinygltf::Texture texture;
+        texture.name = "droplets";
+        texture.sampler = 0;
+        texture.source = 0;
+        model.textures.push_back(std::move(texture));
+        return writeBinary(out, model, [&](ByteStream& bytes) {
+            writeNet(pane_, bytes);
+            writeNet(cap_, bytes);
+            bytes.text(png_);
+        });
+    }
+
+private:
+    void draw(const DropletLife& life, std::size_t slot, Picture& picture) const
+    {
+        const std::size_t row = static_cast<std::size_t>(frames_) * (slot / columns_);
+        DropletPose shown = life.samples.front().pose;
+        for (std::size_t i = 0; i < life.samples.size(); ++i) {
+            const DropletPose& pose = life.samples[i].pose;
+            if (!shown.looksLike(pose)) {  // what stays the same takes no bytes
+                shown = pose;
+            }
+            shown.place = pose.place;
+            const auto bytes = bytesOf(shown);
+            const std::uint32_t end = i + 1 < life.samples.size() ? life.samples[i + 1].frame : life.end;
+            for (std::uint32_t frame = life.samples[i].frame; frame < end; ++frame) {
+                const std::size_t texel = (row + frame) * kTexels * columns_ + kTexels * (slot % columns_);
+                std::copy(bytes.begin(), bytes.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * texel));
+            }
+        }
+    }
+
+    [[nodiscard]] std::array<std::uint8_t, 3 * kTexels> bytesOf(const DropletPose& pose) const
+    {
+        std::array<std::uint8_t, 3 * kTexels> bytes{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& [low, high] = places_[i];
+            const long number = std::lround(65535.0 * (static_cast<double>(pose.place[i]) - low) / (high - low));
+            bytes[2 * i] = static_cast<std::uint8_t>(number / 256);
+            bytes[2 * i + 1] = static_cast<std::uint8_t>(number % 256);
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            bytes[6 + i] = static_cast<std::uint8_t>(std::lround(127.5 * (1.0 + static_cast<double>(pose.turn[i]))));
+        }
+        const auto step = [&](float size) {
+            const double share = std::log(static_cast<double>(size) / sizes_.low) / std::log(sizes_.high / sizes_.low);
+            return static_cast<std::uint8_t>(1 + std::lround(254.0 * share));
+        };
+        bytes[10] = step(pose.along);
+        bytes[11] = step(pose.across);
+        return bytes;
+    }
+
+    [[nodiscard]] tinygltf::Value mapping() const
+    {
+        const auto count = [](std::size_t number) { return tinygltf::Value(static_cast<int>(number)); };
+        const auto corner = [&](double Range::*end) {
+            tinygltf::Value::Array numbers;
+            for (const Range& range : places_) {
+                numbers.emplace_back(range.*end);
+            }
+            return tinygltf::Value(std::move(numbers));
+        };
+        return tinygltf::Value(tinygltf::Value::Object{
+            {"texture", count(0)},
+            {"slots", count(slots_)},
+            {"columns", count(columns_)},
+            {"frames", count(frames_)},
+            {"frames_per_second", tinygltf::Value(options_.frames_per_second)},
+            {"low_m", corner(&Range::low)},
+            {"high_m", corner(&Range::high)},
+            {"smallest_m", tinygltf::Value(sizes_.low)},
+            {"largest_m", tinygltf::Value(sizes_.high)},
+        });
+    }
+
+    std::uint32_t frames_;
+    DropletSceneOptions options_;
+    Net pane_;
+    Net cap_;
+    std::array<Range, 3> places_;
+    Range sizes_;
+    double radii_ = 0.0;  ///< mean [m]
+    std::size_t slots_ = 0;
+    std::size_t columns_ = 0;
+    std::string png_;
+};
+
+}  // namespace
+
+void checkTexture(std::size_t slots, std::size_t frames)
+{
+    const std::size_t rows = blocksOf(slots) * frames;
+    if (rows > kLargestSide) {
+        throw Error(ErrorCode::InvalidArgument, std::to_string(frames) + " frames of up to " + std::to_string(slots) +
+                                                    " droplets would make a texture of " + std::to_string(rows) +
+                                                    " rows; it may have " + std::to_string(kLargestSide) +
+                                                    ": ask for less time, fewer frames a second or less rain");
+    }
+}
+
+std::uint64_t writeSceneOfTexture(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options,
+                                  std::ostream& out)
+{
+    return SceneOfTexture(lives, glass, options).write(out);
+}
+
+}  // namespace droplet
