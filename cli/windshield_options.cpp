@@ -36,6 +36,7 @@ constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
 constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
 constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
+constexpr Range kBlur{Dimension::Angle, 0.0, 20.0 * kDegree, "from 0deg to 20deg"};
 constexpr Range kPlace{Dimension::Length, -100.0, 100.0, "from -100m to 100m each"};
 constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
@@ -101,6 +102,8 @@ void declare(CommandLine& line)
              "what is behind the glass: a picture, or a video, which\n"
              "takes ffmpeg [an evening road]");
     line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
+    line.add(kLooks, "--background-blur", "ANGLE",
+             "of the disc that a point of light behind the glass\nbecomes; the droplets stay sharp [0deg]");
     line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
     line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
@@ -253,6 +256,7 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     if (options.fit && !options.background) {
         refuse("--fit needs a --background");
     }
+    take(line, "--background-blur", kBlur, options.view.background_blur);
     take(line, "--field-of-view", kView, options.view.field_of_view);
     take(line, "--eye-distance", kEye, options.view.eye_distance);
     options.view.eye = placeOf(line, "--eye");

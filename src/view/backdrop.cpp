@@ -34,9 +34,7 @@ float highlight(float level)
     return smoothstep(0.8F, 1.0F, level);
 }
 
-/// Lamps saturate a picture; how bright they are is lost. Through a droplet, which makes them small, they would look
-/// dull: they are taken for brighter. Lamps are few; where much of the picture is bright, that is daylight, which
-/// saturates nothing.
+/// Lamps are few; where much of the picture is bright, that is daylight, which saturates nothing.
 float boostFor(const Picture& picture)
 {
     constexpr std::size_t kEvery = 8;
@@ -54,6 +52,16 @@ float boostFor(const Picture& picture)
 
 }  // namespace
 
+Highlights::Highlights(const Picture& picture, float exposure, std::optional<double> boost)
+    : exposure_(exposure), boost_(boost ? static_cast<float>(*boost) : boostFor(picture))
+{
+}
+
+float Highlights::times(float level) const
+{
+    return exposure_ * (1.0F + boost_ * highlight(level));
+}
+
 Backdrop::Backdrop(int width, int height, float half_width, float half_height)
     : half_width_(half_width), half_height_(half_height)
 {
@@ -70,14 +78,13 @@ Backdrop::Backdrop(int width, int height, float half_width, float half_height)
     } while (w > 1 || h > 1);
 }
 
-void Backdrop::take(const Picture& picture, float exposure, std::optional<double> boost)
+void Backdrop::take(const Picture& picture, const Highlights& highlights)
 {
     const float* const light = lightOfSums().data();
-    const float most = boost ? static_cast<float>(*boost) : boostFor(picture);
     // By its brightest channel, times which all light of a pixel is taken.
     Sums times{};
     for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i] = exposure * (1.0F + most * highlight(static_cast<float>(i) / static_cast<float>(kSums - 1)));
+        times[i] = highlights.times(static_cast<float>(i) / static_cast<float>(kSums - 1));
     }
     const auto width = static_cast<std::size_t>(picture.width);
     const auto height = static_cast<std::size_t>(picture.height);

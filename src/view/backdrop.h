@@ -29,14 +29,29 @@ struct PlaceInPicture {
     std::uint16_t y = 0;
 };
 
+/// Linear light of a picture's pixels by their levels. Lamps saturate a picture; how bright they are is lost. Where
+/// light is gathered anew, they would look dull: they are taken for brighter, in their own hue.
+class Highlights {
+public:
+    /// @param exposure  times which all light is taken, > 0
+    /// @param boost     as ViewOptions::highlight_boost
+    Highlights(const Picture& picture, float exposure, std::optional<double> boost);
+
+    /// Times which light is taken where its brightest channel has a level, of 1.
+    [[nodiscard]] float times(float level) const;
+
+private:
+    float exposure_;
+    float boost_;
+};
+
 class Backdrop {
 public:
     /// @param half_width, half_height  of the picture: tangents
     Backdrop(int width, int height, float half_width, float half_height);
 
-    /// @param exposure  times which all light is taken, > 0
-    /// @param boost     as ViewOptions::highlight_boost
-    void take(const Picture& picture, float exposure, std::optional<double> boost);
+    /// @param highlights  of the picture
+    void take(const Picture& picture, const Highlights& highlights);
 
     /// Where a direction ends: x right, y ahead, z up.
     [[nodiscard]] PlaceInPicture placeOf(Vec3f direction) const

@@ -10,9 +10,11 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "droplet/error.h"
 #include "require.h"
+#include "view/defocus.h"
 #include "view/running_rays.h"
 #include "view/sight.h"
 #include "view/still_samples.h"
@@ -41,6 +43,8 @@ void ViewOptions::validate() const
     if (highlight_boost) {
         require(*highlight_boost >= 0.0 && *highlight_boost <= 4.0, "highlight_boost", *highlight_boost, "from 0 to 4");
     }
+    require(background_blur >= 0.0 && background_blur <= 20.0 * kDegree, "background_blur", background_blur,
+            "from 0 to 20 degrees");
     for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
         require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
     }
@@ -65,6 +69,56 @@ struct DriversView::Content {
         }
         pane = Four{static_cast<float>(options.glass_colour.x), static_cast<float>(options.glass_colour.y),
                     static_cast<float>(options.glass_colour.z), 1.0F};
+    }
+
+    /// Makes the bare picture of one that is out of focus.
+    void takeBlurred(const Picture& picture, const Highlights& highlights)
+    {
+        LightPicture behind{picture.width, picture.height, {}};
+        behind.light.resize(picture.rgb.size() / 3);
+        std::array<float, 256> times{};
+        for (std::size_t level = 0; level < times.size(); ++level) {
+            times[level] = highlights.times(static_cast<float>(level) / 255.0F);
+        }
+        const std::array<float, 256>& levels = displayLevels();
+        forPixels([&](std::size_t at) {
+            const std::uint8_t* const from = picture.rgb.data() + 3 * at;
+            const Four light{levels[from[0]], levels[from[1]], levels[from[2]], 1.0F};
+            behind.light[at] = four(times[std::max({from[0], from[1], from[2]})]) * light;
+        });
+        expose(defocused(std::move(behind), blur()));
+    }
+
+    /// Diameter of the blur [px].
+    [[nodiscard]] float blur() const
+    {
+        return static_cast<float>(2.0 * std::tan(0.5 * sight.options.background_blur)) / sight.eye.tangent();
+    }
+
+    /// Makes light the bare picture, seen through the pane.
+    void expose(const LightPicture& behind)
+    {
+        const EncodedLevels& levels = encodedLevels();
+        forPixels([&](std::size_t at) {
+            const Four light = pane * behind.light[at];
+            // What is brighter than white keeps its hue.
+            const Four straight = four(1.0F / std::max({light[0], light[1], light[2], 1.0F})) * light;
+            for (std::size_t c = 0; c < 3; ++c) {
+                bare.rgb[3 * at + c] = encoded(straight[static_cast<int>(c)], levels);
+            }
+        });
+    }
+
+    template <typename Work>
+    void forPixels(const Work& work) const
+    {
+        constexpr std::size_t kWorthAThread = 16384;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bare.rgb.size() / 3, kWorthAThread),
+                          [&](const auto& range) {
+                              for (std::size_t at = range.begin(); at < range.end(); ++at) {
+                                  work(at);
+                              }
+                          });
     }
 
     /// Light of a tile's droplets, premultiplied by what they cover.
@@ -158,9 +212,14 @@ void DriversView::lookAt(const Picture& picture)
                                                     std::to_string(content.sight.eye.height()));
     }
     const ViewOptions& options = content.sight.options;
-    content.sight.backdrop.take(picture, static_cast<float>(std::exp2(options.exposure)), options.highlight_boost);
+    const Highlights highlights(picture, static_cast<float>(std::exp2(options.exposure)), options.highlight_boost);
+    content.sight.backdrop.take(picture, highlights);
     // As dark as it is behind the eye, by eye: a tenth of what is ahead.
     content.cabin = Four{0.1F, 0.1F, 0.1F, 1.0F} * content.sight.backdrop.mean();
+    if (options.background_blur > 0.0) {
+        content.takeBlurred(picture, highlights);
+        return;
+    }
     const std::array<std::uint16_t, 48> shares = content.through_pane;
     const std::uint8_t* const from = picture.rgb.data();
     std::uint8_t* const to = content.bare.rgb.data();

@@ -117,6 +117,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"eye_m", placeOrNull(report.view.eye)},
                     {"look_at_m", placeOrNull(report.view.look_at)},
                     {"ior", report.view.ior},
+                    {"background_blur_deg", report.view.background_blur / kDegree},
                     {"exposure", report.view.exposure},
                     {"highlight_boost", orNull(report.view.highlight_boost)}};
     json["balance"] = ReportJson::array();

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -19,6 +20,7 @@
 namespace droplet {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
 Picture filled(int width, int height, std::array<std::uint8_t, 3> upper, std::array<std::uint8_t, 3> lower)
@@ -206,6 +208,65 @@ TEST(View, RunningDropletsAreLongerAlongTheirWay)
     EXPECT_NEAR(climbing.second * pixel, 2.0 * (shape.contact_radius + shape.half_length), 1.5 * pixel);
     state.droplets[0].velocity = {1.0, 0.0};
     EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
+}
+
+TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
+{
+    for (const double pixels : {9.0, 41.0, 90.0}) {  // the last ones on fewer pixels
+        ViewOptions options;
+        options.width = 320;
+        options.height = 180;
+        options.glass_colour = {1.0, 1.0, 1.0};
+        options.highlight_boost = 0.0;
+        const double pixel = 2.0 * std::tan(0.5 * options.field_of_view) / options.width;
+        options.background_blur = 2.0 * std::atan(0.5 * pixels * pixel);
+        options.exposure = std::min(std::log2(0.5 * pixels * pixels), 8.0);
+        Picture behind = filled(320, 180, {0, 0, 0}, {0, 0, 0});
+        const int x0 = 160;
+        const int y0 = 90;
+        std::fill_n(behind.rgb.begin() + 3 * (y0 * 320 + x0), 3, std::uint8_t{255});
+        DriversView view(Glass(), options);
+        view.lookAt(behind);
+        const auto light = [&](int x, int y) {
+            return static_cast<double>(displayLevels()[view.bare().rgb[static_cast<std::size_t>(3 * (y * 320 + x))]]);
+        };
+        double sum = 0.0;
+        double xx = 0.0;
+        double yy = 0.0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                sum += light(x, y);
+                xx += light(x, y) * (x - x0) * (x - x0);
+                yy += light(x, y) * (y - y0) * (y - y0);
+            }
+        }
+        EXPECT_NEAR(sum / std::exp2(options.exposure), 1.0, 0.02) << "light is kept";
+        EXPECT_NEAR(4.0 * std::sqrt(xx / sum), pixels, 0.02 * pixels + 0.5) << "a disc's variance is r^2 / 4";
+        EXPECT_NEAR(4.0 * std::sqrt(yy / sum), pixels, 0.02 * pixels + 0.5);
+        // As bright all over, and round: a box would reach into its corners.
+        const int within = static_cast<int>(0.3 * pixels);
+        const int beyond = static_cast<int>(0.45 * pixels) + 1;
+        EXPECT_NEAR(light(x0 + within, y0) / light(x0, y0), 1.0, 0.03);
+        EXPECT_NEAR(light(x0, y0) * 0.25 * kPi * pixels * pixels / sum, 1.0, 0.05);
+        EXPECT_LT(light(x0 + beyond, y0 + beyond), 0.05 * light(x0, y0));
+    }
+}
+
+TEST(View, DropletsStaySharpInFrontOfABlurredBackground)
+{
+    const WindshieldParameters parameters = heavyRain();
+    ViewOptions options = small();
+    const auto seen = [&] {
+        DriversView view(parameters.glass, options);
+        view.lookAt(slanted(160, 90));
+        view.show(rained(parameters, 60));
+        return std::pair(view.layer(), view.bare());
+    };
+    const auto sharp = seen();
+    options.background_blur = 3.0 * kDegree;
+    const auto blurred = seen();
+    EXPECT_EQ(sharp.first, blurred.first);
+    EXPECT_NE(sharp.second, blurred.second);
 }
 
 TEST(View, LayerOverTheBarePictureIsTheFrame)

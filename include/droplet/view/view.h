@@ -31,6 +31,10 @@ struct ViewOptions {
     /// Lamps saturate a picture: its brightest pixels are taken for up to 1 + this times as bright, in their own hue;
     /// 0 … 4. Empty: 3 where few are bright, as by night, and less the more are, down to 0 by day.
     std::optional<double> highlight_boost = {};
+    /// Blur of what is behind the glass, which is far away, while the eye looks at the droplets: the disc that a point
+    /// of light becomes is so wide [rad], 0 … 20°. A lens whose aperture is a wide and that is focused at b spreads it
+    /// over a/b. Droplets stay sharp, and so does what they show: it is far smaller there, and its blur with it.
+    double background_blur = 0.0;
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
 
     /// @throws Error InvalidArgument
