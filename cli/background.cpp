@@ -107,7 +107,7 @@ Picture Background::videoFrame()
     return picture;
 }
 
-std::optional<Picture> Background::next(double travelled)
+std::optional<Picture> Background::next(double travelled, double passed)
 {
     if (video_) {
         return fitted(ahead_ ? *std::exchange(ahead_, std::nullopt) : videoFrame());
@@ -115,7 +115,7 @@ std::optional<Picture> Background::next(double travelled)
     if (options_.path) {
         return std::exchange(picture_, std::nullopt);
     }
-    return road_->at(travelled);
+    return road_->at(travelled, passed);
 }
 
 void Background::skip(std::size_t frames)

@@ -35,9 +35,10 @@ public:
 
     /// What is seen next.
     /// @param travelled       how far the car has come [m]
+    /// @param passed          how far it comes while the shutter is open [m]; a video has its own shutter's blur
     /// @return                nothing where it is what was seen before
     /// @throws droplet::Error InvalidInput
-    std::optional<droplet::Picture> next(double travelled);
+    std::optional<droplet::Picture> next(double travelled, double passed);
 
     /// Passes over frames, as next() would.
     void skip(std::size_t frames);

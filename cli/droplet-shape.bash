@@ -62,7 +62,7 @@ _droplet_shape()
             --air-density | --measured | --time | --trace-step | --initial-speed | --gust | --gust-period | \
             --rain | --speed | --noise | --wiper | --seed | --glass-width | --glass-height | --radius | \
             --still-diameter | --film | --warm-up | --size | --field-of-view | --eye-distance | --samples | \
-            --codec | --map-width | --exposure | --highlight-boost | --background-blur | --quality | --eye | --look-at | \
+            --codec | --map-width | --exposure | --highlight-boost | --background-blur | --shutter | --quality | --eye | --look-at | \
             --threads | -j)
             COMPREPLY=()
             return
@@ -103,7 +103,7 @@ _droplet_shape()
                         --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
                         --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
                         --gravity --time --warm-up --fps --background --fit --background-blur --size --field-of-view
-                        --eye-distance --eye --look-at --samples --exposure --highlight-boost --layer --codec --quality --maps --map-width --droplets --moving-only --model --json
+                        --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --json
                         --resume --no-clobber --threads --quiet --config --help --version' ;;
                     *) choices="$picture --mask-out $making $running $showing --format --fill-range --json --html --export-evolver" ;;
                 esac

@@ -68,11 +68,12 @@ void WindshieldFrames::begin()
     }
 }
 
-void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, double travelled)
+void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last,
+                            const CarPlace& car)
 {
     const bool is_shown = options_.files || options_.is_video || is_last;
     if (is_shown) {
-        if (auto behind = background_.next(travelled)) {
+        if (auto behind = background_.next(car.travelled, car.speed * view_options_.open_time)) {
             view_->lookAt(*behind);
         }
         view_->show(state);

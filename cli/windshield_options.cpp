@@ -115,6 +115,8 @@ void declare(CommandLine& line)
     line.add(kLooks, "--exposure", "STOPS", "of all that is seen: 1 is twice the light, -1 half [0]");
     line.add(kLooks, "--highlight-boost", "NUMBER",
              "lamps are up to 1 + so many times as bright as the\nbackground shows them: 0 to 4 [3, by daylight less]");
+    line.add(kLooks, "--shutter", "OPEN",
+             "motion blur: part of a frame's time that the shutter is\nopen, as 180deg or 0.5 [0]");
     line.addFlag(kLooks, "--layer", "frames of the droplets alone, with alpha");
     line.add(kLooks, "--codec", "NAME", "ffmpeg's encoder [libx264, libvpx-vp9 of .webm]");
     line.add(kLooks, "--quality", "NUMBER", "of a video, 1 to 100 [65]");
@@ -281,6 +283,26 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     }
 }
 
+/// How long the shutter is open for a frame.
+void readShutter(const CommandLine& line, WindshieldOptions& options)
+{
+    const auto given = line.value("--shutter");
+    if (!given) {
+        return;
+    }
+    constexpr const char* kWords = "from 0deg to 360deg, or a number from 0 to 1";
+    double share = 0.0;
+    if (const auto plain = finiteNumber(given->text)) {
+        share = *plain;
+    } else {
+        share = quantity(*given, {Dimension::Angle, 0.0, 360.0 * kDegree, kWords}) / (360.0 * kDegree);
+    }
+    if (share < 0.0 || share > 1.0) {
+        refuse(*given, kWords);
+    }
+    options.view.open_time = share / options.frames_per_second;
+}
+
 void requirePng(const std::string& path, const Given& given)
 {
     if (std::filesystem::path(path).extension() != ".png") {
@@ -366,6 +388,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     if (const auto rate = line.value("--fps")) {
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
+    readShutter(line, options);
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }

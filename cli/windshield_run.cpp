@@ -219,7 +219,8 @@ void WindshieldRun::run()
             scene_->add(state_);
         }
         if (played_ >= drawn_before_ || !hasFrame(options_, played_ + 1)) {
-            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames, travelled_);
+            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames,
+                         {travelled_, plan_.parameters.vehicle.speedAt(state_.time)});
         } else {
             frames_.skip(1);
         }

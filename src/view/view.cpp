@@ -43,12 +43,106 @@ void ViewOptions::validate() const
     if (highlight_boost) {
         require(*highlight_boost >= 0.0 && *highlight_boost <= 4.0, "highlight_boost", *highlight_boost, "from 0 to 4");
     }
+    require(open_time >= 0.0 && open_time <= 1.0, "open_time", open_time, "from 0 to 1 s");
     require(background_blur >= 0.0 && background_blur <= 20.0 * kDegree, "background_blur", background_blur,
             "from 0 to 20 degrees");
     for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
         require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
     }
 }
+
+namespace {
+
+/// Light of a tile's pixels.
+using TileLight = std::array<Four, kTilePixels>;
+
+/// Levels and alpha of a pixel.
+struct Straight {
+    std::uint8_t red = 0;
+    std::uint8_t green = 0;
+    std::uint8_t blue = 0;
+    std::uint32_t alpha = 0;
+};
+
+/// @param light  premultiplied
+Straight straightOf(const Four& light)
+{
+    const std::uint32_t alpha = level8(light[3]);
+    if (alpha == 0) {
+        return {};
+    }
+    const EncodedLevels& levels = encodedLevels();
+    // What is brighter than white keeps its hue.
+    const float most = std::max({light[0], light[1], light[2], light[3]});
+    const Four straight = four(1.0F / most) * light;
+    return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
+}
+
+/// Linear light of levels.
+Four lightOf(std::uint8_t red, std::uint8_t green, std::uint8_t blue)
+{
+    const std::array<float, 256>& levels = displayLevels();
+    return Four{levels[red], levels[green], levels[blue], 1.0F};
+}
+
+/// A frame over which droplets are laid.
+class FrameTaker {
+public:
+    explicit FrameTaker(Picture& frame) : frame_(frame) {}
+
+    void take(std::size_t pixel, const Straight& seen)
+    {
+        std::uint8_t* const to = frame_.rgb.data() + 3 * pixel;
+        to[0] = mixedLevel(seen.red, to[0], seen.alpha);
+        to[1] = mixedLevel(seen.green, to[1], seen.alpha);
+        to[2] = mixedLevel(seen.blue, to[2], seen.alpha);
+    }
+
+    /// Light of the pixel where this is seen of it; the mean of such light is what a blurred one has.
+    [[nodiscard]] Four light(std::size_t pixel, const Straight& seen) const
+    {
+        const std::uint8_t* const below = frame_.rgb.data() + 3 * pixel;
+        return lightOf(mixedLevel(seen.red, below[0], seen.alpha), mixedLevel(seen.green, below[1], seen.alpha),
+                       mixedLevel(seen.blue, below[2], seen.alpha));
+    }
+
+    void takeMean(std::size_t pixel, const Four& mean)
+    {
+        for (std::size_t c = 0; c < 3; ++c) {
+            frame_.rgb[3 * pixel + c] = encoded(mean[static_cast<int>(c)]);
+        }
+    }
+
+private:
+    Picture& frame_;
+};
+
+/// A layer that holds droplets alone.
+class LayerTaker {
+public:
+    explicit LayerTaker(Layer& layer) : layer_(layer) {}
+
+    void take(std::size_t pixel, const Straight& seen)
+    {
+        std::uint8_t* const to = layer_.rgba.data() + 4 * pixel;
+        to[0] = seen.red;
+        to[1] = seen.green;
+        to[2] = seen.blue;
+        to[3] = static_cast<std::uint8_t>(seen.alpha);
+    }
+
+    [[nodiscard]] Four light(std::size_t /*pixel*/, const Straight& seen) const
+    {
+        return four(static_cast<float>(seen.alpha) / 255.0F) * lightOf(seen.red, seen.green, seen.blue);
+    }
+
+    void takeMean(std::size_t pixel, const Four& mean) { take(pixel, straightOf(mean)); }
+
+private:
+    Layer& layer_;
+};
+
+}  // namespace
 
 struct DriversView::Content {
     Content(const Glass& glass, const ViewOptions& options) : sight(glass, options), stills(sight), running(sight)
@@ -121,27 +215,46 @@ struct DriversView::Content {
                           });
     }
 
-    /// Light of a tile's droplets, premultiplied by what they cover.
-    void shine(std::size_t tile, std::array<Four, kTilePixels>& light) const
+    /// Light of a tile's droplets, premultiplied by what they cover, but for those that are blurred.
+    /// @return  at how many moments those are looked at; 1: there are none
+    int shine(std::size_t tile, TileLight& light) const
     {
         light.fill(four(0.0F));
-        const float share = 1.0F / (255.0F * static_cast<float>(sight.options.samples * sight.options.samples));
+        const float share = shareOfRay();
         for (const StillSample& sample : stills.inTile(tile)) {
             light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
                                    seen(sight.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        for (const std::vector<Ray>* rays : running.inTile(tile)) {
-            for (auto ray = rays->begin(); ray != rays->end();) {
-                const std::uint8_t pixel = ray->pixel;
-                Four sum = four(0.0F);
-                for (; ray != rays->end() && ray->pixel == pixel; ++ray) {
-                    const float part = (ray->is_whole ? 1.0F / 255.0F : share) * static_cast<float>(ray->cover);
-                    const Four outside = ray->light > 0 ? sight.backdrop.at(ray->place, ray->level) : cabin;
-                    sum += four(part) * seen(outside, static_cast<float>(ray->light) / 255.0F);
-                }
-                light[pixel] = sum + four(1.0F - sum[3]) * light[pixel];
+        int moments = 1;
+        for (const RaysInTile& in_tile : running.inTile(tile)) {
+            moments = std::max(moments, in_tile.moments);
+            if (in_tile.moments == 1) {
+                lay(*in_tile.rays, light);
             }
         }
+        return moments;
+    }
+
+    /// Lays a droplet's rays over light.
+    void lay(const std::vector<Ray>& rays, TileLight& light) const
+    {
+        const float share = shareOfRay();
+        for (auto ray = rays.begin(); ray != rays.end();) {
+            const std::uint8_t pixel = ray->pixel;
+            Four sum = four(0.0F);
+            for (; ray != rays.end() && ray->pixel == pixel; ++ray) {
+                const float part = (ray->is_whole ? 1.0F / 255.0F : share) * static_cast<float>(ray->cover);
+                const Four outside = ray->light > 0 ? sight.backdrop.at(ray->place, ray->level) : cabin;
+                sum += four(part) * seen(outside, static_cast<float>(ray->light) / 255.0F);
+            }
+            light[pixel] = sum + four(1.0F - sum[3]) * light[pixel];
+        }
+    }
+
+    /// Of a pixel, in 255ths of what it covers.
+    [[nodiscard]] float shareOfRay() const
+    {
+        return 1.0F / (255.0F * static_cast<float>(sight.options.samples * sight.options.samples));
     }
 
     /// What is seen along a ray of which a share gets out and the rest is led back inside.
@@ -150,30 +263,77 @@ struct DriversView::Content {
         return pane * (cabin + four(share) * (outside - cabin));
     }
 
-    /// Calls take(x, y, red, green, blue, alpha) for every pixel, in parallel; tiles without water are skipped.
-    template <typename Take>
-    void forWet(const Take& take) const
+    /// Pixels of a tile that blurred droplets pass, and the sum of what is seen in them.
+    struct Passed {
+        std::array<Four, kTilePixels> sums;
+        std::array<int, kTilePixels> moments;  ///< at how many there is something else than at rest
+    };
+
+    /// Adds up what is seen in a tile at each of the moments.
+    /// @param base  light of what does not move
+    /// @param look  what of (pixel of the tile, light) is added up
+    template <typename Look>
+    void pass(std::size_t tile, int moments, const TileLight& base, const Look& look, Passed& passed) const
+    {
+        passed.sums.fill(four(0.0F));
+        passed.moments.fill(0);
+        TileLight light = base;
+        std::vector<std::uint8_t> touched;
+        for (int moment = 0; moment < moments; ++moment) {
+            touched.clear();
+            for (const RaysInTile& in_tile : running.inTile(tile)) {
+                if (in_tile.moments > 1 && in_tile.moment == moment * in_tile.moments / moments) {
+                    lay(*in_tile.rays, light);
+                    for (const Ray& ray : *in_tile.rays) {
+                        touched.push_back(ray.pixel);
+                    }
+                }
+            }
+            std::sort(touched.begin(), touched.end());
+            touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+            for (const std::uint8_t pixel : touched) {
+                passed.sums[pixel] += look(pixel, light[pixel]);
+                ++passed.moments[pixel];
+                light[pixel] = base[pixel];
+            }
+        }
+    }
+
+    /// Puts what is seen on what takes it, in parallel; tiles without water are skipped.
+    template <typename Taker>
+    void forWet(Taker& taker) const
     {
         const Tiles& tiles = sight.tiles;
         tbb::parallel_for(0, tiles.rows(), [&](int r) {
-            std::array<Four, kTilePixels> light;
-            const EncodedLevels& levels = encodedLevels();
+            TileLight light;
+            Passed passed;
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
                 if (stills.inTile(tile).empty() && running.inTile(tile).empty()) {
                     continue;
                 }
-                shine(tile, light);
+                const int moments = shine(tile, light);
+                const auto number = [&](std::size_t pixel) {
+                    return sight.eye.at(c * kTile + static_cast<int>(pixel % kTile),
+                                        r * kTile + static_cast<int>(pixel / kTile));
+                };
+                if (moments > 1) {
+                    const auto look = [&](std::uint8_t pixel, const Four& seen) {
+                        return taker.light(number(pixel), straightOf(seen));
+                    };
+                    pass(tile, moments, light, look, passed);
+                }
                 for (int y = r * kTile; y < std::min((r + 1) * kTile, sight.eye.height()); ++y) {
                     for (int x = c * kTile; x < std::min((c + 1) * kTile, sight.eye.width()); ++x) {
-                        const Four& pixel = light[pixelInTile(x, y)];
-                        const std::uint32_t alpha = level8(pixel[3]);
-                        if (alpha > 0) {
-                            // What is brighter than white keeps its hue.
-                            const float most = std::max({pixel[0], pixel[1], pixel[2], pixel[3]});
-                            const Four straight = four(1.0F / most) * pixel;
-                            take(sight.eye.at(x, y), encoded(straight[0], levels), encoded(straight[1], levels),
-                                 encoded(straight[2], levels), alpha);
+                        const std::uint8_t pixel = pixelInTile(x, y);
+                        const std::size_t at = sight.eye.at(x, y);
+                        const Straight straight = straightOf(light[pixel]);
+                        if (moments > 1 && passed.moments[pixel] > 0) {
+                            const auto rest = static_cast<float>(moments - passed.moments[pixel]);
+                            taker.takeMean(at, four(1.0F / static_cast<float>(moments)) *
+                                                   (passed.sums[pixel] + four(rest) * taker.light(at, straight)));
+                        } else if (straight.alpha > 0) {
+                            taker.take(at, straight);
                         }
                     }
                 }
@@ -269,14 +429,8 @@ Layer DriversView::layer() const
     const Content& content = *content_;
     Layer layer{content.sight.eye.width(), content.sight.eye.height(), {}};
     layer.rgba.assign(content.bare.rgb.size() / 3 * 4, 0);
-    content.forWet(
-        [&](std::size_t pixel, std::uint8_t red, std::uint8_t green, std::uint8_t blue, std::uint32_t alpha) {
-            std::uint8_t* const to = layer.rgba.data() + 4 * pixel;
-            to[0] = red;
-            to[1] = green;
-            to[2] = blue;
-            to[3] = static_cast<std::uint8_t>(alpha);
-        });
+    LayerTaker taker(layer);
+    content.forWet(taker);
     return layer;
 }
 
@@ -284,13 +438,8 @@ Picture DriversView::frame() const
 {
     const Content& content = *content_;
     Picture frame = content.bare;
-    content.forWet(
-        [&](std::size_t pixel, std::uint8_t red, std::uint8_t green, std::uint8_t blue, std::uint32_t alpha) {
-            std::uint8_t* const to = frame.rgb.data() + 3 * pixel;
-            to[0] = mixedLevel(red, to[0], alpha);
-            to[1] = mixedLevel(green, to[1], alpha);
-            to[2] = mixedLevel(blue, to[2], alpha);
-        });
+    FrameTaker taker(frame);
+    content.forWet(taker);
     return frame;
 }
 

@@ -118,6 +118,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"look_at_m", placeOrNull(report.view.look_at)},
                     {"ior", report.view.ior},
                     {"background_blur_deg", report.view.background_blur / kDegree},
+                    {"shutter_open_s", report.view.open_time},
                     {"exposure", report.view.exposure},
                     {"highlight_boost", orNull(report.view.highlight_boost)}};
     json["balance"] = ReportJson::array();

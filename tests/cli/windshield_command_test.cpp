@@ -117,14 +117,16 @@ TEST_F(WindshieldCommand, FramesAreTheSameAtAnyNumberOfThreads)
 TEST_F(WindshieldCommand, EverythingComesOut)
 {
     std::filesystem::create_directory(path("f"));
-    const CommandResult run = play(
-        path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"),
-                           "--model", path("d.glb"), "--json", "-", "--wiper", "1.5s", "--background-blur", "1deg"});
+    const CommandResult run =
+        play(path("f/%d.png"),
+             {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"), "--model",
+              path("d.glb"), "--json", "-", "--wiper", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
     EXPECT_EQ(report.at("output").at("frames"), 6);
     EXPECT_EQ(report.at("wipers").at("count"), 2);
+    EXPECT_NEAR(report.at("view").at("shutter_open_s").get<double>(), 1.0 / 60.0, 1e-12);
     EXPECT_NEAR(report.at("view").at("background_blur_deg").get<double>(), 1.0, 1e-12);
     EXPECT_LT(report.at("largest_residual").get<double>(), 1e-9);
     EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
@@ -532,6 +534,8 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
     expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
     expectRefused({"--background-blur", "21deg"}, 2, "from 0deg to 20deg");
+    expectRefused({"--shutter", "400deg"}, 2, "from 0deg to 360deg, or a number from 0 to 1");
+    expectRefused({"--shutter", "1.5"}, 2, "from 0 to 1");
     expectRefused({"--look-at", "1m,2m"}, 2, "three lengths: to the right, ahead and up");
     expectRefused({"--look-at", "0m,-5m,0m"}, 2, "must be in front of the eye");
     expectRefused({"--fit"}, 2, "--background");

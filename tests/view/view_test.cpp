@@ -269,6 +269,157 @@ TEST(View, DropletsStaySharpInFrontOfABlurredBackground)
     EXPECT_NE(sharp.second, blurred.second);
 }
 
+/// An upright flat glass close by, and a droplet that climbs in front of the middle.
+class Shutter : public ::testing::Test {
+protected:
+    Shutter()
+    {
+        parameters_.glass =
+            Glass(Glass::Cylinder{.width = 0.2, .height = 0.2, .radius = kFlat, .slope = 90.0 * kDegree});
+        options_.width = 200;
+        options_.height = 200;
+        options_.eye_distance = 0.06;
+        options_.samples = 1;
+        state_ = oneDroplet(parameters_, 8e-9);
+        state_.droplets[0].velocity = {0.0, 1.2};
+    }
+
+    [[nodiscard]] double pixel() const { return 2.0 * 0.06 * std::tan(22.5 * kDegree) / 200; }
+
+    /// Frame and layer.
+    [[nodiscard]] std::pair<Picture, Layer> seen(const WindshieldState& state, double open_time) const
+    {
+        ViewOptions options = options_;
+        options.open_time = open_time;
+        DriversView view(parameters_.glass, options);
+        view.lookAt(slanted(200, 200));
+        view.show(state);
+        return {view.frame(), view.layer()};
+    }
+
+    WindshieldParameters parameters_;
+    ViewOptions options_;
+    WindshieldState state_;
+};
+
+TEST_F(Shutter, TheFrameIsTheMeanOfItsMoments)
+{
+    constexpr double kOpen = 0.02;
+    constexpr int kMoments = 96;
+    std::vector<double> mean(3 * 200 * 200, 0.0);
+    for (int k = 0; k < kMoments; ++k) {
+        WindshieldState there = state_;
+        there.droplets[0].position.y += kOpen * ((k + 0.5) / kMoments - 0.5) * 1.2;
+        const Picture frame = seen(there, 0.0).first;
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += static_cast<double>(displayLevels()[frame.rgb[i]]) / kMoments;
+        }
+    }
+    const Picture blurred = seen(state_, kOpen).first;
+    const Picture sharp = seen(state_, 0.0).first;
+    double sum = 0.0;
+    double expected = 0.0;
+    double squared = 0.0;
+    double squared_sharp = 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const auto light = static_cast<double>(displayLevels()[blurred.rgb[i]]);
+        sum += light;
+        expected += mean[i];
+        squared += std::pow(light - mean[i], 2);
+        squared_sharp += std::pow(static_cast<double>(displayLevels()[sharp.rgb[i]]) - mean[i], 2);
+    }
+    EXPECT_NEAR(sum / expected, 1.0, 2e-4) << "light is kept";
+    EXPECT_LT(squared, 0.01 * squared_sharp) << "everywhere";
+}
+
+TEST_F(Shutter, DropletsAreAsLongAsTheirWay)
+{
+    const auto extents = [&](double open_time) {
+        const Layer layer = seen(state_, open_time).second;
+        int left = 200;
+        int right = 0;
+        int top = 200;
+        int bottom = 0;
+        for (int y = 0; y < 200; ++y) {
+            for (int x = 0; x < 200; ++x) {
+                if (layer.rgba[static_cast<std::size_t>(4 * (200 * y + x) + 3)] > 0) {
+                    left = std::min(left, x);
+                    right = std::max(right, x);
+                    top = std::min(top, y);
+                    bottom = std::max(bottom, y);
+                }
+            }
+        }
+        return std::array{right - left, bottom - top, bottom + top};
+    };
+    const auto sharp = extents(0.0);
+    for (const double open_time : {1e-3, 5e-3, 0.02}) {
+        const auto blurred = extents(open_time);
+        EXPECT_NEAR(blurred[0], sharp[0], 1);
+        EXPECT_NEAR(blurred[1] - sharp[1], 1.2 * open_time / pixel(), 2.0) << open_time;
+        EXPECT_NEAR(blurred[2], sharp[2], 2) << "half before, half after";
+    }
+}
+
+TEST_F(Shutter, WhatIsAtRestStaysSharp)
+{
+    WindshieldState state = state_;
+    RunningDroplet resting = state.droplets[0];
+    resting.id = 2;
+    resting.velocity = {};
+    resting.position.x += 0.012;
+    state.droplets.push_back(resting);
+    const Picture sharp = seen(state, 0.0).first;
+    const Picture blurred = seen(state, 0.02).first;
+    const double reach = runningShape(8e-9, 1.2, options_.shape).silhouette();
+    const int column = 100 + static_cast<int>(std::ceil(reach / pixel())) + 2;
+    bool is_blurred = false;
+    for (int y = 0; y < 200; ++y) {
+        const auto row = sharp.rgb.begin() + 600 * y;
+        const auto other = blurred.rgb.begin() + 600 * y;
+        EXPECT_TRUE(std::equal(row + 3 * column, row + 600, other + 3 * column)) << y;
+        is_blurred = is_blurred || !std::equal(row, row + 3 * column, other);
+    }
+    EXPECT_TRUE(is_blurred);
+    // A state in which nothing moves has the frame of an instant.
+    state.droplets[0].velocity = {};
+    EXPECT_EQ(seen(state, 0.02), seen(state, 0.0));
+}
+
+TEST_F(Shutter, TheRoadIsBlurredAlongItsWay)
+{
+    ViewOptions options;
+    options.width = 320;
+    options.height = 180;
+    const DefaultBackground road(options);
+    EXPECT_EQ(road.at(7.0, 0.0), road.at(7.0));
+    constexpr double kPassed = 1.5;
+    constexpr int kMoments = 24;
+    // Film takes the mean light: its answer, 1 - e^(-1.15 x), is undone first.
+    const auto light = [](const Picture& picture, std::size_t i) {
+        return -std::log(1.0 - std::min(static_cast<double>(displayLevels()[picture.rgb[i]]), 0.95)) / 1.15;
+    };
+    const Picture blurred = road.at(7.0, kPassed);
+    std::vector<double> mean(blurred.rgb.size(), 0.0);
+    for (int k = 0; k < kMoments; ++k) {
+        const Picture one = road.at(7.0 + kPassed * ((k + 0.5) / kMoments - 0.5));
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += light(one, i) / kMoments;
+        }
+    }
+    const Picture sharp = road.at(7.0);
+    double sum = 0.0;
+    double off = 0.0;
+    double off_sharp = 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        sum += light(blurred, i);
+        off += std::pow(light(blurred, i) - mean[i], 2);
+        off_sharp += std::pow(light(sharp, i) - mean[i], 2);
+    }
+    EXPECT_NEAR(sum / std::accumulate(mean.begin(), mean.end(), 0.0), 1.0, 0.003);
+    EXPECT_LT(off, 0.2 * off_sharp);
+}
+
 TEST(View, LayerOverTheBarePictureIsTheFrame)
 {
     const WindshieldParameters parameters = heavyRain();

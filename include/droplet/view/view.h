@@ -35,6 +35,9 @@ struct ViewOptions {
     /// of light becomes is so wide [rad], 0 … 20°. A lens whose aperture is a wide and that is focused at b spreads it
     /// over a/b. Droplets stay sharp, and so does what they show: it is far smaller there, and its blur with it.
     double background_blur = 0.0;
+    /// How long the shutter is open for a frame, half of it before the state's time and half after it [s], 0 … 1; 0:
+    /// for an instant. Droplets that move are blurred along their way; what is at rest stays sharp.
+    double open_time = 0.0;
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
 
     /// @throws Error InvalidArgument
@@ -54,8 +57,9 @@ public:
     DefaultBackground& operator=(DefaultBackground&&) noexcept;
 
     /// @param travelled  how far the car has come [m], finite
+    /// @param passed     how far it comes while the shutter is open, half before and half after it [m], 0 … 100
     /// @throws Error     InvalidArgument
-    [[nodiscard]] Picture at(double travelled) const;
+    [[nodiscard]] Picture at(double travelled, double passed = 0.0) const;
 
 private:
     struct Content;
@@ -102,7 +106,8 @@ public:
     [[nodiscard]] const Picture& bare() const;
     /// The droplets alone: what they show of the picture behind, and how much they hide of it.
     [[nodiscard]] Layer layer() const;
-    /// All that the driver sees: over(layer(), bare()), in one go.
+    /// All that the driver sees: over(layer(), bare()), in one go. With an open_time it is the mean of the light that
+    /// is seen in that time, which is brighter at blurred edges than layers mixed by levels are.
     [[nodiscard]] Picture frame() const;
 
     /// Where on the glass the middle of a pixel is seen [m]; empty beside the glass.
