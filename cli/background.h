@@ -13,7 +13,8 @@
 namespace cli {
 
 struct BackgroundOptions {
-    std::optional<std::string> path;  ///< empty: the evening road
+    std::optional<std::string> path;  ///< empty: the evening road, unless the surroundings are all
+    bool surroundings = false;        ///< without a path, there is nothing but these
     std::optional<int> width;         ///< of the frame, if it is asked for [px]
     std::optional<int> height;
     bool fit = false;                 ///< scale and crop to it

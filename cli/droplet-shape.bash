@@ -102,7 +102,7 @@ _droplet_shape()
                         --glass-height --radius --slope --surface --hysteresis --still-diameter --film
                         --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient
                         --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density
-                        --gravity --time --warm-up --fps --background --fit --background-blur --size --field-of-view
+                        --gravity --time --warm-up --fps --background --environment --fit --background-blur --size --field-of-view
                         --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --json
                         --resume --no-clobber --threads --quiet --config --help --version' ;;
                     *) choices="$picture --mask-out $making $running $showing --format --fill-range --json --html --export-evolver" ;;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "droplet/io/output.h"
+#include "droplet/picture/environment.h"
 #include "droplet/view/glass_maps.h"
 #include "option_values.h"
 #include "windshield_files.h"
@@ -33,6 +34,7 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
         behind.width = options.view.width;
         behind.height = options.view.height;
     }
+    behind.surroundings = options.environment.has_value();
     behind.fit = options.fit;
     behind.frames_per_second = options.frames_per_second;
     behind.field_of_view = options.view.field_of_view;
@@ -55,6 +57,9 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
                std::to_string(view_options_.height));
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
+    if (options_.environment) {
+        view_->surround(droplet::readEnvironment(*options_.environment));
+    }
 }
 
 void WindshieldFrames::begin()

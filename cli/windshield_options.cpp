@@ -102,6 +102,9 @@ void declare(CommandLine& line)
              "what is behind the glass: a picture, or a video, which\n"
              "takes ffmpeg [an evening road]");
     line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
+    line.add(
+        kLooks, "--environment", "FILE",
+        "panorama of what is around the car, .hdr, .exr, .png or\n.jpg; all of the background, if there is no other");
     line.add(kLooks, "--background-blur", "ANGLE",
              "of the disc that a point of light behind the glass\nbecomes; the droplets stay sharp [0deg]");
     line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
@@ -250,6 +253,7 @@ void readSize(const Given& given, droplet::ViewOptions& view)
 void readView(const CommandLine& line, WindshieldOptions& options)
 {
     options.background = text(line, "--background");
+    options.environment = text(line, "--environment");
     options.fit = line.flag("--fit");
     if (const auto size = line.value("--size")) {
         readSize(*size, options.view);

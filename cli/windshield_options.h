@@ -29,6 +29,7 @@ struct WindshieldOptions {
     droplet::ViewOptions view;    ///< but for a size that is not asked for
     bool sized = false;
     std::optional<std::string> background;
+    std::optional<std::string> environment;
     bool fit = false;  ///< scale and crop the background
     bool layer = false;
     std::optional<std::string> codec;

@@ -72,6 +72,7 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options)
     report_.drive_cycle = options_.drive_cycle;
     report_.surface = options_.surface;
     report_.background = options_.background;
+    report_.environment = options_.environment;
     report_.output = options_.output;
     report_.parameters = plan_.parameters;
     report_.view = frames_.view();

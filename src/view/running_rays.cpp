@@ -193,8 +193,8 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
                 found.cover = level8(cover);
                 found.is_whole = is_whole;
                 if (met.reflected < 1.0F) {
-                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted));
-                    found.level = is_whole ? one.calm_level : one.level;
+                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted),
+                                                          is_whole ? one.calm_level : one.level);
                     found.light = level8(1.0F - met.reflected);
                 }
                 rays.push_back(found);

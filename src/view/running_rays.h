@@ -14,7 +14,6 @@ namespace droplet {
 struct Ray {
     PlaceInPicture place;
     std::uint8_t pixel = 0;  ///< of the tile
-    std::uint8_t level = 0;  ///< of the backdrop
     std::uint8_t light = 0;  ///< share of it that gets through, in 255ths
     std::uint8_t cover = 0;  ///< of a ray's share of the pixel, in 255ths
     bool is_whole = false;   ///< it stands for the whole pixel

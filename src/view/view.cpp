@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "picture/panorama.h"
 #include "require.h"
 #include "view/defocus.h"
 #include "view/running_rays.h"
@@ -145,7 +146,8 @@ private:
 }  // namespace
 
 struct DriversView::Content {
-    Content(const Glass& glass, const ViewOptions& options) : sight(glass, options), stills(sight), running(sight)
+    Content(const Glass& glass, const ViewOptions& options)
+        : sight(glass, options), stills(std::in_place, sight), running(std::in_place, sight)
     {
         bare.width = options.width;
         bare.height = options.height;
@@ -189,6 +191,49 @@ struct DriversView::Content {
         return static_cast<float>(2.0 * std::tan(0.5 * sight.options.background_blur)) / sight.eye.tangent();
     }
 
+    /// Makes all that is seen what is around the car, until there is a picture.
+    void takeSurroundings(const Environment& environment)
+    {
+        const Eye& eye = sight.eye;
+        LightPicture behind{eye.width(), eye.height(), {}};
+        behind.light.resize(bare.rgb.size() / 3);
+        const PictureFrame frame = eye.frame();
+        forPixels([&](std::size_t at) {
+            const auto column = static_cast<float>(at % static_cast<std::size_t>(eye.width()));
+            const auto row = static_cast<float>(at / static_cast<std::size_t>(eye.width()));
+            constexpr int kAcross = 2;  // rays a pixel, each way
+            Vec3f sum;
+            for (int k = 0; k < kAcross * kAcross; ++k) {
+                const float u = 0.25F + 0.5F * static_cast<float>(k % kAcross);
+                const float v = k < kAcross ? 0.25F : 0.75F;
+                sum = sum + radianceFrom(environment, unit(frame.toCar(eye.rayAt(column + u, row + v))));
+            }
+            const float share = exposure() / (kAcross * kAcross);
+            behind.light[at] = Four{share * sum.x, share * sum.y, share * sum.z, 1.0F};
+        });
+        expose(defocused(std::move(behind), blur()));
+        Four sum = four(0.0F);
+        for (std::size_t at = 0; at < bare.rgb.size(); at += 3) {
+            sum += lightOf(bare.rgb[at], bare.rgb[at + 1], bare.rgb[at + 2]);
+        }
+        darken(four(3.0F / static_cast<float>(bare.rgb.size())) * sum);
+    }
+
+    /// What directions meet from now on, and no water until it is shown.
+    void begin()
+    {
+        if (around) {
+            sight.backdrop.surround(*around, sight.eye.frame(), exposure(), !has_picture);
+        }
+        stills.emplace(sight);
+        running.emplace(sight);
+    }
+
+    [[nodiscard]] float exposure() const { return static_cast<float>(std::exp2(sight.options.exposure)); }
+
+    /// As dark as it is behind the eye, by eye: a tenth of what is ahead.
+    void darken(const Four& mean) { cabin = Four{0.1F, 0.1F, 0.1F, 1.0F} * mean; }
+
     /// Makes light the bare picture, seen through the pane.
     void expose(const LightPicture& behind)
     {
@@ -221,12 +266,12 @@ struct DriversView::Content {
     {
         light.fill(four(0.0F));
         const float share = shareOfRay();
-        for (const StillSample& sample : stills.inTile(tile)) {
+        for (const StillSample& sample : stills->inTile(tile)) {
             light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
                                    seen(sight.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
         int moments = 1;
-        for (const RaysInTile& in_tile : running.inTile(tile)) {
+        for (const RaysInTile& in_tile : running->inTile(tile)) {
             moments = std::max(moments, in_tile.moments);
             if (in_tile.moments == 1) {
                 lay(*in_tile.rays, light);
@@ -244,7 +289,7 @@ struct DriversView::Content {
             Four sum = four(0.0F);
             for (; ray != rays.end() && ray->pixel == pixel; ++ray) {
                 const float part = (ray->is_whole ? 1.0F / 255.0F : share) * static_cast<float>(ray->cover);
-                const Four outside = ray->light > 0 ? sight.backdrop.at(ray->place, ray->level) : cabin;
+                const Four outside = ray->light > 0 ? sight.backdrop.at(ray->place) : cabin;
                 sum += four(part) * seen(outside, static_cast<float>(ray->light) / 255.0F);
             }
             light[pixel] = sum + four(1.0F - sum[3]) * light[pixel];
@@ -281,7 +326,7 @@ struct DriversView::Content {
         std::vector<std::uint8_t> touched;
         for (int moment = 0; moment < moments; ++moment) {
             touched.clear();
-            for (const RaysInTile& in_tile : running.inTile(tile)) {
+            for (const RaysInTile& in_tile : running->inTile(tile)) {
                 if (in_tile.moments > 1 && in_tile.moment == moment * in_tile.moments / moments) {
                     lay(*in_tile.rays, light);
                     for (const Ray& ray : *in_tile.rays) {
@@ -309,7 +354,7 @@ struct DriversView::Content {
             Passed passed;
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
-                if (stills.inTile(tile).empty() && running.inTile(tile).empty()) {
+                if (stills->inTile(tile).empty() && running->inTile(tile).empty()) {
                     continue;
                 }
                 const int moments = shine(tile, light);
@@ -342,8 +387,10 @@ struct DriversView::Content {
     }
 
     Sight sight;
-    StillSamples stills;
-    RunningRays running;
+    std::optional<StillSamples> stills;
+    std::optional<RunningRays> running;
+    std::optional<Environment> around;
+    bool has_picture = false;
     Picture bare;
     std::array<std::uint16_t, 48> through_pane{};            ///< of levels, in 256ths, for 16 pixels
     std::array<std::array<std::uint8_t, 256>, 3> exposed{};  ///< of each level and colour, where there is an exposure
@@ -372,10 +419,14 @@ void DriversView::lookAt(const Picture& picture)
                                                     std::to_string(content.sight.eye.height()));
     }
     const ViewOptions& options = content.sight.options;
-    const Highlights highlights(picture, static_cast<float>(std::exp2(options.exposure)), options.highlight_boost);
+    if (content.around && !content.has_picture) {
+        content.has_picture = true;
+        content.begin();
+    }
+    content.has_picture = true;
+    const Highlights highlights(picture, content.exposure(), options.highlight_boost);
     content.sight.backdrop.take(picture, highlights);
-    // As dark as it is behind the eye, by eye: a tenth of what is ahead.
-    content.cabin = Four{0.1F, 0.1F, 0.1F, 1.0F} * content.sight.backdrop.mean();
+    content.darken(content.sight.backdrop.mean());
     if (options.background_blur > 0.0) {
         content.takeBlurred(picture, highlights);
         return;
@@ -413,10 +464,21 @@ void DriversView::lookAt(const Picture& picture)
     }
 }
 
+void DriversView::surround(const Environment& environment)
+{
+    environment.validate();
+    Content& content = *content_;
+    content.around = environment;
+    content.begin();
+    if (!content.has_picture) {
+        content.takeSurroundings(environment);
+    }
+}
+
 void DriversView::show(const WindshieldState& state)
 {
-    content_->stills.follow(StillCells::of(state.still));
-    content_->running.follow(state.droplets);
+    content_->stills->follow(StillCells::of(state.still));
+    content_->running->follow(state.droplets);
 }
 
 const Picture& DriversView::bare() const
@@ -456,7 +518,7 @@ std::optional<Vec2> DriversView::onGlass(int x, int y) const
 
 std::size_t DriversView::cellsDrawn() const
 {
-    return content_->stills.cellsDrawn();
+    return content_->stills->cellsDrawn();
 }
 
 }  // namespace droplet

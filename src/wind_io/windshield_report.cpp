@@ -110,6 +110,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
         {"count", parameters.wipers.size()},
         {"period_s", parameters.wipers.empty() ? ReportJson() : ReportJson(parameters.wipers.front().period)}};
     json["view"] = {{"background", orNull(report.background)},
+                    {"environment", orNull(report.environment)},
                     {"width_px", report.view.width},
                     {"height_px", report.view.height},
                     {"field_of_view_deg", report.view.field_of_view / kDegree},

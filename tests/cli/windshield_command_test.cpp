@@ -146,6 +146,24 @@ TEST_F(WindshieldCommand, EverythingComesOut)
     EXPECT_EQ(readFile(path("f/1.png"))[25], 6) << "with alpha";
 }
 
+TEST_F(WindshieldCommand, APanoramaIsAllOfTheBackground)
+{
+    std::ostringstream bytes;
+    writePng(grey(64, 32), bytes);
+    const std::string panorama = stored("panorama.png", bytes.str());
+    const CommandResult run = play(path("x.png"), {"--environment", panorama, "--rain", "0mm/h", "--look-at",
+                                                   "1m,1m,0m", "--json", path("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Picture seen = readPicture(path("x.png"));
+    ASSERT_EQ(seen.width, 96);
+    // Grey, but for what the pane takes.
+    for (const std::uint8_t level : seen.rgb) {
+        EXPECT_NEAR(level, 127, 1);
+    }
+    EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("view").at("environment"), panorama);
+    EXPECT_EQ(play(panorama, {"--environment", panorama}).exit_code, 2) << "input and output are one file";
+}
+
 TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
 {
     const auto options = [&](const std::string& time) {
@@ -523,6 +541,7 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--drive-cycle", path("none.csv")}, 3, "none.csv");
     expectRefused({"--background", path("none.png")}, 3, "there is no such file");
     expectRefused({"--background", stored("bad.png", "no picture")}, 3, "bad.png");
+    expectRefused({"--environment", path("none.hdr")}, 3, "none.hdr");
     expectRefused({"--surface", path("none.glb")}, 3, "none.glb");
     expectRefused({"--surface", "glass.obj"}, 2, ".glb or .gltf");
     expectRefused({"--preset", "figure-9"}, 2, "figure-3.10");

@@ -15,6 +15,7 @@
 #include "droplet/error.h"
 #include "droplet/view/glass_maps.h"
 #include "picture/tone.h"
+#include "view/backdrop.h"
 #include "view/still_map.h"
 
 namespace droplet {
@@ -208,6 +209,105 @@ TEST(View, RunningDropletsAreLongerAlongTheirWay)
     EXPECT_NEAR(climbing.second * pixel, 2.0 * (shape.contact_radius + shape.half_length), 1.5 * pixel);
     state.droplets[0].velocity = {1.0, 0.0};
     EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
+}
+
+/// A panorama of 24 by 12 fields of 15 degrees, each of another colour.
+Environment fields()
+{
+    Environment environment{48, 24, {}};
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 48; ++x) {
+            environment.radiance.push_back({0.02F * static_cast<float>(1 + x / 2),
+                                            0.05F * static_cast<float>(1 + y / 2),
+                                            0.3F * static_cast<float>((x / 2 + y / 2) % 3)});
+        }
+    }
+    return environment;
+}
+
+/// The colour of the field in the direction: x right, y ahead, z up.
+std::array<float, 3> fieldAt(const Environment& environment, Vec3 direction)
+{
+    const double longitude = std::atan2(direction.x, direction.y) / kDegree;
+    const double latitude = std::asin(direction.z / length(direction)) / kDegree;
+    const int column = static_cast<int>((longitude + 180.0) / 7.5);
+    const int row = static_cast<int>((90.0 - latitude) / 7.5);
+    return environment.radiance[static_cast<std::size_t>(48 * row + column)];
+}
+
+TEST(View, RaysBeyondThePictureMeetTheSurroundings)
+{
+    const Environment environment = fields();
+    const float half = std::tan(20.0F * static_cast<float>(kDegree));
+    Backdrop backdrop(64, 64, half, half);
+    const Picture red = filled(64, 64, {255, 0, 0}, {255, 0, 0});
+    backdrop.take(red, Highlights(red, 1.0F, 0.0));
+    // Turned by a right angle: the picture's middle is to the right of the car.
+    for (const bool is_turned : {false, true}) {
+        const PictureFrame frame =
+            is_turned ? PictureFrame{{0.0F, -1.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}} : PictureFrame{};
+        for (const bool is_all : {false, true}) {
+            backdrop.surround(environment, frame, 2.0F, is_all);
+            for (double longitude = -172.5; longitude < 180.0; longitude += 15.0) {
+                for (double latitude = -82.5; latitude < 90.0; latitude += 15.0) {
+                    const double level = std::cos(latitude * kDegree);
+                    const Vec3 direction{level * std::sin(longitude * kDegree), level * std::cos(longitude * kDegree),
+                                         std::sin(latitude * kDegree)};
+                    const bool is_in_picture = direction.y > 0.0 && std::abs(direction.x) < 0.364 * direction.y &&
+                                               std::abs(direction.z) < 0.364 * direction.y;
+                    const Vec3f own = toFloats(direction);
+                    const Vec3f in_car = frame.toCar(own);
+                    const auto field = fieldAt(environment, {in_car.x, in_car.y, in_car.z});
+                    const Four seen = backdrop.at(backdrop.placeOf(own, 0));
+                    const Four pixel = backdrop.at(backdrop.pixelAt(backdrop.placeOf(own, 0)));
+                    for (int c = 0; c < 3; ++c) {
+                        const float expected = is_in_picture && !is_all ? (c == 0 ? 1.0F : 0.0F)
+                                                                        : 2.0F * field[static_cast<std::size_t>(c)];
+                        EXPECT_NEAR(seen[c], expected, 1e-3F) << longitude << " " << latitude;
+                        EXPECT_NEAR(pixel[c], expected, 1e-3F) << longitude << " " << latitude;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(View, SurroundingsAreAllOfTheBackgroundWhereThereIsNoPicture)
+{
+    const Environment environment = fields();
+    ViewOptions options = small();
+    options.glass_colour = {1.0, 1.0, 1.0};
+    options.field_of_view = 90.0 * kDegree;
+    const WindshieldParameters parameters = heavyRain();
+    DriversView view(parameters.glass, options);
+    view.surround(environment);
+    const double pixel = 2.0 / options.width;
+    for (const auto& [longitude, latitude] : {std::pair(7.5, 7.5), {-37.5, -7.5}, {22.5, 22.5}, {37.5, -22.5}}) {
+        const double right = std::tan(longitude * kDegree);
+        const double up = std::tan(latitude * kDegree) * std::hypot(1.0, right);
+        const auto x = static_cast<std::size_t>(80.0 + right / pixel);
+        const auto y = static_cast<std::size_t>(45.0 - up / pixel);
+        const auto field = fieldAt(environment, {right, 1.0, up});
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(view.bare().rgb[3 * (160 * y + x) + c], encoded(field[c]), 1) << longitude << " " << latitude;
+        }
+    }
+    // Droplets do not depend on what was seen before.
+    const WindshieldState state = rained(parameters, 60);
+    view.show(state);
+    const Picture around = view.frame();
+    EXPECT_NE(around, view.bare());
+    DriversView other(parameters.glass, options);
+    other.lookAt(slanted(160, 90));
+    other.show(state);
+    const Layer mirrored = other.layer();
+    other.surround(environment);
+    other.show(state);
+    EXPECT_NE(other.layer(), mirrored);
+    view.lookAt(slanted(160, 90));
+    view.show(state);
+    EXPECT_EQ(view.layer(), other.layer());
+    EXPECT_THROW(view.surround({}), Error);
 }
 
 TEST(View, PointsOfLightOutOfFocusBecomeDiscs)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
@@ -81,7 +82,7 @@ Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 ///
 /// The picture fills the frame: it is what is seen through dry glass. Refracted rays go far beyond it: past its edge,
 /// at the tangent s₀, a direction of tangent s shows what s₀²/s does. So the picture is mirrored at its edge, as large
-/// there as before it, and at a right angle its middle is seen again.
+/// there as before it, and at a right angle its middle is seen again. Surroundings take the place of that mirror.
 ///
 /// Guarantees: what is seen depends on the state and the picture alone, not on those before, as long as all states are
 /// of one run: the same bytes, at any number of threads. Nothing of what is given is kept by reference.
@@ -97,6 +98,12 @@ public:
     /// @param picture  valid, as large as the frame: see covering
     /// @throws Error   InvalidArgument
     void lookAt(const Picture& picture);
+
+    /// What is around the car from now on, its middle straight ahead: rays that end beyond the picture's edges meet it,
+    /// and until there is a picture, all of them do, and so does the frame. Light is taken as it is: 1 is white. Water
+    /// has to be shown again.
+    /// @throws Error  InvalidArgument
+    void surround(const Environment& environment);
 
     /// The water that is on the glass from now on; none before.
     /// @param state  of this glass
