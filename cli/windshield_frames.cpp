@@ -43,15 +43,16 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
 
 }  // namespace
 
-WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::Glass& glass)
+WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters)
     : options_(options),
-      glass_(glass),
+      glass_(parameters.glass),
       codec_(videoCodec(options)),
       background_(backgroundOf(options)),
       view_options_(options.view)
 {
     view_options_.width = background_.width();
     view_options_.height = background_.height();
+    view_options_.wipers = parameters.wipers;
     if (options_.is_video && (view_options_.width % 2 != 0 || view_options_.height % 2 != 0)) {
         refuse("--size: a video's frame must have even sides, not " + std::to_string(view_options_.width) + "x" +
                std::to_string(view_options_.height));

@@ -27,7 +27,7 @@ class WindshieldFrames {
 public:
     /// @param options         must outlive this
     /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
-    WindshieldFrames(const WindshieldOptions& options, const droplet::Glass& glass);
+    WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters);
 
     /// How the driver looks, with the frame's size.
     [[nodiscard]] const droplet::ViewOptions& view() const { return view_options_; }

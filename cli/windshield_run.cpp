@@ -62,7 +62,7 @@ private:
 };
 
 WindshieldRun::WindshieldRun(const WindshieldOptions& options)
-    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters.glass)
+    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters)
 {
     checkFrameFiles(options_, plan_.frames);
     if (options_.files) {

@@ -14,6 +14,7 @@
 #include "picture/tone.h"
 #include "require.h"
 #include "view/backdrop.h"
+#include "view/scattered.h"
 
 namespace droplet {
 namespace {
@@ -45,18 +46,6 @@ struct Streak {
     float length = 0.0F;
     Vec3f radiance;
 };
-
-/// From 0 to 1, the same for the same number.
-float scattered(std::uint32_t n)
-{
-    // C. Wellons, "Prospecting for Hash Functions" (2018): lowbias32.
-    n ^= n >> 16;
-    n *= 0x7feb352dU;
-    n ^= n >> 15;
-    n *= 0x846ca68bU;
-    n ^= n >> 16;
-    return static_cast<float>(n >> 8) / 16777216.0F;
-}
 
 /// What stays as it is wherever the car is: sky, verges, road and the lines along it.
 class Scenery {

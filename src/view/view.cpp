@@ -19,6 +19,8 @@
 #include "view/running_rays.h"
 #include "view/sight.h"
 #include "view/still_samples.h"
+#include "view/water_optics.h"
+#include "view/wiper_view.h"
 
 namespace droplet {
 
@@ -47,6 +49,9 @@ void ViewOptions::validate() const
     require(open_time >= 0.0 && open_time <= 1.0, "open_time", open_time, "from 0 to 1 s");
     require(background_blur >= 0.0 && background_blur <= 20.0 * kDegree, "background_blur", background_blur,
             "from 0 to 20 degrees");
+    for (const Wiper& wiper : wipers) {
+        wiper.validate();
+    }
     for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
         require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
     }
@@ -147,7 +152,7 @@ private:
 
 struct DriversView::Content {
     Content(const Glass& glass, const ViewOptions& options)
-        : sight(glass, options), stills(std::in_place, sight), running(std::in_place, sight)
+        : sight(glass, options), stills(std::in_place, sight), running(std::in_place, sight), wipers(sight)
     {
         bare.width = options.width;
         bare.height = options.height;
@@ -270,14 +275,123 @@ struct DriversView::Content {
             light[sample.pixel] += four(share * static_cast<float>(sample.cover)) *
                                    seen(sight.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        int moments = 1;
+        const bool has_wipers = wipers.reach(tile);
+        if (has_wipers) {
+            layUnder(tile, light);
+        }
+        int moments = has_wipers ? wipers.moments() : 1;
         for (const RaysInTile& in_tile : running->inTile(tile)) {
             moments = std::max(moments, in_tile.moments);
             if (in_tile.moments == 1) {
                 lay(*in_tile.rays, light);
             }
         }
+        if (has_wipers && moments == 1) {
+            layWipers(tile, 0, light, [](std::size_t) {});
+        }
         return moments;
+    }
+
+    /// Calls work(pixel of the tile, its ray's direction, place on the glass) for all pixels that see the glass.
+    template <typename Work>
+    void forTile(std::size_t tile, const Work& work) const
+    {
+        const auto columns = static_cast<std::size_t>(sight.tiles.columns());
+        const int left = static_cast<int>(tile % columns) * kTile;
+        const int top = static_cast<int>(tile / columns) * kTile;
+        for (int y = top; y < std::min(top + kTile, sight.eye.height()); ++y) {
+            for (int x = left; x < std::min(left + kTile, sight.eye.width()); ++x) {
+                const Vec2f place = sight.eye.place(x, y);
+                if (!std::isnan(place.x)) {
+                    work(pixelInTile(x, y), sight.eye.ray(x, y), place);
+                }
+            }
+        }
+    }
+
+    /// Where a ray goes on to that leaves water on the glass.
+    [[nodiscard]] Interface beyond(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const auto ior = static_cast<float>(sight.options.ior);
+        Interface out =
+            intoAir(intoWater(toFrame(tile.frame, ray), ior), unit({-water.slope.x, -water.slope.y, 1.0F}), ior);
+        out.transmitted = fromFrame(tile.frame, out.transmitted);
+        return out;
+    }
+
+    /// What is seen through a bead, premultiplied.
+    [[nodiscard]] Four throughBead(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const Interface out = beyond(water, tile, ray);
+        const Four outside =
+            out.reflected < 1.0F ? sight.backdrop.at(sight.backdrop.placeOf(out.transmitted, 0)) : cabin;
+        return four(water.cover) * seen(outside, 1.0F - out.reflected);
+    }
+
+    /// What is seen through thin water, premultiplied: the bare picture, a little aside.
+    [[nodiscard]] Four throughFilm(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const Interface out = beyond(water, tile, ray);
+        if (out.reflected >= 1.0F || out.transmitted.y <= 0.0F) {
+            Four dark = pane * cabin;
+            dark[3] = 1.0F;
+            return four(water.cover) * dark;
+        }
+        const auto index = [](float place, int count) {
+            return std::clamp(place - 0.5F, 0.0F, static_cast<float>(count - 1));
+        };
+        const Eye& eye = sight.eye;
+        const float scale = 1.0F / (out.transmitted.y * eye.tangent());
+        const float x = index(scale * out.transmitted.x + 0.5F * static_cast<float>(eye.width()), eye.width());
+        const float y = index(0.5F * static_cast<float>(eye.height()) - scale * out.transmitted.z, eye.height());
+        const int column = std::min(static_cast<int>(x), eye.width() - 2);
+        const int row = std::min(static_cast<int>(y), eye.height() - 2);
+        const auto at = [&](int i, int j) {
+            const std::uint8_t* const from = bare.rgb.data() + 3 * eye.at(column + i, row + j);
+            return lightOf(from[0], from[1], from[2]);
+        };
+        const float right = x - static_cast<float>(column);
+        const float below = y - static_cast<float>(row);
+        const Four above = at(0, 0) + four(right) * (at(1, 0) - at(0, 0));
+        const Four under = at(0, 1) + four(right) * (at(1, 1) - at(0, 1));
+        Four light =
+            (above + four(below) * (under - above)) * four(1.0F - out.reflected) + four(out.reflected) * (pane * cabin);
+        light[3] = 1.0F;
+        return four(water.cover) * light;
+    }
+
+    /// Lays water that wipers have left under light.
+    void layUnder(std::size_t number, TileLight& light) const
+    {
+        const ViewTile& tile = sight.tiles[number];
+        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
+            const WaterMet water = wipers.left(place, tile.pixel);
+            if (water.cover > 0.0F) {
+                light[pixel] += four(1.0F - light[pixel][3]) *
+                                (water.is_bead ? throughBead(water, tile, ray) : throughFilm(water, tile, ray));
+            }
+        });
+    }
+
+    /// Lays wipers, and the water that they push, over light.
+    template <typename Touch>
+    void layWipers(std::size_t number, int moment, TileLight& light, const Touch& touch) const
+    {
+        const ViewTile& tile = sight.tiles[number];
+        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
+            const WiperMet met = wipers.at(place, tile.pixel, moment);
+            if (met.cover > 0.0F) {
+                Four rubber = four(met.cover * met.shine) * (pane * cabin);
+                rubber[3] = met.cover;
+                light[pixel] = rubber + four(1.0F - met.cover) * light[pixel];
+            }
+            if (met.pushed.cover > 0.0F) {
+                light[pixel] = throughBead(met.pushed, tile, ray) + four(1.0F - met.pushed.cover) * light[pixel];
+            }
+            if (met.cover > 0.0F || met.pushed.cover > 0.0F) {
+                touch(pixel);
+            }
+        });
     }
 
     /// Lays a droplet's rays over light.
@@ -334,6 +448,10 @@ struct DriversView::Content {
                     }
                 }
             }
+            if (wipers.reach(tile)) {
+                layWipers(tile, moment * wipers.moments() / moments, light,
+                          [&](std::size_t pixel) { touched.push_back(static_cast<std::uint8_t>(pixel)); });
+            }
             std::sort(touched.begin(), touched.end());
             touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
             for (const std::uint8_t pixel : touched) {
@@ -354,7 +472,7 @@ struct DriversView::Content {
             Passed passed;
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
-                if (stills->inTile(tile).empty() && running->inTile(tile).empty()) {
+                if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile)) {
                     continue;
                 }
                 const int moments = shine(tile, light);
@@ -389,12 +507,14 @@ struct DriversView::Content {
     Sight sight;
     std::optional<StillSamples> stills;
     std::optional<RunningRays> running;
+    WiperView wipers;
     std::optional<Environment> around;
     bool has_picture = false;
     Picture bare;
     std::array<std::uint16_t, 48> through_pane{};            ///< of levels, in 256ths, for 16 pixels
     std::array<std::array<std::uint8_t, 256>, 3> exposed{};  ///< of each level and colour, where there is an exposure
     Four pane{};
+    std::uint8_t thin_level = 0;         ///< of the backdrop, through thin water
     Four cabin{0.0F, 0.0F, 0.0F, 1.0F};  ///< light of what is inside
 };
 
@@ -479,6 +599,7 @@ void DriversView::show(const WindshieldState& state)
 {
     content_->stills->follow(StillCells::of(state.still));
     content_->running->follow(state.droplets);
+    content_->wipers.follow(state.time);
 }
 
 const Picture& DriversView::bare() const

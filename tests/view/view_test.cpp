@@ -211,6 +211,131 @@ TEST(View, RunningDropletsAreLongerAlongTheirWay)
     EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
 }
 
+/// Wipers on dry glass, in front of a picture that is bright all over.
+class WipersSeen : public ::testing::Test {
+protected:
+    WipersSeen()
+    {
+        parameters_.wipers = tandemWipers(parameters_.glass, 1.5);
+        options_.width = 320;
+        options_.height = 180;
+        options_.eye_distance = 1.2;
+        options_.wipers = parameters_.wipers;
+        state_ = startWindshield(parameters_);
+    }
+
+    void look(double time, double open_time = 0.0)
+    {
+        options_.open_time = open_time;
+        view_.emplace(parameters_.glass, options_);
+        view_->lookAt(slanted(320, 180));
+        state_.time = time;
+        view_->show(state_);
+        layer_ = view_->layer();
+    }
+
+    /// Alpha where a place on the glass is seen, from a wiper's pivot.
+    [[nodiscard]] int alphaAt(const Wiper& wiper, double radius, double angle) const
+    {
+        const Vec2 place = wiper.pivot + radius * Vec2{std::cos(angle), std::sin(angle)};
+        double nearest = 1.0;
+        int alpha = 0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                const auto here = view_->onGlass(x, y);
+                if (here && length(*here - place) < nearest) {
+                    nearest = length(*here - place);
+                    alpha = layer_.rgba[static_cast<std::size_t>(4 * (320 * y + x) + 3)];
+                }
+            }
+        }
+        EXPECT_LT(nearest, 0.004) << "the place is in view";
+        return alpha;
+    }
+
+    /// How many pixels of the glass have something on them in a part of a wiper's field.
+    [[nodiscard]] int covered(const Wiper& wiper, double from, double to) const
+    {
+        int count = 0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                const auto here = view_->onGlass(x, y);
+                if (here) {
+                    const Vec2 way = *here - wiper.pivot;
+                    const double angle = std::atan2(way.y, way.x);
+                    const bool is_in =
+                        length(way) > wiper.inner && length(way) < wiper.outer && angle > from && angle < to;
+                    count += is_in && layer_.rgba[static_cast<std::size_t>(4 * (320 * y + x) + 3)] > 0 ? 1 : 0;
+                }
+            }
+        }
+        return count;
+    }
+
+    WindshieldParameters parameters_;
+    ViewOptions options_;
+    WindshieldState state_;
+    std::optional<DriversView> view_;
+    Layer layer_;
+};
+
+TEST_F(WipersSeen, BladesAreWhereTheyWipe)
+{
+    const Wiper wiper = parameters_.wipers[1];
+    options_.wipers = {wiper};
+    for (const double time : {0.25, 0.4, 0.8, 1.75}) {
+        look(time);
+        const double angle = wiper.angleAt(time);
+        EXPECT_EQ(alphaAt(wiper, 0.45, angle), 255) << time;
+        // Ahead of the blade and of the water that it pushes the glass is as it was: dry.
+        const bool goes_up = time < 0.6 || time > 1.5;
+        if (time < 0.6) {
+            EXPECT_EQ(covered(wiper, angle + 0.1, wiper.last), 0) << time;
+        }
+        // Behind it lies a film in streaks: some of it, not all.
+        const double sign = goes_up ? -1.0 : 1.0;
+        const double near = angle + sign * 0.04;
+        const double far = angle + sign * 0.3;
+        const int wet = covered(wiper, std::min(near, far), std::max(near, far));
+        EXPECT_GT(wet, 300) << time;
+    }
+    look(1.495);
+    EXPECT_EQ(covered(wiper, 2.1, 2.35), 0) << "the film is gone where the blade passed 0.76 s ago";
+    EXPECT_EQ(view_->frame(), over(layer_, view_->bare()));
+}
+
+TEST_F(WipersSeen, TheWedgeOfPushedWaterLiesAtThePillarAlone)
+{
+    // The eye sees both turning points.
+    options_.eye_distance = 1.8;
+    const Wiper& left = parameters_.wipers[0];
+    const Wiper& right = parameters_.wipers[1];
+    look(0.75);
+    EXPECT_GT(alphaAt(left, 0.5, left.last + 0.0125), 0) << "where the left blade has turned";
+    const int beside_other = covered(right, right.last + 0.012, right.last + 0.04);
+    look(1.45);
+    EXPECT_EQ(alphaAt(left, 0.5, left.last + 0.0125), 0) << "it has run off";
+    options_.wipers = {right};
+    look(0.75);
+    const int alone = covered(right, right.last + 0.012, right.last + 0.04);
+    EXPECT_GT(alone, 20);
+    EXPECT_LT(beside_other, alone / 4) << "the left blade wipes there";
+}
+
+TEST_F(WipersSeen, BladesAreBlurredWhileTheShutterIsOpen)
+{
+    const Wiper& wiper = parameters_.wipers[1];
+    const double angle = wiper.angleAt(0.3);
+    look(0.3);
+    EXPECT_EQ(alphaAt(wiper, 0.5, angle), 255);
+    EXPECT_EQ(alphaAt(wiper, 0.5, angle + 0.08), 0);
+    look(0.3, 1.0 / 30.0);
+    const int blurred = alphaAt(wiper, 0.5, angle + 0.05);
+    EXPECT_GT(blurred, 0);
+    EXPECT_LT(blurred, 128);
+    EXPECT_NE(view_->frame(), view_->bare());
+}
+
 /// A panorama of 24 by 12 fields of 15 degrees, each of another colour.
 Environment fields()
 {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
@@ -11,6 +12,7 @@
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
+#include "droplet/windshield/wipers.h"
 
 namespace droplet {
 
@@ -39,6 +41,8 @@ struct ViewOptions {
     /// How long the shutter is open for a frame, half of it before the state's time and half after it [s], 0 … 1; 0:
     /// for an instant. Droplets that move are blurred along their way; what is at rest stays sharp.
     double open_time = 0.0;
+    /// Wipers that are seen, with the water that they push and leave; by a state's time. Empty: they wipe unseen.
+    std::vector<Wiper> wipers = {};
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
 
     /// @throws Error InvalidArgument
