@@ -3,6 +3,7 @@
 
 #include <array>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "droplet/io/output.h"
@@ -58,6 +59,11 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
                std::to_string(view_options_.height));
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
+    if (options_.are_maps_exr) {
+        // What writes them may not be installed: before any work is done.
+        std::ostringstream nowhere;
+        writeExr(droplet::FloatPicture{1, 1, 1, {0.0F}}, nowhere);
+    }
     if (options_.environment) {
         view_->surround(droplet::readEnvironment(*options_.environment));
     }
@@ -118,12 +124,22 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
 
 void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
 {
+    const auto write = [&](std::size_t map, const auto& writer) {
+        droplet::writeWhole(mapPath(*options_.maps, number, kMapNames[map]), writer, options_.output_options);
+    };
+    if (options_.are_maps_exr) {
+        const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);
+        const std::array<const droplet::FloatPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness,
+                                                                             &maps.velocity};
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            write(k, [&](std::ostream& out) { writeExr(*all[k], out); });
+        }
+        return;
+    }
     const droplet::GlassMaps maps = glassMaps(glass_, state, options_.map);
     const std::array<const droplet::DeepPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness, &maps.velocity};
     for (std::size_t k = 0; k < all.size(); ++k) {
-        droplet::writeWhole(
-            mapPath(*options_.maps, number, kMapNames[k]),
-            [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); }, options_.output_options);
+        write(k, [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); });
     }
 }
 

@@ -125,8 +125,8 @@ void declare(CommandLine& line)
     line.add(kLooks, "--quality", "NUMBER", "of a video, 1 to 100 [65]");
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
-             "textures of the whole glass, as maps/%05d.png: three\n"
-             "files a frame, -normal, -thickness and -velocity");
+             "textures of the whole glass, as maps/%05d.png or .exr:\n"
+             "three files a frame, -normal, -thickness and -velocity");
     line.add(kOut, "--map-width", "N", "of those, in pixels [2048]");
     line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "of those, only droplets that move");
@@ -307,13 +307,6 @@ void readShutter(const CommandLine& line, WindshieldOptions& options)
     options.view.open_time = share / options.frames_per_second;
 }
 
-void requirePng(const std::string& path, const Given& given)
-{
-    if (std::filesystem::path(path).extension() != ".png") {
-        refuse(given, "a path that ends in .png");
-    }
-}
-
 void readOutputs(const CommandLine& line, WindshieldOptions& options)
 {
     options.output = line.argument("OUTPUT");
@@ -341,7 +334,11 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         if (!options.maps) {
             refuse(*maps, "a path with one %d or %04d, for the number, in the file's name");
         }
-        requirePng(maps->text, *maps);
+        const std::string extension = std::filesystem::path(maps->text).extension().string();
+        if (extension != ".png" && extension != ".exr") {
+            refuse(*maps, "a path that ends in .png or .exr");
+        }
+        options.are_maps_exr = extension == ".exr";
     } else if (line.value("--map-width")) {
         refuse("--map-width needs --maps");
     }

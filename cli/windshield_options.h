@@ -35,6 +35,7 @@ struct WindshieldOptions {
     std::optional<std::string> codec;
     double quality = kVideoQuality;  ///< of a video, 1 … 100
     std::optional<NumberedPath> maps;
+    bool are_maps_exr = false;  ///< otherwise PNG
     droplet::GlassMapOptions map;
     std::optional<double> duration;  ///< [s]
     double warm_up = 10.0;           ///< [s]

@@ -8,6 +8,7 @@
 
 #include "droplet/version.h"
 #include "io/report_sections.h"
+#include "wind_io/whole_nanoseconds.h"
 
 namespace droplet {
 namespace {
@@ -54,7 +55,7 @@ ReportJson forcesSection(const ForceModel& forces)
 ReportJson rowOf(const BalanceRow& row)
 {
     const WaterBalance& b = row.balance;
-    return {{"time_s", row.time},
+    return {{"time_s", wholeNanoseconds(row.time)},
             {"speed_m_per_s", row.speed},
             {"rained_m3", b.rained},
             {"on_glass_still_m3", b.on_glass_still},

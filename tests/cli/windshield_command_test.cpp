@@ -144,6 +144,12 @@ TEST_F(WindshieldCommand, EverythingComesOut)
         EXPECT_EQ(png[24], 16) << "bits a channel";
     }
     EXPECT_EQ(readFile(path("f/1.png"))[25], 6) << "with alpha";
+    const CommandResult floats =
+        play(path("x.png"), {"--maps", path("f/m%d.exr"), "--map-width", "64", "--time", "0.04s"});
+    ASSERT_EQ(floats.exit_code, 0) << floats.error;
+    for (const char* map : {"normal", "thickness", "velocity"}) {
+        EXPECT_EQ(readFile(path(std::string("f/m1-") + map + ".exr")).substr(0, 4), "\x76\x2f\x31\x01");
+    }
 }
 
 TEST_F(WindshieldCommand, APanoramaIsAllOfTheBackground)
@@ -563,6 +569,7 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--wiper", "1s"}, 2, "from 1.2s to 60s");
     expectRefused({"--seed", "-1"}, 2, "whole number");
     expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");
+    expectRefused({"--maps", path("m%d.tif")}, 2, "ends in .png or .exr");
     const CommandResult format = play(path("x.gif"));
     EXPECT_EQ(format.exit_code, 2);
     EXPECT_THAT(format.errorLines(), ElementsAre(HasSubstr("out/%05d.png")));

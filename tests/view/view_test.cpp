@@ -956,6 +956,34 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
     }
 }
 
+TEST(GlassMapsOf, FloatsAreTheSameAsNumbers)
+{
+    WindshieldParameters parameters = heavyRain();
+    parameters.wipers.clear();
+    const WindshieldState state = rained(parameters, 40);
+    const GlassMapOptions options{.width = 300};
+    const GlassFloatMaps floats = glassFloatMaps(parameters.glass, state, options);
+    const GlassMaps levels = glassMaps(parameters.glass, state, options);
+    ASSERT_EQ(floats.thickness.values.size(), levels.thickness.levels.size());
+    double water = 0.0;
+    for (std::size_t i = 0; i < floats.thickness.values.size(); ++i) {
+        const auto thickness = static_cast<double>(floats.thickness.values[i]);
+        water += thickness;
+        // Rounding goes from pixel to pixel.
+        EXPECT_NEAR(std::min(thickness, 5e-3), levels.thickness.levels[i] / 65535.0 * 5e-3, 1.6e-7);
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            EXPECT_NEAR(static_cast<double>(floats.normal.values[c]), levels.normal.levels[c] / 32767.5 - 1.0, 2e-5);
+        }
+        for (std::size_t c = 3 * i; c < 3 * i + 2; ++c) {
+            const auto speed = std::clamp(static_cast<double>(floats.velocity.values[c]), -2.0, 2.0);
+            EXPECT_NEAR(speed, 2.0 * (levels.velocity.levels[c] / 32767.5 - 1.0), 4e-5);
+        }
+    }
+    const WaterBalance all = balanceOf(state);
+    water *= parameters.glass.width() * parameters.glass.height() / static_cast<double>(levels.thickness.levels.size());
+    EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.005);
+}
+
 // What is smaller than a texel shows as smooth glass, not as the normal at its middle.
 TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
 {
