@@ -71,13 +71,12 @@ struct Straight {
 };
 
 /// @param light  premultiplied
-Straight straightOf(const Four& light)
+[[gnu::always_inline]] inline Straight straightOf(const Four& light, const EncodedLevels& levels = encodedLevels())
 {
     const std::uint32_t alpha = level8(light[3]);
     if (alpha == 0) {
         return {};
     }
-    const EncodedLevels& levels = encodedLevels();
     // What is brighter than white keeps its hue.
     const float most = std::max({light[0], light[1], light[2], light[3]});
     const Four straight = four(1.0F / most) * light;
@@ -395,7 +394,7 @@ struct DriversView::Content {
     }
 
     /// Lays a droplet's rays over light.
-    void lay(const std::vector<Ray>& rays, TileLight& light) const
+    [[gnu::always_inline]] void lay(const std::vector<Ray>& rays, TileLight& light) const
     {
         const float share = shareOfRay();
         for (auto ray = rays.begin(); ray != rays.end();) {
@@ -470,6 +469,7 @@ struct DriversView::Content {
         tbb::parallel_for(0, tiles.rows(), [&](int r) {
             TileLight light;
             Passed passed;
+            const EncodedLevels& levels = encodedLevels();
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
                 if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile)) {
@@ -489,14 +489,14 @@ struct DriversView::Content {
                 for (int y = r * kTile; y < std::min((r + 1) * kTile, sight.eye.height()); ++y) {
                     for (int x = c * kTile; x < std::min((c + 1) * kTile, sight.eye.width()); ++x) {
                         const std::uint8_t pixel = pixelInTile(x, y);
-                        const std::size_t at = sight.eye.at(x, y);
-                        const Straight straight = straightOf(light[pixel]);
+                        const Straight straight = straightOf(light[pixel], levels);
                         if (moments > 1 && passed.moments[pixel] > 0) {
+                            const std::size_t at = sight.eye.at(x, y);
                             const auto rest = static_cast<float>(moments - passed.moments[pixel]);
                             taker.takeMean(at, four(1.0F / static_cast<float>(moments)) *
                                                    (passed.sums[pixel] + four(rest) * taker.light(at, straight)));
                         } else if (straight.alpha > 0) {
-                            taker.take(at, straight);
+                            taker.take(sight.eye.at(x, y), straight);
                         }
                     }
                 }
