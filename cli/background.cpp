@@ -27,6 +27,9 @@ Background::Background(const BackgroundOptions& options) : options_(options)
     constexpr int kHeight = 720;
     width_ = options_.width.value_or(kWidth);
     height_ = options_.height.value_or(kHeight);
+    if (!options_.path && options_.surroundings) {
+        return;
+    }
     if (!options_.path) {
         droplet::ViewOptions view;
         view.width = width_;
@@ -107,7 +110,7 @@ Picture Background::videoFrame()
     return picture;
 }
 
-std::optional<Picture> Background::next(double travelled)
+std::optional<Picture> Background::next(double travelled, double passed)
 {
     if (video_) {
         return fitted(ahead_ ? *std::exchange(ahead_, std::nullopt) : videoFrame());
@@ -115,7 +118,7 @@ std::optional<Picture> Background::next(double travelled)
     if (options_.path) {
         return std::exchange(picture_, std::nullopt);
     }
-    return road_->at(travelled);
+    return road_ ? std::optional(road_->at(travelled, passed)) : std::nullopt;
 }
 
 void Background::skip(std::size_t frames)

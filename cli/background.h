@@ -13,7 +13,8 @@
 namespace cli {
 
 struct BackgroundOptions {
-    std::optional<std::string> path;  ///< empty: the evening road
+    std::optional<std::string> path;  ///< empty: the evening road, unless the surroundings are all
+    bool surroundings = false;        ///< without a path, there is nothing but these
     std::optional<int> width;         ///< of the frame, if it is asked for [px]
     std::optional<int> height;
     bool fit = false;                 ///< scale and crop to it
@@ -35,9 +36,10 @@ public:
 
     /// What is seen next.
     /// @param travelled       how far the car has come [m]
+    /// @param passed          how far it comes while the shutter is open [m]; a video has its own shutter's blur
     /// @return                nothing where it is what was seen before
     /// @throws droplet::Error InvalidInput
-    std::optional<droplet::Picture> next(double travelled);
+    std::optional<droplet::Picture> next(double travelled, double passed);
 
     /// Passes over frames, as next() would.
     void skip(std::size_t frames);

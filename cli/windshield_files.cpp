@@ -45,6 +45,7 @@ void checkWindshieldFiles(const WindshieldOptions& options)
         }
     };
     input("--background", options.background);
+    input("--environment", options.environment);
     input("--drive-cycle", options.drive_cycle);
     input("--surface", options.surface);
     input("--config", options.config);
@@ -79,6 +80,7 @@ void checkFrameFiles(const WindshieldOptions& options, std::size_t frames)
             }
         };
         clash("--background", options.background);
+        clash("--environment", options.environment);
         clash("--drive-cycle", options.drive_cycle);
         clash("--surface", options.surface);
         clash("--config", options.config);
@@ -114,7 +116,7 @@ bool hasFrame(const WindshieldOptions& options, std::size_t number)
 std::string fingerprintOf(const WindshieldOptions& options)
 {
     return fingerprintOf({options.fingerprint, hashOfFile(options.background), hashOfFile(options.drive_cycle),
-                          hashOfFile(options.surface)});
+                          hashOfFile(options.surface), hashOfFile(options.environment)});
 }
 
 }  // namespace cli

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "droplet/io/output.h"
+#include "droplet/picture/environment.h"
 #include "droplet/view/glass_maps.h"
 #include "option_values.h"
 #include "windshield_files.h"
@@ -33,6 +35,7 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
         behind.width = options.view.width;
         behind.height = options.view.height;
     }
+    behind.surroundings = options.environment.has_value();
     behind.fit = options.fit;
     behind.frames_per_second = options.frames_per_second;
     behind.field_of_view = options.view.field_of_view;
@@ -41,20 +44,29 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
 
 }  // namespace
 
-WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::Glass& glass)
+WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters)
     : options_(options),
-      glass_(glass),
+      glass_(parameters.glass),
       codec_(videoCodec(options)),
       background_(backgroundOf(options)),
       view_options_(options.view)
 {
     view_options_.width = background_.width();
     view_options_.height = background_.height();
+    view_options_.wipers = parameters.wipers;
     if (options_.is_video && (view_options_.width % 2 != 0 || view_options_.height % 2 != 0)) {
         refuse("--size: a video's frame must have even sides, not " + std::to_string(view_options_.width) + "x" +
                std::to_string(view_options_.height));
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
+    if (options_.are_maps_exr) {
+        // What writes them may not be installed: before any work is done.
+        std::ostringstream nowhere;
+        writeExr(droplet::FloatPicture{1, 1, 1, {0.0F}}, nowhere);
+    }
+    if (options_.environment) {
+        view_->surround(droplet::readEnvironment(*options_.environment));
+    }
 }
 
 void WindshieldFrames::begin()
@@ -68,11 +80,12 @@ void WindshieldFrames::begin()
     }
 }
 
-void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, double travelled)
+void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last,
+                            const CarPlace& car)
 {
     const bool is_shown = options_.files || options_.is_video || is_last;
     if (is_shown) {
-        if (auto behind = background_.next(travelled)) {
+        if (auto behind = background_.next(car.travelled, car.speed * view_options_.open_time)) {
             view_->lookAt(*behind);
         }
         view_->show(state);
@@ -111,12 +124,22 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
 
 void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
 {
+    const auto write = [&](std::size_t map, const auto& writer) {
+        droplet::writeWhole(mapPath(*options_.maps, number, kMapNames[map]), writer, options_.output_options);
+    };
+    if (options_.are_maps_exr) {
+        const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);
+        const std::array<const droplet::FloatPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness,
+                                                                             &maps.velocity};
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            write(k, [&](std::ostream& out) { writeExr(*all[k], out); });
+        }
+        return;
+    }
     const droplet::GlassMaps maps = glassMaps(glass_, state, options_.map);
     const std::array<const droplet::DeepPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness, &maps.velocity};
     for (std::size_t k = 0; k < all.size(); ++k) {
-        droplet::writeWhole(
-            mapPath(*options_.maps, number, kMapNames[k]),
-            [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); }, options_.output_options);
+        write(k, [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); });
     }
 }
 

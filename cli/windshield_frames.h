@@ -16,12 +16,18 @@
 
 namespace cli {
 
+/// Where the car is in a frame.
+struct CarPlace {
+    double travelled = 0.0;  ///< since the first frame [m]
+    double speed = 0.0;      ///< [m/s]
+};
+
 /// Draws a windshield's frames and maps, and writes them.
 class WindshieldFrames {
 public:
     /// @param options         must outlive this
     /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
-    WindshieldFrames(const WindshieldOptions& options, const droplet::Glass& glass);
+    WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters);
 
     /// How the driver looks, with the frame's size.
     [[nodiscard]] const droplet::ViewOptions& view() const { return view_options_; }
@@ -35,8 +41,8 @@ public:
 
     /// Draws a frame, and writes what has a file of its own.
     /// @param number     from 1
-    /// @param travelled  since the first frame [m]
-    void draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, double travelled);
+    /// @param car        where it is
+    void draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, const CarPlace& car);
 
     /// Returns when every frame drawn so far is written.
     void wait() { saving_.wait(); }

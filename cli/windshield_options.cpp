@@ -36,6 +36,7 @@ constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
 constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
 constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
+constexpr Range kBlur{Dimension::Angle, 0.0, 20.0 * kDegree, "from 0deg to 20deg"};
 constexpr Range kPlace{Dimension::Length, -100.0, 100.0, "from -100m to 100m each"};
 constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
@@ -101,6 +102,11 @@ void declare(CommandLine& line)
              "what is behind the glass: a picture, or a video, which\n"
              "takes ffmpeg [an evening road]");
     line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
+    line.add(
+        kLooks, "--environment", "FILE",
+        "panorama of what is around the car, .hdr, .exr, .png or\n.jpg; all of the background, if there is no other");
+    line.add(kLooks, "--background-blur", "ANGLE",
+             "of the disc that a point of light behind the glass\nbecomes; the droplets stay sharp [0deg]");
     line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
     line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
@@ -112,13 +118,15 @@ void declare(CommandLine& line)
     line.add(kLooks, "--exposure", "STOPS", "of all that is seen: 1 is twice the light, -1 half [0]");
     line.add(kLooks, "--highlight-boost", "NUMBER",
              "lamps are up to 1 + so many times as bright as the\nbackground shows them: 0 to 4 [3, by daylight less]");
+    line.add(kLooks, "--shutter", "OPEN",
+             "motion blur: part of a frame's time that the shutter is\nopen, as 180deg or 0.5 [0]");
     line.addFlag(kLooks, "--layer", "frames of the droplets alone, with alpha");
     line.add(kLooks, "--codec", "NAME", "ffmpeg's encoder [libx264, libvpx-vp9 of .webm]");
     line.add(kLooks, "--quality", "NUMBER", "of a video, 1 to 100 [65]");
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
-             "textures of the whole glass, as maps/%05d.png: three\n"
-             "files a frame, -normal, -thickness and -velocity");
+             "textures of the whole glass, as maps/%05d.png or .exr:\n"
+             "three files a frame, -normal, -thickness and -velocity");
     line.add(kOut, "--map-width", "N", "of those, in pixels [2048]");
     line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "of those, only droplets that move");
@@ -247,6 +255,7 @@ void readSize(const Given& given, droplet::ViewOptions& view)
 void readView(const CommandLine& line, WindshieldOptions& options)
 {
     options.background = text(line, "--background");
+    options.environment = text(line, "--environment");
     options.fit = line.flag("--fit");
     if (const auto size = line.value("--size")) {
         readSize(*size, options.view);
@@ -255,6 +264,7 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     if (options.fit && !options.background) {
         refuse("--fit needs a --background");
     }
+    take(line, "--background-blur", kBlur, options.view.background_blur);
     take(line, "--field-of-view", kView, options.view.field_of_view);
     take(line, "--eye-distance", kEye, options.view.eye_distance);
     options.view.eye = placeOf(line, "--eye");
@@ -279,11 +289,24 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     }
 }
 
-void requirePng(const std::string& path, const Given& given)
+/// How long the shutter is open for a frame.
+void readShutter(const CommandLine& line, WindshieldOptions& options)
 {
-    if (std::filesystem::path(path).extension() != ".png") {
-        refuse(given, "a path that ends in .png");
+    const auto given = line.value("--shutter");
+    if (!given) {
+        return;
     }
+    constexpr const char* kWords = "from 0deg to 360deg, or a number from 0 to 1";
+    double share = 0.0;
+    if (const auto plain = finiteNumber(given->text)) {
+        share = *plain;
+    } else {
+        share = quantity(*given, {Dimension::Angle, 0.0, 360.0 * kDegree, kWords}) / (360.0 * kDegree);
+    }
+    if (share < 0.0 || share > 1.0) {
+        refuse(*given, kWords);
+    }
+    options.view.open_time = share / options.frames_per_second;
 }
 
 void readOutputs(const CommandLine& line, WindshieldOptions& options)
@@ -313,7 +336,11 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         if (!options.maps) {
             refuse(*maps, "a path with one %d or %04d, for the number, in the file's name");
         }
-        requirePng(maps->text, *maps);
+        const std::string extension = std::filesystem::path(maps->text).extension().string();
+        if (extension != ".png" && extension != ".exr") {
+            refuse(*maps, "a path that ends in .png or .exr");
+        }
+        options.are_maps_exr = extension == ".exr";
     } else if (line.value("--map-width")) {
         refuse("--map-width needs --maps");
     }
@@ -371,6 +398,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     if (const auto rate = line.value("--fps")) {
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
+    readShutter(line, options);
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }

@@ -30,11 +30,13 @@ struct WindshieldOptions {
     droplet::ViewOptions view;    ///< but for a size that is not asked for
     bool sized = false;
     std::optional<std::string> background;
+    std::optional<std::string> environment;
     bool fit = false;  ///< scale and crop the background
     bool layer = false;
     std::optional<std::string> codec;
     double quality = kVideoQuality;  ///< of a video, 1 … 100
     std::optional<NumberedPath> maps;
+    bool are_maps_exr = false;  ///< otherwise PNG
     droplet::GlassMapOptions map;
     std::optional<double> duration;  ///< [s]
     double warm_up = 10.0;           ///< [s]

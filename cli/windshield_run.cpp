@@ -62,7 +62,7 @@ private:
 };
 
 WindshieldRun::WindshieldRun(const WindshieldOptions& options)
-    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters.glass)
+    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters)
 {
     checkFrameFiles(options_, plan_.frames);
     if (options_.files) {
@@ -72,6 +72,7 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options)
     report_.drive_cycle = options_.drive_cycle;
     report_.surface = options_.surface;
     report_.background = options_.background;
+    report_.environment = options_.environment;
     report_.output = options_.output;
     report_.parameters = plan_.parameters;
     report_.view = frames_.view();
@@ -220,7 +221,8 @@ void WindshieldRun::run()
             scene_->add(state_);
         }
         if (played_ >= drawn_before_ || !hasFrame(options_, played_ + 1)) {
-            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames, travelled_);
+            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames,
+                         {travelled_, plan_.parameters.vehicle.speedAt(state_.time)});
         } else {
             frames_.skip(1);
         }

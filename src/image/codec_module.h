@@ -26,4 +26,10 @@ using DropletDecode = DropletOutcome(const void* encoded, std::size_t size, std:
                                      DropletPicture* picture);
 
 using DropletRelease = void(DropletPicture* picture);
+
+/// Encodes 32-bit floats as OpenEXR, silently.
+/// @param channels  1 grey, 3 red, green, blue
+/// @param picture   takes the file's bytes as `pixels`, so many as its width; for dropletRelease
+using DropletEncodeExr = DropletOutcome(const float* values, int width, int height, int channels,
+                                        DropletPicture* picture);
 }

@@ -13,10 +13,12 @@
 #include <cstring>
 #include <new>
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "droplet/error.h"
+#include "image/exr.h"
 #include "image/image.h"
 #include "image/image_file.h"
 #include "picture/tone.h"
@@ -151,6 +153,13 @@ std::vector<Tap> tapsOf(int old_side, int new_side, double from, double scale)
     return taps;
 }
 
+void requireChannels(int channels)
+{
+    if (channels != 1 && channels != 3) {
+        throw Error(ErrorCode::InvalidArgument, "channels " + std::to_string(channels) + " must be 1 or 3");
+    }
+}
+
 }  // namespace
 
 void Picture::validate() const
@@ -165,10 +174,23 @@ void Layer::validate() const
 
 void DeepPicture::validate() const
 {
-    if (channels != 1 && channels != 3) {
-        throw Error(ErrorCode::InvalidArgument, "channels " + std::to_string(channels) + " must be 1 or 3");
-    }
+    requireChannels(channels);
     requireCount("levels", levels.size(), width, height, channels);
+}
+
+void FloatPicture::validate() const
+{
+    requireChannels(channels);
+    requireCount("values", values.size(), width, height, channels);
+}
+
+std::uint64_t writeExr(const FloatPicture& picture, std::ostream& out)
+{
+    picture.validate();
+    const std::vector<std::byte> file =
+        encodeExr({picture.width, picture.height, picture.channels, std::span(picture.values)});
+    out.write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+    return file.size();
 }
 
 std::uint64_t writePng(const Picture& picture, std::ostream& out, PngEffort effort)

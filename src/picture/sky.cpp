@@ -6,29 +6,14 @@
 #include <cstddef>
 #include <numbers>
 
+#include "picture/panorama.h"
+
 namespace droplet {
 namespace {
 
 constexpr int kColumns = 64;
 constexpr int kRows = 32;
 constexpr double kPi = std::numbers::pi;
-
-Vec3f radianceAt(const Environment& environment, int column, int row)
-{
-    const auto& [x, y, z] =
-        environment.radiance[static_cast<std::size_t>(row) * static_cast<std::size_t>(environment.width) +
-                             static_cast<std::size_t>(column)];
-    return {x, y, z};
-}
-
-/// The direction of a place on the picture, both from 0 to 1.
-Vec3f directionOf(double across, double down)
-{
-    const double longitude = 2.0 * kPi * (across - 0.5);
-    const double latitude = kPi * (0.5 - down);
-    return toFloats(
-        {std::cos(latitude) * std::sin(longitude), std::cos(latitude) * std::cos(longitude), std::sin(latitude)});
-}
 
 }  // namespace
 
@@ -47,7 +32,7 @@ Sky::Sky(const Environment& environment, float irradiance) : environment_(enviro
         for (int x = 0; x < environment.width; ++x) {
             const double across = (x + 0.5) / environment.width;
             const Vec3f radiance = radianceAt(environment, x, y);
-            const Vec3f toward = directionOf(across, down);
+            const Vec3f toward = directionOf({across, down});
             Sum& sum =
                 sums[static_cast<std::size_t>(down * kRows) * kColumns + static_cast<std::size_t>(across * kColumns)];
             const auto share = static_cast<float>(angle);
@@ -73,21 +58,7 @@ Sky::Sky(const Environment& environment, float irradiance) : environment_(enviro
 
 Vec3f Sky::at(Vec3f direction) const
 {
-    const double across =
-        std::atan2(static_cast<double>(direction.x), static_cast<double>(direction.y)) / (2.0 * kPi) + 0.5;
-    const double down = 0.5 - std::asin(std::clamp(static_cast<double>(direction.z), -1.0, 1.0)) / kPi;
-    const double x = across * environment_.width - 0.5;
-    const double y = std::clamp(down * environment_.height - 0.5, 0.0, environment_.height - 1.0);
-    const int left = static_cast<int>(std::floor(x));
-    const int top = static_cast<int>(y);
-    const int below = std::min(top + 1, environment_.height - 1);
-    const auto wrapped = [&](int column) { return (column + environment_.width) % environment_.width; };
-    const auto fx = static_cast<float>(x - left);
-    const auto fy = static_cast<float>(y - top);
-    const auto row = [&](int r) {
-        return mix(radianceAt(environment_, wrapped(left), r), radianceAt(environment_, wrapped(left + 1), r), fx);
-    };
-    return mix(row(top), row(below), fy);
+    return radianceFrom(environment_, direction);
 }
 
 }  // namespace droplet

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
+#include "picture/panorama.h"
 #include "picture/tone.h"
 
 namespace droplet {
@@ -34,9 +36,7 @@ float highlight(float level)
     return smoothstep(0.8F, 1.0F, level);
 }
 
-/// Lamps saturate a picture; how bright they are is lost. Through a droplet, which makes them small, they would look
-/// dull: they are taken for brighter. Lamps are few; where much of the picture is bright, that is daylight, which
-/// saturates nothing.
+/// Lamps are few; where much of the picture is bright, that is daylight, which saturates nothing.
 float boostFor(const Picture& picture)
 {
     constexpr std::size_t kEvery = 8;
@@ -52,7 +52,28 @@ float boostFor(const Picture& picture)
     return 3.0F * (1.0F - smoothstep(0.04F, 0.2F, static_cast<float>(bright / static_cast<double>(count))));
 }
 
+template <typename Work>
+void forRows(int rows, const Work& work)
+{
+    constexpr int kRowsWorthAThread = 16;
+    tbb::parallel_for(tbb::blocked_range<int>(0, rows, kRowsWorthAThread), [&](const auto& range) {
+        for (int y = range.begin(); y < range.end(); ++y) {
+            work(static_cast<std::size_t>(y));
+        }
+    });
+}
+
 }  // namespace
+
+Highlights::Highlights(const Picture& picture, float exposure, std::optional<double> boost)
+    : exposure_(exposure), boost_(boost ? static_cast<float>(*boost) : boostFor(picture))
+{
+}
+
+float Highlights::times(float level) const
+{
+    return exposure_ * (1.0F + boost_ * highlight(level));
+}
 
 Backdrop::Backdrop(int width, int height, float half_width, float half_height)
     : half_width_(half_width), half_height_(half_height)
@@ -64,33 +85,91 @@ Backdrop::Backdrop(int width, int height, float half_width, float half_height)
         w = (w + 1) / 2;
         h = (h + 1) / 2;
         pixel *= 2.0F;
-        levels_.push_back({w, h, static_cast<float>(width) / pixel / 65536.0F,
-                           static_cast<float>(height) / pixel / 65536.0F, light_.size()});
-        light_.resize(light_.size() + static_cast<std::size_t>(w) * static_cast<std::size_t>(h), four(0.0F));
+        addLevel(w, h, static_cast<float>(width) / pixel, static_cast<float>(height) / pixel);
     } while (w > 1 || h > 1);
+    picture_levels_ = levels_.size();
 }
 
-void Backdrop::take(const Picture& picture, float exposure, std::optional<double> boost)
+Backdrop::Level& Backdrop::addLevel(int width, int height, float across, float down)
+{
+    levels_.push_back({width, height, across / 65536.0F, down / 65536.0F, light_.size()});
+    light_.resize(light_.size() + static_cast<std::size_t>(width) * static_cast<std::size_t>(height), four(0.0F));
+    return levels_.back();
+}
+
+void Backdrop::surround(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all)
+{
+    frame_ = frame;
+    is_all_around_ = is_all;
+    light_.resize(levels_[picture_levels_ - 1].first + 1);
+    levels_.resize(picture_levels_);
+    // As many pixels as there are, but for those that no droplet shows.
+    constexpr int kWidest = 4096;
+    int every = 1;
+    while (environment.width / every > kWidest) {
+        every *= 2;
+    }
+    int w = (environment.width + every - 1) / every;
+    int h = (environment.height + every - 1) / every;
+    float pixel = static_cast<float>(every);
+    const std::size_t first = levels_.size();
+    for (bool is_first = true; is_first || w > 1 || h > 1; is_first = false) {
+        if (!is_first) {
+            w = (w + 1) / 2;
+            h = (h + 1) / 2;
+            pixel *= 2.0F;
+        }
+        addLevel(w, h, static_cast<float>(environment.width) / pixel, static_cast<float>(environment.height) / pixel);
+        if (!is_first) {
+            halve(levels_.size() - 1);
+            continue;
+        }
+        Four* const to = light_.data() + levels_.back().first;
+        tbb::parallel_for(0, h, [&](int y) {
+            for (int x = 0; x < w; ++x) {
+                Vec3f sum;
+                float count = 0.0F;
+                for (int j = y * every; j < std::min((y + 1) * every, environment.height); ++j) {
+                    for (int i = x * every; i < std::min((x + 1) * every, environment.width); ++i, ++count) {
+                        sum = sum + radianceAt(environment, i, j);
+                    }
+                }
+                const float share = exposure / count;
+                to[static_cast<std::ptrdiff_t>(y) * w + x] = Four{share * sum.x, share * sum.y, share * sum.z, 1.0F};
+            }
+        });
+    }
+    // Pixels of the picture and of what is around it, as angles.
+    constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
+    around_.clear();
+    for (std::size_t k = 0; k < picture_levels_; ++k) {
+        const float angle = 2.0F * half_width_ / (65536.0F * levels_[k].across);
+        std::size_t level = first;
+        while (level + 1 < levels_.size() && 1.41F * kRound / (65536.0F * levels_[level].across) < angle) {
+            ++level;
+        }
+        around_.push_back(static_cast<std::uint8_t>(level));
+    }
+}
+
+PlaceInPicture Backdrop::placeAround(Vec3f direction, std::uint8_t level) const
+{
+    const PanoramaPlace place = placeOnPanorama(unit(frame_.toCar(direction)));
+    return {level16(static_cast<float>(place.across)), level16(static_cast<float>(place.down)), around_[level]};
+}
+
+void Backdrop::take(const Picture& picture, const Highlights& highlights)
 {
     const float* const light = lightOfSums().data();
-    const float most = boost ? static_cast<float>(*boost) : boostFor(picture);
     // By its brightest channel, times which all light of a pixel is taken.
     Sums times{};
     for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i] = exposure * (1.0F + most * highlight(static_cast<float>(i) / static_cast<float>(kSums - 1)));
+        times[i] = highlights.times(static_cast<float>(i) / static_cast<float>(kSums - 1));
     }
     const auto width = static_cast<std::size_t>(picture.width);
     const auto height = static_cast<std::size_t>(picture.height);
     const Level& first = levels_.front();
-    const auto for_rows = [](const Level& level, const auto& work) {
-        constexpr int kRowsWorthAThread = 16;
-        tbb::parallel_for(tbb::blocked_range<int>(0, level.height, kRowsWorthAThread), [&](const auto& rows) {
-            for (int y = rows.begin(); y < rows.end(); ++y) {
-                work(static_cast<std::size_t>(y));
-            }
-        });
-    };
-    for_rows(first, [&](std::size_t y) {
+    forRows(first.height, [&](std::size_t y) {
         const std::uint8_t* const upper = picture.rgb.data() + 3 * width * (2 * y);
         const std::uint8_t* const lower = 2 * y + 1 < height ? upper + 3 * width : upper;
         Four* const to = light_.data() + y * static_cast<std::size_t>(first.width);
@@ -107,20 +186,25 @@ void Backdrop::take(const Picture& picture, float exposure, std::optional<double
             to[x] = Four{share * light[red], share * light[green], share * light[blue], 1.0F};
         }
     });
-    for (std::size_t k = 1; k < levels_.size(); ++k) {
-        const Level& from = levels_[k - 1];
-        const Level& level = levels_[k];
-        for_rows(level, [&](std::size_t y) {
-            const Four* const upper = light_.data() + from.first + 2 * y * static_cast<std::size_t>(from.width);
-            const Four* const lower = 2 * y + 1 < static_cast<std::size_t>(from.height) ? upper + from.width : upper;
-            Four* const to = light_.data() + level.first + y * static_cast<std::size_t>(level.width);
-            for (std::size_t x = 0; x < static_cast<std::size_t>(level.width); ++x) {
-                const std::size_t a = 2 * x;
-                const std::size_t b = a + 1 < static_cast<std::size_t>(from.width) ? a + 1 : a;
-                to[x] = four(0.25F) * ((upper[a] + upper[b]) + (lower[a] + lower[b]));
-            }
-        });
+    for (std::size_t k = 1; k < picture_levels_; ++k) {
+        halve(k);
     }
+}
+
+void Backdrop::halve(std::size_t number)
+{
+    const Level& from = levels_[number - 1];
+    const Level& level = levels_[number];
+    forRows(level.height, [&](std::size_t y) {
+        const Four* const upper = light_.data() + from.first + 2 * y * static_cast<std::size_t>(from.width);
+        const Four* const lower = 2 * y + 1 < static_cast<std::size_t>(from.height) ? upper + from.width : upper;
+        Four* const to = light_.data() + level.first + y * static_cast<std::size_t>(level.width);
+        for (std::size_t x = 0; x < static_cast<std::size_t>(level.width); ++x) {
+            const std::size_t a = 2 * x;
+            const std::size_t b = a + 1 < static_cast<std::size_t>(from.width) ? a + 1 : a;
+            to[x] = four(0.25F) * ((upper[a] + upper[b]) + (lower[a] + lower[b]));
+        }
+    });
 }
 
 }  // namespace droplet

@@ -14,6 +14,7 @@
 #include "picture/tone.h"
 #include "require.h"
 #include "view/backdrop.h"
+#include "view/scattered.h"
 
 namespace droplet {
 namespace {
@@ -45,18 +46,6 @@ struct Streak {
     float length = 0.0F;
     Vec3f radiance;
 };
-
-/// From 0 to 1, the same for the same number.
-float scattered(std::uint32_t n)
-{
-    // C. Wellons, "Prospecting for Hash Functions" (2018): lowbias32.
-    n ^= n >> 16;
-    n *= 0x7feb352dU;
-    n ^= n >> 15;
-    n *= 0x846ca68bU;
-    n ^= n >> 16;
-    return static_cast<float>(n >> 8) / 16777216.0F;
-}
 
 /// What stays as it is wherever the car is: sky, verges, road and the lines along it.
 class Scenery {
@@ -140,7 +129,13 @@ private:
 /// What moves as the car does, as it is at one place.
 class Lights {
 public:
-    Lights(float spread, double travelled) : travelled_(travelled), spread_(spread) { light(); }
+    /// @param pixel   a tangent
+    /// @param passed  how far the car comes while the shutter is open [m]
+    Lights(float spread, float pixel, double travelled, double passed)
+        : travelled_(travelled), passed_(static_cast<float>(passed)), spread_(spread), pixel_(pixel)
+    {
+        light();
+    }
 
     [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
     [[nodiscard]] const std::vector<Streak>& streaks() const { return streaks_; }
@@ -156,7 +151,16 @@ public:
             return kDash * whole + std::min(way - kPeriod * whole, kDash);
         };
         const float middle = depth + passed(kPeriod);
-        return (painted(middle + soft) - painted(middle - soft)) / (2.0F * soft);
+        const auto share = [&](float at) { return (painted(at + soft) - painted(at - soft)) / (2.0F * soft); };
+        if (passed_ == 0.0F) {
+            return share(middle);
+        }
+        constexpr int kMoments = 16;
+        float sum = 0.0F;
+        for (int k = 0; k < kMoments; ++k) {
+            sum += share(middle + passed_ * ((static_cast<float>(k) + 0.5F) / kMoments - 0.5F));
+        }
+        return sum / kMoments;
     }
 
 private:
@@ -167,19 +171,46 @@ private:
         return static_cast<float>(way < 0.0 ? way + period : way);
     }
 
-    /// A light in the open, and what the road shows of it.
-    void add(float across, float height, float depth, float size, Vec3f radiance, float mirrored_share)
+    /// A light in the open.
+    struct Lamp {
+        float across = 0.0F;  ///< [m]
+        float height = 0.0F;  ///< [m]
+        float depth = 0.0F;   ///< [m]
+        float size = 0.0F;    ///< [m]
+        Vec3f radiance;
+        float mirrored_share = 0.0F;  ///< by the road
+        float rate = 1.0F;            ///< at which it comes nearer, over the car's speed
+    };
+
+    /// Adds a lamp and what the road shows of it, at as many moments as its way takes while the shutter is open.
+    void add(const Lamp& lamp)
     {
-        const Tangents at{across / depth, (height - kEye) / depth};
+        const float way = passed_ * lamp.rate;
+        const float far = std::max(lamp.depth - 0.5F * way, 1.0F);
+        const float shift = way / (far * far) * std::hypot(lamp.across, lamp.height + kEye);
+        constexpr float kApart = 2.0F;  // [px]
+        constexpr float kMost = 32.0F;
+        const float moments = std::clamp(std::ceil(shift / (kApart * pixel_)), 1.0F, kMost);
+        for (float k = 0.0F; k < moments; ++k) {
+            Lamp there = lamp;
+            there.depth = std::max(lamp.depth + way * ((k + 0.5F) / moments - 0.5F), 1.0F);
+            there.radiance = (1.0F / moments) * lamp.radiance;
+            addOne(moments > 1.0F ? there : lamp);
+        }
+    }
+
+    void addOne(const Lamp& lamp)
+    {
+        const Tangents at{lamp.across / lamp.depth, (lamp.height - kEye) / lamp.depth};
         // Out of focus a point's light is spread out; what is larger than that looks it.
-        const float radius = std::hypot(spread_, size / depth);
-        discs_.push_back({at, radius, radiance});
-        if (mirrored_share > 0.0F) {
-            const float drop = (height + kEye) / depth;
+        const float radius = std::hypot(spread_, lamp.size / lamp.depth);
+        discs_.push_back({at, radius, lamp.radiance});
+        if (lamp.mirrored_share > 0.0F) {
+            const float drop = (lamp.height + kEye) / lamp.depth;
             streaks_.push_back({{at.right, -drop - 0.012F},
                                 1.1F * radius,
                                 std::max(2.0F * radius, 0.45F * drop),
-                                mirrored_share * radiance});
+                                lamp.mirrored_share * lamp.radiance});
         }
     }
 
@@ -194,23 +225,24 @@ private:
             const float depth = kLamps * static_cast<float>(k) - passed(kLamps);
             const float dim = (1.0F - smoothstep(250.0F, kFarthest, depth)) * smoothstep(9.0F, 14.0F, depth);
             if (dim > 0.0F) {
-                add(4.6F, 7.5F, depth, 0.12F, dim * sodium, 0.16F);
-                add(-8.1F, 7.5F, depth + 0.5F * kLamps, 0.12F, dim * sodium, 0.12F);
+                add({4.6F, 7.5F, depth, 0.12F, dim * sodium, 0.16F});
+                add({-8.1F, 7.5F, depth + 0.5F * kLamps, 0.12F, dim * sodium, 0.12F});
             }
         }
         // Cars ahead keep their distance; those that come are met at the sum of both speeds.
         constexpr float kTrain = 150.0F;
         for (const float depth : {21.0F, 52.0F, 96.0F}) {
             for (const float side : {-0.68F, 0.68F}) {
-                add(0.15F + side, 0.85F, depth, 0.09F, red, 0.22F);
+                add({0.15F + side, 0.85F, depth, 0.09F, red, 0.22F, 0.0F});
             }
         }
+        constexpr float kMet = 1.9F;
         for (const float place : {38.0F, 71.0F, 140.0F}) {
             const float gap = std::fmod(place - passed(kTrain, 1.9) + kTrain, kTrain);
             const float depth = gap + 9.0F;
             const float near = smoothstep(9.0F, 13.0F, depth) * (1.0F - smoothstep(140.0F, 158.0F, depth));
             for (const float side : {-0.66F, 0.66F}) {
-                add(-kLane + side, 0.7F, depth, 0.10F, near * white, 0.30F);
+                add({-kLane + side, 0.7F, depth, 0.10F, near * white, 0.30F, kMet});
             }
         }
         // A village: windows and signs at both sides, of all the colours that electric light has.
@@ -227,16 +259,18 @@ private:
                                : warm < 0.92F ? Vec3f{0.25F, 0.85F, 0.62F}
                                               : Vec3f{1.10F, 0.25F, 0.30F};
             const float dim = smoothstep(24.0F, 34.0F, depth) * (1.0F - smoothstep(200.0F, kVillage + 24.0F, depth));
-            add(across, 1.2F + 5.0F * scattered(7 * k + 3), depth, 0.25F,
-                dim * (0.25F + 0.55F * scattered(7 * k + 5)) * tint, 0.0F);
+            add({across, 1.2F + 5.0F * scattered(7 * k + 3), depth, 0.25F,
+                 dim * (0.25F + 0.55F * scattered(7 * k + 5)) * tint, 0.0F});
         }
         // Traffic lights, far ahead.
-        add(3.2F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.15F);
-        add(-6.9F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.12F);
+        add({3.2F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.15F, 0.0F});
+        add({-6.9F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.12F, 0.0F});
     }
 
     double travelled_;
+    float passed_;
     float spread_;
+    float pixel_;
     std::vector<Disc> discs_;
     std::vector<Streak> streaks_;
 };
@@ -434,11 +468,12 @@ DefaultBackground::~DefaultBackground() = default;
 DefaultBackground::DefaultBackground(DefaultBackground&&) noexcept = default;
 DefaultBackground& DefaultBackground::operator=(DefaultBackground&&) noexcept = default;
 
-Picture DefaultBackground::at(double travelled) const
+Picture DefaultBackground::at(double travelled, double passed) const
 {
     require(std::isfinite(travelled), "travelled", travelled, "finite");
+    require(passed >= 0.0 && passed <= 100.0, "passed", passed, "from 0 to 100 m");
     const Content& content = *content_;
-    const Lights lights(content.spread, travelled);
+    const Lights lights(content.spread, content.pixel, travelled, passed);
     Picture picture = content.still;
     const auto width = static_cast<std::size_t>(picture.width);
     constexpr int kRowsWorthAThread = 8;

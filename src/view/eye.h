@@ -7,6 +7,7 @@
 #include "droplet/vector.h"
 #include "droplet/view/view.h"
 #include "picture/optics.h"
+#include "view/backdrop.h"
 #include "view/glass_frame.h"
 
 namespace droplet {
@@ -30,11 +31,21 @@ public:
         return {turned(place.point - position_), turned(place.normal), turned(place.across), turned(place.up)};
     }
 
+    /// How the frame lies in the car's frame.
+    [[nodiscard]] PictureFrame frame() const { return {toFloats(right_), toFloats(ahead_), toFloats(up_)}; }
+
     /// Direction of a pixel's ray, unit, as it is for the eye.
     [[nodiscard]] Vec3f ray(int x, int y) const
     {
         return unit({tangent_ * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(width_)), 1.0F,
                      tangent_ * (0.5F * static_cast<float>(height_) - static_cast<float>(y) - 0.5F)});
+    }
+    /// Direction of a place in the frame, not unit.
+    /// @param x, y  from its upper left corner [px]
+    [[nodiscard]] Vec3f rayAt(float x, float y) const
+    {
+        return {tangent_ * (x - 0.5F * static_cast<float>(width_)), 1.0F,
+                tangent_ * (0.5F * static_cast<float>(height_) - y)};
     }
     /// A pixel's number, row by row.
     [[nodiscard]] std::size_t at(int x, int y) const

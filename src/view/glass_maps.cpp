@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -164,25 +166,12 @@ std::vector<Drop> dropsOf(const WindshieldState& state, const ShapeOptions& opti
     return drops;
 }
 
-}  // namespace
-
-void GlassMapOptions::validate() const
+/// Adds up what pixels hold and calls take(row, its pixels), in parallel, once for each row.
+template <typename Take>
+void forRows(const Raster& raster, const std::vector<Drop>& drops, const Take& take)
 {
-    requireWithin("width", width, 16, 8192);
-    shape.validate();
-    require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
-    require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");
-}
-
-GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
-{
-    options.validate();
-    const Raster raster(glass, options.width);
     const int width = raster.width();
     const int height = raster.height();
-    require(height <= 8192, "height", height, "at most 8192: ask for less width");
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const std::vector<Drop> drops = dropsOf(state, options.shape);
     std::vector<double> shares(drops.size());
     tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t k) { shares[k] = raster.shareOf(drops[k]); });
     // Bands of rows, each with the droplets that reach into it.
@@ -195,10 +184,6 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
             in_band[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
         }
     }
-    GlassMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
-    maps.normal.levels.resize(3 * pixels);
-    maps.thickness.levels.resize(pixels);
-    maps.velocity.levels.resize(3 * pixels);
     tbb::parallel_for(0, bands, [&](int band) {
         const int top = band * kBand;
         const int bottom = std::min(top + kBand, height) - 1;
@@ -220,32 +205,99 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
                 });
         }
         for (int row = top; row <= bottom; ++row) {
-            // What rounding leaves over goes to the next wet pixel of the row, lest thin water vanish.
-            double left_over = 0.0;
-            for (int column = 0; column < width; ++column) {
-                const Pixel& pixel = sums[static_cast<std::size_t>(row - top) * static_cast<std::size_t>(width) +
-                                          static_cast<std::size_t>(column)];
-                const std::size_t at =
-                    static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-                std::uint16_t* const normal = &maps.normal.levels[3 * at];
-                const double up = pixel.up + std::max(1.0 - pixel.cover, 0.0);
-                const double size = std::sqrt(dot(pixel.slope, pixel.slope) + up * up);
-                normal[0] = signedLevel(pixel.slope.x / size);
-                normal[1] = signedLevel(pixel.slope.y / size);
-                normal[2] = signedLevel(up / size);
-                if (pixel.thickness > 0.0) {
-                    const double wanted = pixel.thickness + left_over;
-                    maps.thickness.levels[at] = unsignedLevel(wanted / options.full_thickness);
-                    const double held = maps.thickness.levels[at] / 65535.0 * options.full_thickness;
-                    left_over =
-                        std::clamp(wanted - held, -options.full_thickness / 65535.0, options.full_thickness / 65535.0);
-                }
-                const Vec2 velocity = pixel.runs > 0.0 ? (1.0 / pixel.runs) * pixel.velocity : Vec2{};
-                std::uint16_t* const motion = &maps.velocity.levels[3 * at];
-                motion[0] = signedLevel(velocity.x / options.full_speed);
-                motion[1] = signedLevel(velocity.y / options.full_speed);
-                motion[2] = unsignedLevel(pixel.runs);
+            take(row, std::span(sums).subspan(static_cast<std::size_t>(row - top) * static_cast<std::size_t>(width),
+                                              static_cast<std::size_t>(width)));
+        }
+    });
+}
+
+Raster rasterFor(const Glass& glass, const GlassMapOptions& options)
+{
+    options.validate();
+    Raster raster(glass, options.width);
+    require(raster.height() <= 8192, "height", raster.height(), "at most 8192: ask for less width");
+    return raster;
+}
+
+/// The mean normal of what a pixel holds, of length 1.
+std::array<double, 3> normalOf(const Pixel& pixel)
+{
+    const double up = pixel.up + std::max(1.0 - pixel.cover, 0.0);
+    const double size = std::sqrt(dot(pixel.slope, pixel.slope) + up * up);
+    return {pixel.slope.x / size, pixel.slope.y / size, up / size};
+}
+
+Vec2 velocityOf(const Pixel& pixel)
+{
+    return pixel.runs > 0.0 ? (1.0 / pixel.runs) * pixel.velocity : Vec2{};
+}
+
+}  // namespace
+
+void GlassMapOptions::validate() const
+{
+    requireWithin("width", width, 16, 8192);
+    shape.validate();
+    require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
+    require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");
+}
+
+GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
+{
+    const Raster raster = rasterFor(glass, options);
+    const int width = raster.width();
+    const int height = raster.height();
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    GlassMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
+    maps.normal.levels.resize(3 * pixels);
+    maps.thickness.levels.resize(pixels);
+    maps.velocity.levels.resize(3 * pixels);
+    forRows(raster, dropsOf(state, options.shape), [&](int row, std::span<const Pixel> held) {
+        // What rounding leaves over goes to the next wet pixel of the row, lest thin water vanish.
+        double left_over = 0.0;
+        std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
+        for (const Pixel& pixel : held) {
+            const std::array<double, 3> normal = normalOf(pixel);
+            std::transform(normal.begin(), normal.end(), maps.normal.levels.data() + 3 * at, signedLevel);
+            if (pixel.thickness > 0.0) {
+                const double wanted = pixel.thickness + left_over;
+                maps.thickness.levels[at] = unsignedLevel(wanted / options.full_thickness);
+                const double in_map = maps.thickness.levels[at] / 65535.0 * options.full_thickness;
+                left_over =
+                    std::clamp(wanted - in_map, -options.full_thickness / 65535.0, options.full_thickness / 65535.0);
             }
+            const Vec2 velocity = velocityOf(pixel);
+            std::uint16_t* const motion = &maps.velocity.levels[3 * at];
+            motion[0] = signedLevel(velocity.x / options.full_speed);
+            motion[1] = signedLevel(velocity.y / options.full_speed);
+            motion[2] = unsignedLevel(pixel.runs);
+            ++at;
+        }
+    });
+    return maps;
+}
+
+GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
+{
+    const Raster raster = rasterFor(glass, options);
+    const int width = raster.width();
+    const int height = raster.height();
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    GlassFloatMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
+    maps.normal.values.resize(3 * pixels);
+    maps.thickness.values.resize(pixels);
+    maps.velocity.values.resize(3 * pixels);
+    forRows(raster, dropsOf(state, options.shape), [&](int row, std::span<const Pixel> held) {
+        std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
+        for (const Pixel& pixel : held) {
+            const std::array<double, 3> normal = normalOf(pixel);
+            const Vec2 velocity = velocityOf(pixel);
+            const std::array<double, 3> motion{velocity.x, velocity.y, std::min(pixel.runs, 1.0)};
+            const auto narrow = [](double value) { return static_cast<float>(value); };
+            std::transform(normal.begin(), normal.end(), maps.normal.values.data() + 3 * at, narrow);
+            std::transform(motion.begin(), motion.end(), maps.velocity.values.data() + 3 * at, narrow);
+            maps.thickness.values[at] = narrow(pixel.thickness);
+            ++at;
         }
     });
     return maps;

@@ -20,7 +20,9 @@ struct RunningRays::Traced {
     float wide = 0.0F;            ///< radius of what is seen of the ends [m]
     std::uint8_t level = 0;       ///< of the backdrop
     std::uint8_t calm_level = 0;  ///< where there is one ray a pixel
-    int left = 0;                 ///< pixels it may reach
+    int moment = 0;
+    bool is_passing = false;  ///< so many moments make up for one ray a pixel
+    int left = 0;             ///< pixels it may reach
     int right = -1;
     int top = 0;
     int bottom = -1;
@@ -44,20 +46,34 @@ void RunningRays::follow(const std::vector<RunningDroplet>& droplets)
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, droplets.size(), kWorthAThread), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             if (next[k].droplet.volume == 0.0) {
-                next[k].droplet = droplets[k];
-                next[k].parts = trace(prepared(droplets[k]));
+                next[k] = drawn(droplets[k]);
             }
         }
     });
     drawn_ = std::move(next);
-    for (std::vector<const std::vector<Ray>*>& rays : in_tiles_) {
+    for (std::vector<RaysInTile>& rays : in_tiles_) {
         rays.clear();
     }
     for (const Drawn& one : drawn_) {
         for (const Part& part : one.parts) {
-            in_tiles_[part.tile].push_back(&part.rays);
+            in_tiles_[part.tile].push_back({&part.rays, part.moment, one.moments});
         }
     }
+}
+
+RunningRays::Drawn RunningRays::drawn(const RunningDroplet& droplet) const
+{
+    Drawn result{droplet, sight_.momentsOf(droplet.position, length(droplet.velocity)), {}};
+    for (int moment = 0; moment < result.moments; ++moment) {
+        RunningDroplet there = droplet;
+        there.position = there.position + sight_.timeOf(moment, result.moments) * droplet.velocity;
+        Traced one = prepared(there);
+        one.moment = moment;
+        constexpr int kManyMoments = 4;
+        one.is_passing = result.moments >= kManyMoments;
+        trace(one, result.parts);
+    }
+    return result;
 }
 
 RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
@@ -120,20 +136,18 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     return one;
 }
 
-std::vector<RunningRays::Part> RunningRays::trace(const Traced& one) const
+void RunningRays::trace(const Traced& one, std::vector<Part>& parts) const
 {
-    std::vector<Part> parts;
     for (int r = one.top / kTile; r <= one.bottom / kTile && one.bottom >= 0; ++r) {
         for (int c = one.left / kTile; c <= one.right / kTile && one.right >= 0; ++c) {
             const auto number = static_cast<std::uint32_t>(sight_.tiles.number(c, r));
-            Part part{number, {}};
+            Part part{number, one.moment, {}};
             trace(one, c, r, part.rays);
             if (!part.rays.empty()) {
                 parts.push_back(std::move(part));
             }
         }
     }
-    return parts;
 }
 
 void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const
@@ -142,7 +156,7 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
     const ViewTile& tile = sight_.tiles[sight_.tiles.number(column, row)];
     const auto ior = static_cast<float>(options.ior);
     const int n = options.samples;
-    const float soft = tile.pixel / static_cast<float>(n);
+    const float soft = one.is_passing ? tile.pixel : tile.pixel / static_cast<float>(n);
     // In its middle a droplet is smooth: a ray a pixel does.
     const float calm = 0.6F * one.wide - tile.pixel;
     const auto beyond_line = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
@@ -179,13 +193,13 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
                 found.cover = level8(cover);
                 found.is_whole = is_whole;
                 if (met.reflected < 1.0F) {
-                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted));
-                    found.level = is_whole ? one.calm_level : one.level;
+                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted),
+                                                          is_whole ? one.calm_level : one.level);
                     found.light = level8(1.0F - met.reflected);
                 }
                 rays.push_back(found);
             };
-            if (far2 < calm * std::abs(calm)) {
+            if (one.is_passing || far2 < calm * std::abs(calm)) {
                 add(0.0F, 0.0F, true);
             } else {
                 for (int j = 0; j < n; ++j) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "droplet/view/view.h"
 #include "picture/tone.h"
@@ -43,6 +46,28 @@ struct Sight {
         constexpr float kShare = 0.8F;
         return backdrop.levelOf(kShare * static_cast<float>(options.width) /
                                 std::max(diameter * static_cast<float>(options.samples), 1.0F));
+    }
+
+    /// At how many moments something is looked at that moves while the shutter is open, so that it goes no further than
+    /// about a pixel from one to the next.
+    /// @return  a power of two
+    [[nodiscard]] int momentsOf(Vec2 position, double speed) const
+    {
+        const auto place = options.open_time > 0.0 && speed > 0.0 ? glass.place(position) : std::nullopt;
+        if (!place) {
+            return 1;
+        }
+        constexpr double kApart = 1.25;  // [px]
+        constexpr double kMost = 64.0;
+        const double pixel = static_cast<double>(eye.tangent()) * std::max(eye.seen(*place).point.y, 1e-3);
+        const double moments = std::ceil(speed * options.open_time / (kApart * pixel));
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(moments, 1.0, kMost))));
+    }
+
+    /// When one of the moments is, from the state's time [s].
+    [[nodiscard]] double timeOf(int moment, int moments) const
+    {
+        return options.open_time * ((moment + 0.5) / moments - 0.5);
     }
 
     ViewOptions options;

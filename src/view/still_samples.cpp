@@ -130,7 +130,7 @@ void StillSamples::sample(int column, int row, const ChangedCells& cells)
                             level = sight_.levelFor(2.0F * quarter * static_cast<float>(size) / tile.pixel);
                         }
                         const Vec3f outside = fromFrame(tile.frame, out.transmitted);
-                        sample.outside = sight_.backdrop.pixelAt(sight_.backdrop.placeOf(outside), level);
+                        sample.outside = sight_.backdrop.pixelAt(sight_.backdrop.placeOf(outside, level));
                     }
                     samples.push_back(sample);
                 }

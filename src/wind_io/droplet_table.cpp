@@ -3,9 +3,10 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <ostream>
 #include <string>
+
+#include "wind_io/whole_nanoseconds.h"
 
 namespace droplet {
 namespace {
@@ -14,11 +15,12 @@ constexpr std::array<const char*, 10> kColumns{
     "frame",     "time_s",           "id",      "x_m", "y_m", "velocity_x_m_per_s", "velocity_y_m_per_s",
     "volume_m3", "contact_radius_m", "length_m"};
 
-template <typename Number>
-void append(std::string& row, Number number)
+/// @param format  std::chars_format of a number that is none of counting
+template <typename Number, typename... Format>
+void append(std::string& row, Number number, Format... format)
 {
     std::array<char, 32> room{};
-    const auto end = std::to_chars(room.data(), room.data() + room.size(), number).ptr;
+    const auto end = std::to_chars(room.data(), room.data() + room.size(), number, format...).ptr;
     if (!row.empty() && row.back() != '[') {
         row += ',';
     }
@@ -43,7 +45,7 @@ DropletTable::DropletTable(std::ostream& out, TableFormat format, const ShapeOpt
 void DropletTable::add(std::size_t frame, const WindshieldState& state, DropletRows which)
 {
     std::string rows;
-    const double time = std::round(1e9 * state.time) / 1e9;
+    const double time = wholeNanoseconds(state.time);
     for (const RunningDroplet& droplet : state.droplets) {
         if (which == DropletRows::Moving && droplet.velocity == Vec2{}) {
             continue;
@@ -51,7 +53,7 @@ void DropletTable::add(std::size_t frame, const WindshieldState& state, DropletR
         const RunningShape shape = runningShape(droplet.volume, length(droplet.velocity), shape_);
         std::string row = format_ == TableFormat::Json ? "[" : "";
         append(row, frame);
-        append(row, time);
+        append(row, time, std::chars_format::fixed);
         append(row, droplet.id);
         for (const double number :
              {droplet.position.x, droplet.position.y, droplet.velocity.x, droplet.velocity.y, droplet.volume,

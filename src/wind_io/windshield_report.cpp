@@ -8,6 +8,7 @@
 
 #include "droplet/version.h"
 #include "io/report_sections.h"
+#include "wind_io/whole_nanoseconds.h"
 
 namespace droplet {
 namespace {
@@ -54,7 +55,7 @@ ReportJson forcesSection(const ForceModel& forces)
 ReportJson rowOf(const BalanceRow& row)
 {
     const WaterBalance& b = row.balance;
-    return {{"time_s", row.time},
+    return {{"time_s", wholeNanoseconds(row.time)},
             {"speed_m_per_s", row.speed},
             {"rained_m3", b.rained},
             {"on_glass_still_m3", b.on_glass_still},
@@ -110,6 +111,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
         {"count", parameters.wipers.size()},
         {"period_s", parameters.wipers.empty() ? ReportJson() : ReportJson(parameters.wipers.front().period)}};
     json["view"] = {{"background", orNull(report.background)},
+                    {"environment", orNull(report.environment)},
                     {"width_px", report.view.width},
                     {"height_px", report.view.height},
                     {"field_of_view_deg", report.view.field_of_view / kDegree},
@@ -117,6 +119,8 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"eye_m", placeOrNull(report.view.eye)},
                     {"look_at_m", placeOrNull(report.view.look_at)},
                     {"ior", report.view.ior},
+                    {"background_blur_deg", report.view.background_blur / kDegree},
+                    {"shutter_open_s", report.view.open_time},
                     {"exposure", report.view.exposure},
                     {"highlight_boost", orNull(report.view.highlight_boost)}};
     json["balance"] = ReportJson::array();

@@ -37,16 +37,21 @@ void Wiper::validate() const
 
 std::vector<Wiper> tandemWipers(const Glass& glass, double period)
 {
-    // Blades of half the glass's width rest along its lower edge, pivots at a sixteenth and nine sixteenths of it; both
-    // rise a little beyond upright. What is higher than wide limits them, else they would leave the glass.
+    // Blades of half the glass's width rest along its lower edge. What is higher than wide limits them, else they would
+    // leave the glass. One turns at the left pillar; the other one goes on into its field, so that what neither reaches
+    // lies in the corner at the right pillar and along the upper edge, not between them.
+    struct Half {
+        double pivot;  // share of the width
+        double last;   // [rad]
+    };
     std::vector<Wiper> wipers;
-    for (const double share : {1.0 / 16.0, 9.0 / 16.0}) {
+    for (const Half& half : {Half{1.0 / 16.0, 98.0 * kDegree}, Half{0.5, 135.0 * kDegree}}) {
         Wiper wiper;
-        wiper.pivot = {share * glass.width(), -0.03 * glass.height()};
-        wiper.outer = std::min((share < 0.5 ? 0.5 : 0.42) * glass.width(), 1.02 * glass.height());
+        wiper.pivot = {half.pivot * glass.width(), -0.03 * glass.height()};
+        wiper.outer = std::min(0.49 * glass.width(), 1.02 * glass.height());
         wiper.inner = 0.12 * wiper.outer;
         wiper.first = 4.0 * kDegree;
-        wiper.last = 98.0 * kDegree;
+        wiper.last = half.last;
         wiper.stroke = 1.2;
         wiper.period = period;
         wipers.push_back(wiper);

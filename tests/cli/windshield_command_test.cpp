@@ -119,12 +119,15 @@ TEST_F(WindshieldCommand, EverythingComesOut)
     std::filesystem::create_directory(path("f"));
     const CommandResult run = play(
         path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"),
-                           "--model", path("d.glb"), "--model-animation", "texture", "--json", "-", "--wiper", "1.5s"});
+                           "--model", path("d.glb"), "--model-animation", "texture", "--json", "-", "--wiper", "1.5s",
+                           "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
     EXPECT_EQ(report.at("output").at("frames"), 6);
     EXPECT_EQ(report.at("wipers").at("count"), 2);
+    EXPECT_NEAR(report.at("view").at("shutter_open_s").get<double>(), 1.0 / 60.0, 1e-12);
+    EXPECT_NEAR(report.at("view").at("background_blur_deg").get<double>(), 1.0, 1e-12);
     EXPECT_LT(report.at("largest_residual").get<double>(), 1e-9);
     EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
     EXPECT_NEAR(report.at("balance").back().at("time_s").get<double>(), 0.3 + 5.0 / 30.0, 1e-9);
@@ -141,6 +144,30 @@ TEST_F(WindshieldCommand, EverythingComesOut)
         EXPECT_EQ(png[24], 16) << "bits a channel";
     }
     EXPECT_EQ(readFile(path("f/1.png"))[25], 6) << "with alpha";
+    const CommandResult floats =
+        play(path("x.png"), {"--maps", path("f/m%d.exr"), "--map-width", "64", "--time", "0.04s"});
+    ASSERT_EQ(floats.exit_code, 0) << floats.error;
+    for (const char* map : {"normal", "thickness", "velocity"}) {
+        EXPECT_EQ(readFile(path(std::string("f/m1-") + map + ".exr")).substr(0, 4), "\x76\x2f\x31\x01");
+    }
+}
+
+TEST_F(WindshieldCommand, APanoramaIsAllOfTheBackground)
+{
+    std::ostringstream bytes;
+    writePng(grey(64, 32), bytes);
+    const std::string panorama = stored("panorama.png", bytes.str());
+    const CommandResult run = play(path("x.png"), {"--environment", panorama, "--rain", "0mm/h", "--look-at",
+                                                   "1m,1m,0m", "--json", path("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Picture seen = readPicture(path("x.png"));
+    ASSERT_EQ(seen.width, 96);
+    // Grey, but for what the pane takes.
+    for (const std::uint8_t level : seen.rgb) {
+        EXPECT_NEAR(level, 127, 1);
+    }
+    EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("view").at("environment"), panorama);
+    EXPECT_EQ(play(panorama, {"--environment", panorama}).exit_code, 2) << "input and output are one file";
 }
 
 TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
@@ -520,6 +547,7 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--drive-cycle", path("none.csv")}, 3, "none.csv");
     expectRefused({"--background", path("none.png")}, 3, "there is no such file");
     expectRefused({"--background", stored("bad.png", "no picture")}, 3, "bad.png");
+    expectRefused({"--environment", path("none.hdr")}, 3, "none.hdr");
     expectRefused({"--surface", path("none.glb")}, 3, "none.glb");
     expectRefused({"--surface", "glass.obj"}, 2, ".glb or .gltf");
     expectRefused({"--preset", "figure-9"}, 2, "figure-3.10");
@@ -532,6 +560,9 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--model", "m.glb", "--model-animation", "bones"}, 2, "--model-animation");
     expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
     expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
+    expectRefused({"--background-blur", "21deg"}, 2, "from 0deg to 20deg");
+    expectRefused({"--shutter", "400deg"}, 2, "from 0deg to 360deg, or a number from 0 to 1");
+    expectRefused({"--shutter", "1.5"}, 2, "from 0 to 1");
     expectRefused({"--look-at", "1m,2m"}, 2, "three lengths: to the right, ahead and up");
     expectRefused({"--look-at", "0m,-5m,0m"}, 2, "must be in front of the eye");
     expectRefused({"--fit"}, 2, "--background");
@@ -540,6 +571,7 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--wiper", "1s"}, 2, "from 1.2s to 60s");
     expectRefused({"--seed", "-1"}, 2, "whole number");
     expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");
+    expectRefused({"--maps", path("m%d.tif")}, 2, "ends in .png or .exr");
     const CommandResult format = play(path("x.gif"));
     EXPECT_EQ(format.exit_code, 2);
     EXPECT_THAT(format.errorLines(), ElementsAre(HasSubstr("out/%05d.png")));

@@ -124,5 +124,38 @@ TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
     EXPECT_THROW(covering(uneven, 5, 9000), Error);
 }
 
+// Every value comes back as it is, whatever its size, with colours in their places.
+TEST(FloatPicture, OpenExrHoldsItsValues)
+{
+    for (const int channels : {1, 3}) {
+        FloatPicture picture{37, 21, channels, {}};
+        for (int i = 0; i < 37 * 21 * channels; ++i) {
+            picture.values.push_back((i % 2 == 0 ? 1.0F : -1.0F) *
+                                     std::ldexp(1.0F + static_cast<float>(i) / 7919.0F, i % 60 - 40));
+        }
+        picture.values[5] = 0.0F;
+        std::ostringstream out;
+        const std::uint64_t count = writeExr(picture, out);
+        const std::string bytes = out.str();
+        EXPECT_EQ(count, bytes.size());
+        const cv::Mat read = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_UNCHANGED);
+        ASSERT_EQ(read.type(), CV_32FC(channels));
+        ASSERT_EQ(read.cols, 37);
+        ASSERT_EQ(read.rows, 21);
+        for (int i = 0; i < 37 * 21; ++i) {
+            for (int c = 0; c < channels; ++c) {
+                const float value = read.ptr<float>(i / 37)[channels * (i % 37) + (channels == 3 ? 2 - c : 0)];
+                EXPECT_EQ(value, picture.values[static_cast<std::size_t>(channels * i + c)]);
+            }
+        }
+        std::ostringstream again;
+        writeExr(picture, again);
+        EXPECT_TRUE(again.str() == bytes) << "the same bytes";
+    }
+    std::ostringstream out;
+    EXPECT_THROW(writeExr(FloatPicture{2, 2, 2, std::vector<float>(8)}, out), Error);
+    EXPECT_THROW(writeExr(FloatPicture{2, 2, 1, {}}, out), Error);
+}
+
 }  // namespace
 }  // namespace droplet

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -14,11 +15,13 @@
 #include "droplet/error.h"
 #include "droplet/view/glass_maps.h"
 #include "picture/tone.h"
+#include "view/backdrop.h"
 #include "view/still_map.h"
 
 namespace droplet {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
 Picture filled(int width, int height, std::array<std::uint8_t, 3> upper, std::array<std::uint8_t, 3> lower)
@@ -206,6 +209,440 @@ TEST(View, RunningDropletsAreLongerAlongTheirWay)
     EXPECT_NEAR(climbing.second * pixel, 2.0 * (shape.contact_radius + shape.half_length), 1.5 * pixel);
     state.droplets[0].velocity = {1.0, 0.0};
     EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
+}
+
+/// Wipers on dry glass, in front of a picture that is bright all over.
+class WipersSeen : public ::testing::Test {
+protected:
+    WipersSeen()
+    {
+        parameters_.wipers = tandemWipers(parameters_.glass, 1.5);
+        options_.width = 320;
+        options_.height = 180;
+        options_.eye_distance = 1.2;
+        options_.wipers = parameters_.wipers;
+        state_ = startWindshield(parameters_);
+    }
+
+    void look(double time, double open_time = 0.0)
+    {
+        options_.open_time = open_time;
+        view_.emplace(parameters_.glass, options_);
+        view_->lookAt(slanted(320, 180));
+        state_.time = time;
+        view_->show(state_);
+        layer_ = view_->layer();
+    }
+
+    /// Alpha where a place on the glass is seen, from a wiper's pivot.
+    [[nodiscard]] int alphaAt(const Wiper& wiper, double radius, double angle) const
+    {
+        const Vec2 place = wiper.pivot + radius * Vec2{std::cos(angle), std::sin(angle)};
+        double nearest = 1.0;
+        int alpha = 0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                const auto here = view_->onGlass(x, y);
+                if (here && length(*here - place) < nearest) {
+                    nearest = length(*here - place);
+                    alpha = layer_.rgba[static_cast<std::size_t>(4 * (320 * y + x) + 3)];
+                }
+            }
+        }
+        EXPECT_LT(nearest, 0.004) << "the place is in view";
+        return alpha;
+    }
+
+    /// How many pixels of the glass have something on them in a part of a wiper's field.
+    [[nodiscard]] int covered(const Wiper& wiper, double from, double to) const
+    {
+        int count = 0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                const auto here = view_->onGlass(x, y);
+                if (here) {
+                    const Vec2 way = *here - wiper.pivot;
+                    const double angle = std::atan2(way.y, way.x);
+                    const bool is_in =
+                        length(way) > wiper.inner && length(way) < wiper.outer && angle > from && angle < to;
+                    count += is_in && layer_.rgba[static_cast<std::size_t>(4 * (320 * y + x) + 3)] > 0 ? 1 : 0;
+                }
+            }
+        }
+        return count;
+    }
+
+    WindshieldParameters parameters_;
+    ViewOptions options_;
+    WindshieldState state_;
+    std::optional<DriversView> view_;
+    Layer layer_;
+};
+
+TEST_F(WipersSeen, BladesAreWhereTheyWipe)
+{
+    const Wiper wiper = parameters_.wipers[1];
+    options_.wipers = {wiper};
+    for (const double time : {0.25, 0.4, 0.8, 1.75}) {
+        look(time);
+        const double angle = wiper.angleAt(time);
+        EXPECT_EQ(alphaAt(wiper, 0.45, angle), 255) << time;
+        // Ahead of the blade and of the water that it pushes the glass is as it was: dry.
+        const bool goes_up = time < 0.6 || time > 1.5;
+        if (time < 0.6) {
+            EXPECT_EQ(covered(wiper, angle + 0.1, wiper.last), 0) << time;
+        }
+        // Behind it lies a film in streaks: some of it, not all.
+        const double sign = goes_up ? -1.0 : 1.0;
+        const double near = angle + sign * 0.04;
+        const double far = angle + sign * 0.3;
+        const int wet = covered(wiper, std::min(near, far), std::max(near, far));
+        EXPECT_GT(wet, 300) << time;
+    }
+    look(1.495);
+    EXPECT_EQ(covered(wiper, 2.1, 2.35), 0) << "the film is gone where the blade passed 0.76 s ago";
+    EXPECT_EQ(view_->frame(), over(layer_, view_->bare()));
+}
+
+TEST_F(WipersSeen, TheWedgeOfPushedWaterLiesAtThePillarAlone)
+{
+    // The eye sees both turning points.
+    options_.eye_distance = 1.8;
+    const Wiper& left = parameters_.wipers[0];
+    const Wiper& right = parameters_.wipers[1];
+    look(0.75);
+    EXPECT_GT(alphaAt(left, 0.5, left.last + 0.0125), 0) << "where the left blade has turned";
+    const int beside_other = covered(right, right.last + 0.012, right.last + 0.04);
+    look(1.45);
+    EXPECT_EQ(alphaAt(left, 0.5, left.last + 0.0125), 0) << "it has run off";
+    options_.wipers = {right};
+    look(0.75);
+    const int alone = covered(right, right.last + 0.012, right.last + 0.04);
+    EXPECT_GT(alone, 20);
+    EXPECT_LT(beside_other, alone / 4) << "the left blade wipes there";
+}
+
+TEST_F(WipersSeen, BladesAreBlurredWhileTheShutterIsOpen)
+{
+    const Wiper& wiper = parameters_.wipers[1];
+    const double angle = wiper.angleAt(0.3);
+    look(0.3);
+    EXPECT_EQ(alphaAt(wiper, 0.5, angle), 255);
+    EXPECT_EQ(alphaAt(wiper, 0.5, angle + 0.08), 0);
+    look(0.3, 1.0 / 30.0);
+    const int blurred = alphaAt(wiper, 0.5, angle + 0.05);
+    EXPECT_GT(blurred, 0);
+    EXPECT_LT(blurred, 128);
+    EXPECT_NE(view_->frame(), view_->bare());
+}
+
+/// A panorama of 24 by 12 fields of 15 degrees, each of another colour.
+Environment fields()
+{
+    Environment environment{48, 24, {}};
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 48; ++x) {
+            environment.radiance.push_back({0.02F * static_cast<float>(1 + x / 2),
+                                            0.05F * static_cast<float>(1 + y / 2),
+                                            0.3F * static_cast<float>((x / 2 + y / 2) % 3)});
+        }
+    }
+    return environment;
+}
+
+/// The colour of the field in the direction: x right, y ahead, z up.
+std::array<float, 3> fieldAt(const Environment& environment, Vec3 direction)
+{
+    const double longitude = std::atan2(direction.x, direction.y) / kDegree;
+    const double latitude = std::asin(direction.z / length(direction)) / kDegree;
+    const int column = static_cast<int>((longitude + 180.0) / 7.5);
+    const int row = static_cast<int>((90.0 - latitude) / 7.5);
+    return environment.radiance[static_cast<std::size_t>(48 * row + column)];
+}
+
+TEST(View, RaysBeyondThePictureMeetTheSurroundings)
+{
+    const Environment environment = fields();
+    const float half = std::tan(20.0F * static_cast<float>(kDegree));
+    Backdrop backdrop(64, 64, half, half);
+    const Picture red = filled(64, 64, {255, 0, 0}, {255, 0, 0});
+    backdrop.take(red, Highlights(red, 1.0F, 0.0));
+    // Turned by a right angle: the picture's middle is to the right of the car.
+    for (const bool is_turned : {false, true}) {
+        const PictureFrame frame =
+            is_turned ? PictureFrame{{0.0F, -1.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}} : PictureFrame{};
+        for (const bool is_all : {false, true}) {
+            backdrop.surround(environment, frame, 2.0F, is_all);
+            for (double longitude = -172.5; longitude < 180.0; longitude += 15.0) {
+                for (double latitude = -82.5; latitude < 90.0; latitude += 15.0) {
+                    const double level = std::cos(latitude * kDegree);
+                    const Vec3 direction{level * std::sin(longitude * kDegree), level * std::cos(longitude * kDegree),
+                                         std::sin(latitude * kDegree)};
+                    const bool is_in_picture = direction.y > 0.0 && std::abs(direction.x) < 0.364 * direction.y &&
+                                               std::abs(direction.z) < 0.364 * direction.y;
+                    const Vec3f own = toFloats(direction);
+                    const Vec3f in_car = frame.toCar(own);
+                    const auto field = fieldAt(environment, {in_car.x, in_car.y, in_car.z});
+                    const Four seen = backdrop.at(backdrop.placeOf(own, 0));
+                    const Four pixel = backdrop.at(backdrop.pixelAt(backdrop.placeOf(own, 0)));
+                    for (int c = 0; c < 3; ++c) {
+                        const float expected = is_in_picture && !is_all ? (c == 0 ? 1.0F : 0.0F)
+                                                                        : 2.0F * field[static_cast<std::size_t>(c)];
+                        EXPECT_NEAR(seen[c], expected, 1e-3F) << longitude << " " << latitude;
+                        EXPECT_NEAR(pixel[c], expected, 1e-3F) << longitude << " " << latitude;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(View, SurroundingsAreAllOfTheBackgroundWhereThereIsNoPicture)
+{
+    const Environment environment = fields();
+    ViewOptions options = small();
+    options.glass_colour = {1.0, 1.0, 1.0};
+    options.field_of_view = 90.0 * kDegree;
+    const WindshieldParameters parameters = heavyRain();
+    DriversView view(parameters.glass, options);
+    view.surround(environment);
+    const double pixel = 2.0 / options.width;
+    for (const auto& [longitude, latitude] : {std::pair(7.5, 7.5), {-37.5, -7.5}, {22.5, 22.5}, {37.5, -22.5}}) {
+        const double right = std::tan(longitude * kDegree);
+        const double up = std::tan(latitude * kDegree) * std::hypot(1.0, right);
+        const auto x = static_cast<std::size_t>(80.0 + right / pixel);
+        const auto y = static_cast<std::size_t>(45.0 - up / pixel);
+        const auto field = fieldAt(environment, {right, 1.0, up});
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(view.bare().rgb[3 * (160 * y + x) + c], encoded(field[c]), 1) << longitude << " " << latitude;
+        }
+    }
+    // Droplets do not depend on what was seen before.
+    const WindshieldState state = rained(parameters, 60);
+    view.show(state);
+    const Picture around = view.frame();
+    EXPECT_NE(around, view.bare());
+    DriversView other(parameters.glass, options);
+    other.lookAt(slanted(160, 90));
+    other.show(state);
+    const Layer mirrored = other.layer();
+    other.surround(environment);
+    other.show(state);
+    EXPECT_NE(other.layer(), mirrored);
+    view.lookAt(slanted(160, 90));
+    view.show(state);
+    EXPECT_EQ(view.layer(), other.layer());
+    EXPECT_THROW(view.surround({}), Error);
+}
+
+TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
+{
+    for (const double pixels : {9.0, 41.0, 90.0}) {  // the last ones on fewer pixels
+        ViewOptions options;
+        options.width = 320;
+        options.height = 180;
+        options.glass_colour = {1.0, 1.0, 1.0};
+        options.highlight_boost = 0.0;
+        const double pixel = 2.0 * std::tan(0.5 * options.field_of_view) / options.width;
+        options.background_blur = 2.0 * std::atan(0.5 * pixels * pixel);
+        options.exposure = std::min(std::log2(0.5 * pixels * pixels), 8.0);
+        Picture behind = filled(320, 180, {0, 0, 0}, {0, 0, 0});
+        const int x0 = 160;
+        const int y0 = 90;
+        std::fill_n(behind.rgb.begin() + 3 * (y0 * 320 + x0), 3, std::uint8_t{255});
+        DriversView view(Glass(), options);
+        view.lookAt(behind);
+        const auto light = [&](int x, int y) {
+            return static_cast<double>(displayLevels()[view.bare().rgb[static_cast<std::size_t>(3 * (y * 320 + x))]]);
+        };
+        double sum = 0.0;
+        double xx = 0.0;
+        double yy = 0.0;
+        for (int y = 0; y < 180; ++y) {
+            for (int x = 0; x < 320; ++x) {
+                sum += light(x, y);
+                xx += light(x, y) * (x - x0) * (x - x0);
+                yy += light(x, y) * (y - y0) * (y - y0);
+            }
+        }
+        EXPECT_NEAR(sum / std::exp2(options.exposure), 1.0, 0.02) << "light is kept";
+        EXPECT_NEAR(4.0 * std::sqrt(xx / sum), pixels, 0.02 * pixels + 0.5) << "a disc's variance is r^2 / 4";
+        EXPECT_NEAR(4.0 * std::sqrt(yy / sum), pixels, 0.02 * pixels + 0.5);
+        // As bright all over, and round: a box would reach into its corners.
+        const int within = static_cast<int>(0.3 * pixels);
+        const int beyond = static_cast<int>(0.45 * pixels) + 1;
+        EXPECT_NEAR(light(x0 + within, y0) / light(x0, y0), 1.0, 0.03);
+        EXPECT_NEAR(light(x0, y0) * 0.25 * kPi * pixels * pixels / sum, 1.0, 0.05);
+        EXPECT_LT(light(x0 + beyond, y0 + beyond), 0.05 * light(x0, y0));
+    }
+}
+
+TEST(View, DropletsStaySharpInFrontOfABlurredBackground)
+{
+    const WindshieldParameters parameters = heavyRain();
+    ViewOptions options = small();
+    const auto seen = [&] {
+        DriversView view(parameters.glass, options);
+        view.lookAt(slanted(160, 90));
+        view.show(rained(parameters, 60));
+        return std::pair(view.layer(), view.bare());
+    };
+    const auto sharp = seen();
+    options.background_blur = 3.0 * kDegree;
+    const auto blurred = seen();
+    EXPECT_EQ(sharp.first, blurred.first);
+    EXPECT_NE(sharp.second, blurred.second);
+}
+
+/// An upright flat glass close by, and a droplet that climbs in front of the middle.
+class Shutter : public ::testing::Test {
+protected:
+    Shutter()
+    {
+        parameters_.glass =
+            Glass(Glass::Cylinder{.width = 0.2, .height = 0.2, .radius = kFlat, .slope = 90.0 * kDegree});
+        options_.width = 200;
+        options_.height = 200;
+        options_.eye_distance = 0.06;
+        options_.samples = 1;
+        state_ = oneDroplet(parameters_, 8e-9);
+        state_.droplets[0].velocity = {0.0, 1.2};
+    }
+
+    [[nodiscard]] double pixel() const { return 2.0 * 0.06 * std::tan(22.5 * kDegree) / 200; }
+
+    /// Frame and layer.
+    [[nodiscard]] std::pair<Picture, Layer> seen(const WindshieldState& state, double open_time) const
+    {
+        ViewOptions options = options_;
+        options.open_time = open_time;
+        DriversView view(parameters_.glass, options);
+        view.lookAt(slanted(200, 200));
+        view.show(state);
+        return {view.frame(), view.layer()};
+    }
+
+    WindshieldParameters parameters_;
+    ViewOptions options_;
+    WindshieldState state_;
+};
+
+TEST_F(Shutter, TheFrameIsTheMeanOfItsMoments)
+{
+    constexpr double kOpen = 0.02;
+    constexpr int kMoments = 96;
+    std::vector<double> mean(3 * 200 * 200, 0.0);
+    for (int k = 0; k < kMoments; ++k) {
+        WindshieldState there = state_;
+        there.droplets[0].position.y += kOpen * ((k + 0.5) / kMoments - 0.5) * 1.2;
+        const Picture frame = seen(there, 0.0).first;
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += static_cast<double>(displayLevels()[frame.rgb[i]]) / kMoments;
+        }
+    }
+    const Picture blurred = seen(state_, kOpen).first;
+    const Picture sharp = seen(state_, 0.0).first;
+    double sum = 0.0;
+    double expected = 0.0;
+    double squared = 0.0;
+    double squared_sharp = 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const auto light = static_cast<double>(displayLevels()[blurred.rgb[i]]);
+        sum += light;
+        expected += mean[i];
+        squared += std::pow(light - mean[i], 2);
+        squared_sharp += std::pow(static_cast<double>(displayLevels()[sharp.rgb[i]]) - mean[i], 2);
+    }
+    EXPECT_NEAR(sum / expected, 1.0, 2e-4) << "light is kept";
+    EXPECT_LT(squared, 0.01 * squared_sharp) << "everywhere";
+}
+
+TEST_F(Shutter, DropletsAreAsLongAsTheirWay)
+{
+    const auto extents = [&](double open_time) {
+        const Layer layer = seen(state_, open_time).second;
+        int left = 200;
+        int right = 0;
+        int top = 200;
+        int bottom = 0;
+        for (int y = 0; y < 200; ++y) {
+            for (int x = 0; x < 200; ++x) {
+                if (layer.rgba[static_cast<std::size_t>(4 * (200 * y + x) + 3)] > 0) {
+                    left = std::min(left, x);
+                    right = std::max(right, x);
+                    top = std::min(top, y);
+                    bottom = std::max(bottom, y);
+                }
+            }
+        }
+        return std::array{right - left, bottom - top, bottom + top};
+    };
+    const auto sharp = extents(0.0);
+    for (const double open_time : {1e-3, 5e-3, 0.02}) {
+        const auto blurred = extents(open_time);
+        EXPECT_NEAR(blurred[0], sharp[0], 1);
+        EXPECT_NEAR(blurred[1] - sharp[1], 1.2 * open_time / pixel(), 2.0) << open_time;
+        EXPECT_NEAR(blurred[2], sharp[2], 2) << "half before, half after";
+    }
+}
+
+TEST_F(Shutter, WhatIsAtRestStaysSharp)
+{
+    WindshieldState state = state_;
+    RunningDroplet resting = state.droplets[0];
+    resting.id = 2;
+    resting.velocity = {};
+    resting.position.x += 0.012;
+    state.droplets.push_back(resting);
+    const Picture sharp = seen(state, 0.0).first;
+    const Picture blurred = seen(state, 0.02).first;
+    const double reach = runningShape(8e-9, 1.2, options_.shape).silhouette();
+    const int column = 100 + static_cast<int>(std::ceil(reach / pixel())) + 2;
+    bool is_blurred = false;
+    for (int y = 0; y < 200; ++y) {
+        const auto row = sharp.rgb.begin() + 600 * y;
+        const auto other = blurred.rgb.begin() + 600 * y;
+        EXPECT_TRUE(std::equal(row + 3 * column, row + 600, other + 3 * column)) << y;
+        is_blurred = is_blurred || !std::equal(row, row + 3 * column, other);
+    }
+    EXPECT_TRUE(is_blurred);
+    // A state in which nothing moves has the frame of an instant.
+    state.droplets[0].velocity = {};
+    EXPECT_EQ(seen(state, 0.02), seen(state, 0.0));
+}
+
+TEST_F(Shutter, TheRoadIsBlurredAlongItsWay)
+{
+    ViewOptions options;
+    options.width = 320;
+    options.height = 180;
+    const DefaultBackground road(options);
+    EXPECT_EQ(road.at(7.0, 0.0), road.at(7.0));
+    constexpr double kPassed = 1.5;
+    constexpr int kMoments = 24;
+    // Film takes the mean light: its answer, 1 - e^(-1.15 x), is undone first.
+    const auto light = [](const Picture& picture, std::size_t i) {
+        return -std::log(1.0 - std::min(static_cast<double>(displayLevels()[picture.rgb[i]]), 0.95)) / 1.15;
+    };
+    const Picture blurred = road.at(7.0, kPassed);
+    std::vector<double> mean(blurred.rgb.size(), 0.0);
+    for (int k = 0; k < kMoments; ++k) {
+        const Picture one = road.at(7.0 + kPassed * ((k + 0.5) / kMoments - 0.5));
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i] += light(one, i) / kMoments;
+        }
+    }
+    const Picture sharp = road.at(7.0);
+    double sum = 0.0;
+    double off = 0.0;
+    double off_sharp = 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        sum += light(blurred, i);
+        off += std::pow(light(blurred, i) - mean[i], 2);
+        off_sharp += std::pow(light(sharp, i) - mean[i], 2);
+    }
+    EXPECT_NEAR(sum / std::accumulate(mean.begin(), mean.end(), 0.0), 1.0, 0.003);
+    EXPECT_LT(off, 0.2 * off_sharp);
 }
 
 TEST(View, LayerOverTheBarePictureIsTheFrame)
@@ -517,6 +954,34 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
             EXPECT_NEAR(value(2), 1.0, 1e-3);
         }
     }
+}
+
+TEST(GlassMapsOf, FloatsAreTheSameAsNumbers)
+{
+    WindshieldParameters parameters = heavyRain();
+    parameters.wipers.clear();
+    const WindshieldState state = rained(parameters, 40);
+    const GlassMapOptions options{.width = 300};
+    const GlassFloatMaps floats = glassFloatMaps(parameters.glass, state, options);
+    const GlassMaps levels = glassMaps(parameters.glass, state, options);
+    ASSERT_EQ(floats.thickness.values.size(), levels.thickness.levels.size());
+    double water = 0.0;
+    for (std::size_t i = 0; i < floats.thickness.values.size(); ++i) {
+        const auto thickness = static_cast<double>(floats.thickness.values[i]);
+        water += thickness;
+        // Rounding goes from pixel to pixel.
+        EXPECT_NEAR(std::min(thickness, 5e-3), levels.thickness.levels[i] / 65535.0 * 5e-3, 1.6e-7);
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            EXPECT_NEAR(static_cast<double>(floats.normal.values[c]), levels.normal.levels[c] / 32767.5 - 1.0, 2e-5);
+        }
+        for (std::size_t c = 3 * i; c < 3 * i + 2; ++c) {
+            const auto speed = std::clamp(static_cast<double>(floats.velocity.values[c]), -2.0, 2.0);
+            EXPECT_NEAR(speed, 2.0 * (levels.velocity.levels[c] / 32767.5 - 1.0), 4e-5);
+        }
+    }
+    const WaterBalance all = balanceOf(state);
+    water *= parameters.glass.width() * parameters.glass.height() / static_cast<double>(levels.thickness.levels.size());
+    EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.005);
 }
 
 // What is smaller than a texel shows as smooth glass, not as the normal at its middle.

@@ -84,6 +84,8 @@ TEST(DropletTable, TimesAreTimes)
     ASSERT_NE(sum, 10.0);
     EXPECT_EQ(time(sum), "10");
     EXPECT_EQ(time(2.05), "2.05");
+    EXPECT_EQ(time(0.1 + 0.2), "0.3");
+    EXPECT_EQ(time(100000.0), "100000") << "no power of ten";
     EXPECT_EQ(time(86400.0 + 1.0 / 3.0), "86400.333333333");
 }
 

@@ -175,6 +175,14 @@ TEST(Wiper, InTandemReachesMostOfTheGlass)
         EXPECT_GT(std::hypot(d.position.x - 0.35, d.position.y - 0.35), 0.2);
         EXPECT_GT(std::hypot(d.position.x - 1.05, d.position.y - 0.3), 0.15);
     }
+    // Nothing stays wet between the two: what they leave lies along the upper edge and at the pillars.
+    bool has_corner = false;
+    for (const StillDroplet& d : state.still.all()) {
+        EXPECT_FALSE(d.position.x > 0.2 && d.position.x < 1.1 && d.position.y > 0.05 && d.position.y < 0.5)
+            << d.position.x << " " << d.position.y;
+        has_corner = has_corner || (d.position.x > 1.3 && d.position.y > 0.3 && d.position.y < 0.5);
+    }
+    EXPECT_TRUE(has_corner);
     EXPECT_THROW(tandemWipers(p.glass, 1.0).front().validate(), Error);
 }
 

@@ -57,6 +57,20 @@ struct DeepPicture {
     void validate() const;
 };
 
+/// Numbers for each pixel, as they are.
+/// Invariant: `values.size() == channels * width * height`, width and height ≥ 1, channels 1 or 3.
+struct FloatPicture {
+    int width = 0;              ///< [px]
+    int height = 0;             ///< [px]
+    int channels = 1;           ///< 1: grey; 3: red, green and blue
+    std::vector<float> values;  ///< row by row from the top left
+
+    friend bool operator==(const FloatPicture&, const FloatPicture&) = default;
+
+    /// @throws Error InvalidArgument
+    void validate() const;
+};
+
 /// What is spent on making a PNG small.
 enum class PngEffort {
     Small,  ///< as small as zlib makes it at its own default
@@ -72,6 +86,12 @@ enum class PngEffort {
 std::uint64_t writePng(const Picture& picture, std::ostream& out, PngEffort effort = PngEffort::Small);
 std::uint64_t writePng(const Layer& layer, std::ostream& out, PngEffort effort = PngEffort::Small);
 std::uint64_t writePng(const DeepPicture& picture, std::ostream& out, PngEffort effort = PngEffort::Small);
+
+/// Writes numbers as OpenEXR, 32-bit floats without loss, by OpenCV.
+/// @param picture  valid
+/// @return         bytes handed to the stream
+/// @throws Error   InvalidArgument; OutputFailed: OpenCV's module is not installed
+std::uint64_t writeExr(const FloatPicture& picture, std::ostream& out);
 
 /// A picture scaled so that it just covers a frame, its middle kept and what sticks out cut off. What shrinks is
 /// averaged, what grows is interpolated; a picture of the frame's size is returned as it is.

@@ -35,11 +35,25 @@ struct GlassMaps {
     DeepPicture velocity;
 };
 
+/// The same as numbers, for renderers that take floating point.
+struct GlassFloatMaps {
+    /// Outward unit normal of the water in the glass's tangent frame, each part from −1 to 1; bare glass is (0, 0, 1).
+    FloatPicture normal;
+    /// Mean thickness of the water [m]; none is cut off.
+    FloatPicture thickness;
+    /// Red and green: velocity along x and y [m/s] of what runs or may run there; blue: the share of the pixel that it
+    /// covers, 0 … 1.
+    FloatPicture velocity;
+};
+
 /// Draws them: means over the areas of pixels. Where droplets overlap, so does their water.
 ///
 /// Guarantees: the same bytes from the same arguments, at any number of threads.
 /// @param state    of this glass
 /// @throws Error   InvalidArgument
 GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options = {});
+
+/// The same as numbers; full_thickness and full_speed do not matter.
+GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options = {});
 
 }  // namespace droplet

@@ -3,13 +3,16 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
+#include "droplet/windshield/wipers.h"
 
 namespace droplet {
 
@@ -31,6 +34,15 @@ struct ViewOptions {
     /// Lamps saturate a picture: its brightest pixels are taken for up to 1 + this times as bright, in their own hue;
     /// 0 … 4. Empty: 3 where few are bright, as by night, and less the more are, down to 0 by day.
     std::optional<double> highlight_boost = {};
+    /// Blur of what is behind the glass, which is far away, while the eye looks at the droplets: the disc that a point
+    /// of light becomes is so wide [rad], 0 … 20°. A lens whose aperture is a wide and that is focused at b spreads it
+    /// over a/b. Droplets stay sharp, and so does what they show: it is far smaller there, and its blur with it.
+    double background_blur = 0.0;
+    /// How long the shutter is open for a frame, half of it before the state's time and half after it [s], 0 … 1; 0:
+    /// for an instant. Droplets that move are blurred along their way; what is at rest stays sharp.
+    double open_time = 0.0;
+    /// Wipers that are seen, with the water that they push and leave; by a state's time. Empty: they wipe unseen.
+    std::vector<Wiper> wipers = {};
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< share of light that the pane lets through, of each colour; 0 … 1
 
     /// @throws Error InvalidArgument
@@ -50,8 +62,9 @@ public:
     DefaultBackground& operator=(DefaultBackground&&) noexcept;
 
     /// @param travelled  how far the car has come [m], finite
+    /// @param passed     how far it comes while the shutter is open, half before and half after it [m], 0 … 100
     /// @throws Error     InvalidArgument
-    [[nodiscard]] Picture at(double travelled) const;
+    [[nodiscard]] Picture at(double travelled, double passed = 0.0) const;
 
 private:
     struct Content;
@@ -73,7 +86,7 @@ Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 ///
 /// The picture fills the frame: it is what is seen through dry glass. Refracted rays go far beyond it: past its edge,
 /// at the tangent s₀, a direction of tangent s shows what s₀²/s does. So the picture is mirrored at its edge, as large
-/// there as before it, and at a right angle its middle is seen again.
+/// there as before it, and at a right angle its middle is seen again. Surroundings take the place of that mirror.
 ///
 /// Guarantees: what is seen depends on the state and the picture alone, not on those before, as long as all states are
 /// of one run: the same bytes, at any number of threads. Nothing of what is given is kept by reference.
@@ -90,6 +103,12 @@ public:
     /// @throws Error   InvalidArgument
     void lookAt(const Picture& picture);
 
+    /// What is around the car from now on, its middle straight ahead: rays that end beyond the picture's edges meet it,
+    /// and until there is a picture, all of them do, and so does the frame. Light is taken as it is: 1 is white. Water
+    /// has to be shown again.
+    /// @throws Error  InvalidArgument
+    void surround(const Environment& environment);
+
     /// The water that is on the glass from now on; none before.
     /// @param state  of this glass
     void show(const WindshieldState& state);
@@ -98,7 +117,8 @@ public:
     [[nodiscard]] const Picture& bare() const;
     /// The droplets alone: what they show of the picture behind, and how much they hide of it.
     [[nodiscard]] Layer layer() const;
-    /// All that the driver sees: over(layer(), bare()), in one go.
+    /// All that the driver sees: over(layer(), bare()), in one go. With an open_time it is the mean of the light that
+    /// is seen in that time, which is brighter at blurred edges than layers mixed by levels are.
     [[nodiscard]] Picture frame() const;
 
     /// Where on the glass the middle of a pixel is seen [m]; empty beside the glass.

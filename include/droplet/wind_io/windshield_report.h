@@ -32,6 +32,7 @@ struct WindshieldReport {
     std::optional<std::string> drive_cycle;  ///< path
     std::optional<std::string> surface;      ///< path
     std::optional<std::string> background;   ///< path
+    std::optional<std::string> environment;  ///< path
     std::string output;
     WindshieldParameters parameters;
     ViewOptions view;

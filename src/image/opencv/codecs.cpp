@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The module that decodes images with OpenCV's imgcodecs, which loads over a hundred libraries: so it is opened only
-// when a file needs it.
+// The module that decodes images, and encodes OpenEXR, with OpenCV's imgcodecs, which loads over a hundred libraries:
+// so it is opened only when a file needs it.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <streambuf>
 #include <string>
+#include <vector>
 
 #include "image/codec_module.h"
 
@@ -160,6 +161,48 @@ DropletOutcome decode(const cv::Mat& encoded, Decoding& here, DropletPicture& pi
     }
 }
 
+struct Floats {
+    const float* values = nullptr;
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+};
+
+DropletOutcome encodeExr(const Floats& floats, const Decoding& here, DropletPicture& picture)
+{
+    try {
+        cv::Mat image(floats.height, floats.width, CV_32FC(floats.channels), const_cast<float*>(floats.values));
+        if (floats.channels == 3) {
+            const cv::Mat red_first = image;
+            image = cv::Mat(floats.height, floats.width, CV_32FC3);
+            for (int y = 0; y < floats.height; ++y) {
+                const auto* const from = red_first.ptr<cv::Vec3f>(y);
+                auto* const to = image.ptr<cv::Vec3f>(y);
+                for (int x = 0; x < floats.width; ++x) {
+                    to[x] = {from[x][2], from[x][1], from[x][0]};
+                }
+            }
+        }
+        std::vector<std::uint8_t> bytes;
+        if (!cv::imencode(".exr", image, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT}) || bytes.empty()) {
+            return damaged(picture, reasonIn(here.words));
+        }
+        auto file = std::make_unique<cv::Mat>(1, static_cast<int>(bytes.size()), CV_8UC1);
+        std::copy(bytes.begin(), bytes.end(), file->data);
+        picture.width = file->cols;
+        picture.height = 1;
+        picture.channels = 1;
+        picture.bits = 8;
+        picture.pixels = file->data;
+        picture.owner = file.release();
+        return DropletOutcome::Decoded;
+    } catch (const std::bad_alloc&) {
+        return DropletOutcome::OutOfMemory;
+    } catch (const std::exception& error) {
+        return damaged(picture, reasonIn(error.what()));
+    }
+}
+
 }  // namespace
 
 extern "C" {
@@ -176,6 +219,17 @@ DropletOutcome dropletDecode(const void* encoded, std::size_t size, std::size_t 
     const cv::Mat bytes(1, static_cast<int>(size), CV_8UC1, const_cast<void*>(encoded));
     decoding = &here;
     const DropletOutcome outcome = decode(bytes, here, *picture);
+    decoding = nullptr;
+    return outcome;
+}
+
+DropletOutcome dropletEncodeExr(const float* values, int width, int height, int channels, DropletPicture* picture)
+{
+    static const bool installed = install();
+    *picture = {};
+    Decoding here{std::numeric_limits<std::size_t>::max(), {}};
+    decoding = installed ? &here : nullptr;
+    const DropletOutcome outcome = encodeExr({values, width, height, channels}, here, *picture);
     decoding = nullptr;
     return outcome;
 }
