@@ -7,7 +7,10 @@
 
 namespace cli {
 
-/// While one lives, signals that ask for an end (SIGINT, SIGTERM, SIGHUP) are noted, once each; a second one ends the
+/// From here on signals that end the process (SIGINT, SIGTERM, SIGHUP, SIGXCPU) remove its temporary files first.
+void cleanUpOnSignals();
+
+/// While one lives, the first signal that asks for an end (SIGINT, SIGTERM, SIGHUP) is noted; a second one ends the
 /// process.
 class Interruption {
 public:

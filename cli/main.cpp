@@ -20,6 +20,7 @@
 #include "droplet/error.h"
 #include "exit_code.h"
 #include "glyphs_command.h"
+#include "interruption.h"
 #include "option_values.h"
 #include "shape_command.h"
 #include "terminal.h"
@@ -118,6 +119,7 @@ int main(int argc, char** argv)
     // A reader that went away is then a failed write like any other, found and named where it happens.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // so is a file beyond the limit of its size
+    cli::cleanUpOnSignals();
     occupyStandardStreams();
     keepMemory();
     const int code = guardedRun(argc, argv);

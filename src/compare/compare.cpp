@@ -204,6 +204,64 @@ struct IntegralOptions {
     double longest = 0.0;  ///< side of a triangle that is not cut
 };
 
+using Halves = std::array<Corners3, 2>;
+
+/// A triangle cut in the middle of its longest side; nothing where that is short enough.
+std::optional<Halves> halved(const Corners3& corners, double short_enough)
+{
+    std::size_t longest = 0;
+    double size = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double side = length(corners[(k + 1) % 3] - corners[k]);
+        constexpr double kTie = 1.0 + 1e-9;  // round-off must not choose between sides of one length
+        if (side > kTie * size) {
+            size = side;
+            longest = k;
+        }
+    }
+    if (!(size > short_enough)) {
+        return std::nullopt;
+    }
+    const Vec3 a = corners[longest];
+    const Vec3 b = corners[(longest + 1) % 3];
+    const Vec3 c = corners[(longest + 2) % 3];
+    const Vec3 middle = 0.5 * (a + b);
+    return Halves{Corners3{a, middle, c}, Corners3{middle, b, c}};
+}
+
+/// How many pieces a triangle is cut into, up to a limit.
+std::size_t countPieces(const Corners3& corners, double longest, std::size_t limit)
+{
+    const std::optional<Halves> halves = limit > 1 ? halved(corners, longest) : std::nullopt;
+    if (!halves) {
+        return 1;
+    }
+    const std::size_t first = countPieces((*halves)[0], longest, limit - 1);
+    return first >= limit ? first : first + countPieces((*halves)[1], longest, limit - first);
+}
+
+/// Pieces that are looked at whatever the triangles are; and for every triangle of both surfaces.
+constexpr std::size_t kPieces = std::size_t{1} << 14;
+constexpr std::size_t kPiecesOfTriangle = 16;
+
+/// The length of a side that is not cut: longer where many large triangles, one through the other, as in broken files,
+/// would be cut into pieces without end.
+double longestSide(const std::vector<Corners3>& triangles, double longest, std::size_t most)
+{
+    for (;; longest *= 2.0) {
+        std::size_t count = 0;
+        for (const Corners3& triangle : triangles) {
+            count += countPieces(triangle, longest, most + 1 - count);
+            if (count > most) {
+                break;
+            }
+        }
+        if (count <= most) {
+            return longest;
+        }
+    }
+}
+
 /// Integrals over triangles of one side, of what lies between it and the other.
 class Integrator {
 public:
@@ -226,23 +284,9 @@ public:
 private:
     void overPiece(std::uint32_t triangle, const Corners3& corners, std::uint32_t& guess, Sums& sums) const
     {
-        std::size_t longest = 0;
-        double size = -1.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double side = length(corners[(k + 1) % 3] - corners[k]);
-            constexpr double kTie = 1.0 + 1e-9;  // round-off must not choose between sides of one length
-            if (side > kTie * size) {
-                size = side;
-                longest = k;
-            }
-        }
-        if (size > options_.longest) {
-            const Vec3 a = corners[longest];
-            const Vec3 b = corners[(longest + 1) % 3];
-            const Vec3 c = corners[(longest + 2) % 3];
-            const Vec3 middle = 0.5 * (a + b);
-            overPiece(triangle, {a, middle, c}, guess, sums);
-            overPiece(triangle, {middle, b, c}, guess, sums);
+        if (const std::optional<Halves> halves = halved(corners, options_.longest)) {
+            overPiece(triangle, (*halves)[0], guess, sums);
+            overPiece(triangle, (*halves)[1], guess, sums);
             return;
         }
         const auto& [a, b, c] = corners;
@@ -431,17 +475,20 @@ Comparison compare(const Surface& a, const Surface& b, const CompareOptions& opt
 
     HausdorffOptions search;
     search.share = options.share;
-    search.most_pieces = options.most_pieces;
+    const std::size_t enough = kPieces + kPiecesOfTriangle * (a.triangles.size() + b.triangles.size());
+    search.most_pieces = std::min(options.most_pieces, enough);
     if (options.tolerance) {
         search.tolerance = *options.tolerance / frame.scale();
     }
     const HausdorffBounds from_a = hausdorff(side_a.tree.triangles(), side_b.tree, search);
     const HausdorffBounds from_b = hausdorff(side_b.tree.triangles(), side_a.tree, search);
     constexpr double kLongest = 1.0 / 25.0;  // of the box around both
-    const IntegralOptions quadrature_options{2.0 * std::max(from_a.upper, from_b.upper) + kSamePlace,
-                                             kLongest * frame.size()};
-    const Sums over_a = integrals(side_a, side_b, quadrature_options);
-    const Sums over_b = integrals(side_b, side_a, quadrature_options);
+    const double reach = 2.0 * std::max(from_a.upper, from_b.upper) + kSamePlace;
+    const auto integral = [&](const Side& side, const Side& other) {
+        return integrals(side, other, {reach, longestSide(side.tree.triangles(), kLongest * frame.size(), enough)});
+    };
+    const Sums over_a = integral(side_a, side_b);
+    const Sums over_b = integral(side_b, side_a);
     // Of both, in either order the same.
     Sums over_both;
     over_both.area = over_a.area + over_b.area;

@@ -17,7 +17,8 @@ namespace {
 
 using Chain = std::vector<cv::Point>;
 
-constexpr std::size_t kLongestBorders = std::size_t{1} << 23;
+constexpr std::size_t kLongestBorders = 3 * (std::size_t{1} << 20);
+constexpr std::size_t kLongestBorder = std::size_t{1} << 21;
 constexpr int kEast = 0;
 constexpr int kWest = 2;
 
@@ -59,14 +60,12 @@ std::size_t borderLength(const cv::Mat& image)
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-/// What follows takes 300 bytes and a microsecond for every side of a pixel.
-void checkLength(const cv::Mat& image)
+void checkLength(std::size_t length, std::size_t most, const char* of)
 {
-    const std::size_t length = borderLength(image);
-    if (length > kLongestBorders) {
-        throw Error(ErrorCode::InvalidInput,
-                    "the footprint's borders are " + std::to_string(length) + " pixels long, more than the limit of " +
-                        std::to_string(kLongestBorders) + "; make the picture smaller or smooth it");
+    if (length > most) {
+        throw Error(ErrorCode::InvalidInput, std::string("the footprint's ") + of + " " + std::to_string(length) +
+                                                 " pixels long, more than the limit of " + std::to_string(most) +
+                                                 "; make the picture smaller or smooth it");
     }
 }
 
@@ -101,7 +100,8 @@ Border crossingsOf(const Chain& chain)
 std::vector<Chain> contoursOf(const Mask& mask, std::uint16_t level)
 {
     const cv::Mat image = thresholded(mask, level);
-    checkLength(image);
+    // What follows takes some 300 bytes and 5 µs for every side of a pixel.
+    checkLength(borderLength(image), kLongestBorders, "borders are");
     std::vector<Chain> chains;
     try {
         cv::findContours(image, chains, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
@@ -127,6 +127,10 @@ std::vector<Border> followBorders(const Mask& mask, std::uint16_t level)
         const Crossing start{first.x, first.y, is_hole ? kEast : kWest};
         std::rotate(borders[k].begin(), std::find(borders[k].begin(), borders[k].end(), start), borders[k].end());
     });
+    // One border is faired as a whole, by one core, in twice the memory.
+    for (const Border& border : borders) {
+        checkLength(border.size(), kLongestBorder, "border is");
+    }
     const auto place = [](const Border& border) {
         const Crossing& first = border.front();
         return std::pair{first.y, first.x + (first.direction == kEast ? 1 : 0)};

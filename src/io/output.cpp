@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -270,6 +271,44 @@ Target findWritable(const fs::path& path, const OutputOptions& options)
     return target;
 }
 
+/// Names of temporary files, where a handler of signals finds them: it reaches nothing but globals.
+struct UnfinishedName {
+    std::atomic<bool> taken{false};
+    std::atomic<bool> told{false};
+    std::array<char, 4096> path{};
+};
+static_assert(std::atomic<bool>::is_always_lock_free);
+std::array<UnfinishedName, 256> unfinished_names;
+std::atomic<bool> is_ending{false};
+
+/// Tells the handler of a name that is about to be made.
+/// @return none if there is no room
+UnfinishedName* tell(const fs::path& path)
+{
+    const std::string& text = path.native();
+    UnfinishedName* told = nullptr;
+    for (UnfinishedName& name : unfinished_names) {
+        if (text.size() < name.path.size() && !name.taken.exchange(true)) {
+            *std::copy(text.begin(), text.end(), name.path.begin()) = '\0';
+            name.told = true;
+            told = &name;
+            break;
+        }
+    }
+    while (is_ending) {
+        ::pause();
+    }
+    return told;
+}
+
+void forget(UnfinishedName* told)
+{
+    if (told != nullptr) {
+        told->told = false;
+        told->taken = false;
+    }
+}
+
 // A file that becomes visible at its place only by commit(); until then it has no name if the file system allows that,
 // else a temporary one, removed at the end.
 class Draft {
@@ -295,6 +334,7 @@ public:
         if (name_) {
             ::unlink(name_->c_str());
         }
+        forget(told_);
     }
 
     [[nodiscard]] int error() const { return error_; }
@@ -319,10 +359,14 @@ public:
 
     int commit(const fs::path& place, bool no_clobber)
     {
-        if (no_clobber) {
-            return name_ ? moveToFree(place) : errorOf(linkTo(place.c_str()));
+        if (no_clobber && name_) {
+            return moveToFree(place);
         }
         if (!name_) {
+            const int error = errorOf(linkTo(place.c_str()));
+            if (no_clobber || error != EEXIST) {
+                return error;
+            }
             if (const int error = takeName([this](const char* name) { return linkTo(name); }); error != 0) {
                 return error;
             }
@@ -366,12 +410,15 @@ private:
         for (int i = 0; i < kMostLeftovers; ++i) {
             const fs::path name =
                 folder_ / (".droplet-shape-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp");
+            told_ = tell(name);
             if (create(name.c_str())) {
                 name_ = name;
                 return 0;
             }
-            if (errno != EEXIST) {
-                return errno;
+            const int error = errno;
+            forget(std::exchange(told_, nullptr));
+            if (error != EEXIST) {
+                return error;
             }
         }
         return EEXIST;
@@ -380,6 +427,7 @@ private:
     fs::path folder_;
     Descriptor file_;
     std::optional<fs::path> name_;
+    UnfinishedName* told_ = nullptr;
     int error_ = 0;
 };
 
@@ -477,6 +525,20 @@ std::uint64_t writeWhole(const fs::path& path, const std::function<void(std::ost
     const Target target = findWritable(path, options);
     return target.replaceable() ? replaceWhole(path, target, write, options.no_clobber)
                                 : writeThrough(path, target, write);
+}
+
+void removeUnfinished() noexcept
+{
+    is_ending = true;
+    // Twice: a thread may be about to make a file whose name it has told.
+    for (int k = 0; k < 2; ++k) {
+        for (const UnfinishedName& name : unfinished_names) {
+            if (name.told) {
+                ::unlink(name.path.data());
+            }
+        }
+        ::poll(nullptr, 0, 1 - k);
+    }
 }
 
 }  // namespace droplet

@@ -595,7 +595,12 @@ RimSampler::RimSampler(const Footprint& footprint, double widest) : loops_{footp
     // Traced loops have a point every 0.8 px: detail below half a pixel is an accident of the raster.
     finest_ = 0.6 * total / static_cast<double>(count);
     // Triangulating all points of the loops takes longer than all else on a coarse mesh of wide strokes.
-    widths_ = isNarrowSomewhere(loops_, finest_, widest) ? localWidths(loops_, finest_) : unknownWidths(loops_);
+    if (isNarrowSomewhere(loops_, finest_, widest)) {
+        widths_ = localWidths(loops_, finest_);
+        widest_ = std::numeric_limits<double>::infinity();
+    } else {
+        widths_ = unknownWidths(loops_);
+    }
 }
 
 std::vector<RimPolygon> RimSampler::sample(double edge) const

@@ -37,6 +37,10 @@ constexpr double kRoot3 = std::numbers::sqrt3;
 /// Beyond this vertices have no index.
 constexpr double kMostTriangles = 4e9;
 
+/// Beyond these, nor beyond what was asked for, an outline may force none: refinement doubles or trebles them, and
+/// three million triangles take half a minute and a gigabyte.
+constexpr double kMostForced = 1 << 20;
+
 constexpr int kMostGrading = 64;
 
 PlanarMesh meshFootprint(const RimSampler& sampler, double edge, int grading)
@@ -87,6 +91,19 @@ double predictTriangles(const std::vector<RimSampler>& samplers, double edge, in
     return sum;
 }
 
+/// Refuses outlines whose detail takes far more triangles than anybody asked for.
+/// @param wanted  triangles that the footprint's area takes at this edge length
+void checkDetail(double predicted, double wanted)
+{
+    const double most = std::max(kMostForced, wanted);
+    if (predicted > most) {
+        throw Error(ErrorCode::InvalidInput,
+                    "the footprint's detail takes " + numberText(std::round(predicted), 9) +
+                        " triangles or more, over the limit of " + numberText(std::floor(most), 9) +
+                        "; make the picture smaller, smooth it, or ask for as many --triangles");
+    }
+}
+
 /// One more edge length to try, from two that were: the count goes like edge^(−p), p found from both.
 double nextEdge(double edge, double count, double other_edge, double other_count, double wanted)
 {
@@ -107,9 +124,10 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     // Where narrow parts alone want more triangles than that, longer edges change nothing.
     const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
     // Cheap guesses first: most of the way without triangulating.
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMostForced, target); ++k) {
         const double count = predictTriangles(samplers, edge, options.grading);
         if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
+            checkDetail(count, target);
             return meshAll(samplers, edge, options.grading);
         }
         const double next = nextEdge(edge, count, k == 0 ? edge : last_edge, k == 0 ? count : last_count, target);
@@ -181,8 +199,22 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     for (std::optional<RimSampler>& sampler : made) {
         samplers.push_back(std::move(*sampler));
     }
-    return options.edge ? meshAll(samplers, *options.edge, options.grading)
-                        : meshToCount(samplers, total_area, options);
+    if (!options.edge) {
+        return meshToCount(samplers, total_area, options);
+    }
+    std::size_t points = 0;
+    for (const Footprint& footprint : domain.droplets) {
+        points += footprint.rim.points.size();
+        for (const Loop& hole : footprint.holes) {
+            points += hole.points.size();
+        }
+    }
+    if (4.0 * static_cast<double>(points) > kMostForced) {
+        // Triangles at a rim may be half as high as others.
+        checkDetail(predictTriangles(samplers, *options.edge, options.grading),
+                    2.0 * total_area / (kRoot3 / 4.0 * *options.edge * *options.edge));
+    }
+    return meshAll(samplers, *options.edge, options.grading);
 }
 
 PlanarMesh cover(const PlanarMesh& mesh)

@@ -33,6 +33,9 @@ constexpr double kExactly = 1e-10;
 /// Residuals of Newton's method that may be due to round-off.
 constexpr double kStuckResidual = 1e-7;
 
+/// What a step takes beside its linear systems, in iterations of these.
+constexpr double kStepWork = 16.0;
+
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Where a Newton step may lead one droplet: affine in the volume it gains.
@@ -395,6 +398,7 @@ struct Advance {
     bool converged = true;
     bool stable = true;
     std::size_t iterations = 0;
+    double work = 0.0;  ///< as in SolveOptions::most_work
     double residual = 0.0;
 };
 
@@ -443,10 +447,16 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
                 steps[k] = stepOf(members[k], advance.operators[k], gradients[k], with_rise, options.tolerance);
             }
         });
-        for (const Step& step : steps) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Step& step = steps[k];
             advance.converged = advance.converged && step.converged;
             advance.iterations = std::max(advance.iterations, step.iterations);
             advance.residual = std::max(advance.residual, step.residual);
+            if (changed[k] != 0) {
+                const std::size_t unknowns = members[k].sheet->height.size() - rimOf(members[k]);
+                advance.work += kStepWork * static_cast<double>(unknowns) +
+                                static_cast<double>(step.iterations) * static_cast<double>(unknowns);
+            }
         }
         // Somewhere the liquid has to be.
         advance.converged =
@@ -633,9 +643,10 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     const double roughly = exact && !keepsAbove(members) ? kRoughly : kExactly;
     StepOptions step{options.fill, exact ? roughly : options.linear_tolerance};
     double least_residual = std::numeric_limits<double>::infinity();
-    while (settled.newton_steps < options.most_steps) {
+    while (settled.newton_steps < options.most_steps && settled.work < options.most_work) {
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
+        settled.work += next.work;
         settled.iterations = std::max(settled.iterations, next.iterations);
         settled.stable = next.stable;
         if (!next.converged || !next.stable) {

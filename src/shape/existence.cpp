@@ -133,9 +133,13 @@ public:
         }
         outcome_.iterations = 0;
         use(Model::Exact);
-        if ((settleExact(options_->fill) && steepest() < kReliable) || climb()) {
+        // Half of the work is for the way up, where this leads nowhere.
+        most_work_ = 0.5 * mostWork();
+        const bool settled = settleExact(options_->fill) && steepest() < kReliable;
+        most_work_ = mostWork();
+        if (settled || climb()) {
             outcome_.termination = Termination::Converged;
-        } else if (stepsLeft() == 0) {
+        } else if (isSpent()) {
             outcome_.termination = Termination::OutOfSteps;
             outcome_.largest_volume = reached_;
         }
@@ -148,6 +152,21 @@ private:
     {
         return options_->most_newton_steps - std::min(outcome_.newton_steps, options_->most_newton_steps);
     }
+
+    [[nodiscard]] double mostWork() const
+    {
+        // Half a minute for some ten thousand unknowns.
+        constexpr double kAlways = 6e7;
+        constexpr double kForUnknown = 2000.0;
+        const double unknowns =
+            std::accumulate(members_->begin(), members_->end(), 0.0, [](double sum, const Member& member) {
+                const PlanarMesh& mesh = member.energy->mesh();
+                return sum + static_cast<double>(mesh.vertices.size() - mesh.rimVertexCount());
+            });
+        return options_->most_work.value_or(kAlways + kForUnknown * unknowns);
+    }
+
+    [[nodiscard]] bool isSpent() const { return stepsLeft() == 0 || work_ >= most_work_; }
 
     void use(Model model) const
     {
@@ -185,9 +204,11 @@ private:
     {
         SettleOptions options{.fill = fill};
         options.most_steps = std::min(options.most_steps, stepsLeft());
+        options.most_work = most_work_ - work_;
         const Settled settled = settle(*members_, options);
         outcome_.residual = settled.residual;
         outcome_.newton_steps += settled.newton_steps;
+        work_ += settled.work;
         outcome_.iterations = outcome_.newton_steps;
         return settled.converged;
     }
@@ -282,7 +303,7 @@ private:
         std::vector<Sheet> good = sheets();
         std::optional<double> too_much;
         bool upright = false;
-        for (int k = 0; k < kMostTries && stepsLeft() > 0; ++k) {
+        for (int k = 0; k < kMostTries && !isSpent(); ++k) {
             reached_ = here;
             if (by_volume && here >= wanted.amount) {
                 return true;
@@ -374,7 +395,9 @@ private:
     const std::vector<Member>* members_;
     const SolveOptions* options_;
     Outcome outcome_;
-    double reached_ = 0.0;  ///< volume of the largest sheet on the way up [m³]
+    double work_ = 0.0;       ///< done by the exact model
+    double most_work_ = 0.0;  ///< that it may have done by now
+    double reached_ = 0.0;    ///< volume of the largest sheet on the way up [m³]
 };
 
 }  // namespace

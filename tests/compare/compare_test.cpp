@@ -500,6 +500,27 @@ TEST(Compare, BoundsStayBoundsWhereTheWorkIsLimited)
     EXPECT_GT(coarse.from_b.upper - coarse.from_b.lower, 1e-6) << "the limit was no limit";
 }
 
+TEST(Compare, ManyLargeTrianglesThroughOneAnotherTakeLimitedWork)
+{
+    // As of a broken file: cut as finely as others, they would be a hundred thousand pieces.
+    const auto wild = [](double turn) {
+        Facets facets;
+        for (int k = 0; k < 40; ++k) {
+            const auto corner = [&](double j) {
+                const double angle = 2.4 * k + 2.1 * j + turn;
+                return Vec3{std::cos(angle), std::sin(angle), std::sin(1.7 * k + 3.0 * j)};
+            };
+            facets.push_back({corner(0.0), corner(1.0), corner(2.0)});
+        }
+        return faceted(facets);
+    };
+    const Comparison found = compare(wild(0.0), wild(0.1));
+    EXPECT_GT(found.symmetric.lower, 0.0);
+    EXPECT_GE(found.symmetric.upper, found.symmetric.lower);
+    EXPECT_GT(found.symmetric.mean, 0.0);
+    EXPECT_LE(found.symmetric.mean, found.symmetric.upper);
+}
+
 TEST(Compare, TrianglesWithoutAreaAddNothingButTheirPoints)
 {
     Facets facets = boxFacets({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});

@@ -509,18 +509,24 @@ TEST(Outline, NothingOrOnlySpecksIsInvalidInput)
     }
 }
 
-TEST(Outline, RefusesBordersOutOfProportion)
+void expectRefused(const Mask& mask, const char* why)
 {
-    // A picture of 3 KB, if it is stored well, of which each pixel would take 300 bytes.
-    const Mask stripes = testing::hardMask(2900, 2900, [](Vec2 p) { return static_cast<int>(p.x) % 2 == 0; });
     try {
-        trace(stripes);
+        trace(mask);
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-        EXPECT_THAT(error.what(),
-                    ::testing::HasSubstr("borders are 8412900 pixels long, more than the limit of 8388608"));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr(why));
     }
+}
+
+TEST(Outline, RefusesBordersOutOfProportion)
+{
+    // A picture of 3 KB, if it is stored well, of which each pixel would take 300 bytes.
+    expectRefused(testing::hardMask(1800, 1800, [](Vec2 p) { return static_cast<int>(p.x) % 2 == 0; }),
+                  "borders are 3241800 pixels long, more than the limit of 3145728");
+    expectRefused(testing::hardMask(1, 1050000, [](Vec2) { return true; }),
+                  "border is 2100002 pixels long, more than the limit of 2097152");
 }
 
 TEST(Outline, RefusesOptionsOutOfRange)

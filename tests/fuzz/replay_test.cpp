@@ -38,6 +38,11 @@ TEST(FuzzReplay, Mask)
     replay("mask", fuzzMask);
 }
 
+TEST(FuzzReplay, Svg)
+{
+    replay("svg", fuzzSvg);
+}
+
 TEST(FuzzReplay, Footprint)
 {
     replay("footprint", fuzzFootprint);

@@ -12,6 +12,9 @@ namespace droplet {
 /// Reads a mask from the bytes of an image file, by every channel, and a height map.
 void fuzzMask(std::span<const std::byte> bytes);
 
+/// Draws an SVG in a child process; refusals must be one line.
+void fuzzSvg(std::span<const std::byte> bytes);
+
 /// Takes the bytes for a small mask and goes from there to a footprint mesh.
 void fuzzFootprint(std::span<const std::byte> bytes);
 

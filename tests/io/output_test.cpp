@@ -477,6 +477,29 @@ TEST_F(Output, AKilledProcessLeavesNothingBehind)
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
 }
 
+TEST_F(Output, ASignalsHandlerRemovesWhatIsHalfWritten)
+{
+    store(target, kOld);
+    const int status = inChild([&] {
+        withoutNamelessFiles(false);
+        struct sigaction action = {};
+        action.sa_handler = [](int signal) {
+            removeUnfinished();
+            std::signal(signal, SIG_DFL);
+            ::raise(signal);
+        };
+        demand(::sigaction(SIGTERM, &action, nullptr) == 0);
+        writeWhole(target, [&](std::ostream& out) {
+            out << std::string(200'000, 'x') << std::flush;
+            demand(names().size() == 2);
+            ::raise(SIGTERM);
+        });
+    });
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+    EXPECT_EQ(contentOf(target), kOld);
+    EXPECT_THAT(names(), ElementsAre("droplet.glb"));
+}
+
 TEST_F(Output, LeftoversOfOthersStay)
 {
     const std::string leftover = ".droplet-shape-" + std::to_string(::getpid()) + "-0.tmp";

@@ -169,6 +169,34 @@ TEST(Triangulate, CrossingLoopsAreRefused)
     }
 }
 
+/// Stars side by side, with a corner at every tip.
+Domain stars(int count, int tips)
+{
+    Domain domain;
+    for (int k = 0; k < count; ++k) {
+        Footprint& star = domain.droplets.emplace_back();
+        for (int i = 0; i < 2 * tips; ++i) {
+            const double angle = std::numbers::pi * i / tips;
+            const double radius = (i % 2 == 0 ? 1.0 : 0.99) + 0.1 * std::sin(7.0 * angle);
+            star.rim.points.push_back({2.5 * k + radius * std::cos(angle), radius * std::sin(angle)});
+            star.rim.corner.push_back(1);
+        }
+    }
+    return domain;
+}
+
+TEST(Triangulate, RefusesDetailOutOfProportion)
+{
+    try {
+        (void)triangulate(stars(550, 1000), {.triangles = 100, .edge = 1.0});
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("takes 1099450 triangles or more"),
+                                                   ::testing::HasSubstr("over the limit of 1048576")));
+    }
+}
+
 TEST(Triangulate, RefusesOptionsOutOfRange)
 {
     const Domain domain = domainOf(ellipseLoop(1, 1));

@@ -667,6 +667,22 @@ TEST(Exact, StepsAreLimited)
     EXPECT_TRUE(cut.droplets.empty());
 }
 
+TEST(Exact, WorkIsLimited)
+{
+    const double most = dropletOfAngle(0.0, kPi / 2).volume;
+    SolveOptions options = unitOptions(Model::Exact, 0.0, 3.0 * most);
+    const std::vector<PlanarMesh> meshes = spread(discMeshes(0.1), options);
+    const SolveReport whole = solve(meshes, options).report;
+    // A factorisation counts as one iteration, a step as 16.
+    options.most_work = 0.5 * 17.0 * static_cast<double>(whole.unknowns * whole.newton_steps);
+    const Solution cut = solve(meshes, options);
+    EXPECT_EQ(cut.report.termination, Termination::OutOfSteps);
+    EXPECT_LT(cut.report.newton_steps, whole.newton_steps);
+    EXPECT_GT(cut.report.largest_volume, 0.0);
+    EXPECT_LE(cut.report.largest_volume, 1.01 * most);
+    EXPECT_TRUE(cut.droplets.empty());
+}
+
 // A hemisphere is the most a disc holds; under gravity, what is upright at the rim.
 TEST(Exact, RefusesMoreThanTheDiscHolds)
 {

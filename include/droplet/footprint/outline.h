@@ -63,7 +63,8 @@ double pixelSize(const Mask& mask, const TraceOptions& options);
 /// @param mask     valid
 /// @param options  threshold, physical size, speck size
 /// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid, or specks only, unless it may
-///                 be dry, or if its borders are longer than 2²³ sides of pixels
+///                 be dry, or if one of its borders is longer than 2²¹ sides of
+///                 pixels, or all are longer than 3·2²⁰
 Outline trace(const Mask& mask, const TraceOptions& options = {});
 
 }  // namespace droplet

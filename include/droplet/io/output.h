@@ -53,13 +53,17 @@ void checkWritable(const std::filesystem::path& path, const OutputOptions& optio
 /// and renamed over `path`. On any failure the temporary file is removed and what stood at `path` before stays.
 ///
 /// Where the file system knows files without a name, the temporary file has none until it is whole: even a killed
-/// process leaves nothing behind. A link is followed and kept, an existing file's permissions are kept. With
-/// no_clobber a file that appears meanwhile is not replaced either. Devices and pipes (/dev/full, /dev/stdout) are
-/// written to directly and checked.
+/// process leaves nothing behind, but for the instant in which an older file is replaced. A link is followed and kept,
+/// an existing file's permissions are kept. With no_clobber a file that appears meanwhile is not replaced either.
+/// Devices and pipes (/dev/full, /dev/stdout) are written to directly and checked.
 /// @param write  must leave its stream failed if not all was written
 /// @return       bytes written
 /// @throws Error OutputFailed, naming path and cause; whatever `write` throws
 std::uint64_t writeWhole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
                          const OutputOptions& options = {});
+
+/// Removes the temporary files that have a name, for a handler of a signal that is about to end the process; from then
+/// on no write makes one. Safe in a handler of signals.
+void removeUnfinished() noexcept;
 
 }  // namespace droplet

@@ -34,7 +34,8 @@ struct TriangulateOptions {
 /// @param domain   loops that do not cross
 /// @param options  number of triangles or edge length
 /// @return         one mesh per droplet, in the domain's order
-/// @throws Error   InvalidArgument for options or crossing loops
+/// @throws Error   InvalidArgument for options or crossing loops; InvalidInput if the footprint's detail takes
+///                 more than 2²⁰ triangles and more than were asked for
 std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptions& options = {});
 
 /// Covers the same polygon as a mesh with few triangles: for the ground, which is flat.

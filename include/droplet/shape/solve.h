@@ -48,7 +48,7 @@ enum class Termination {
     Converged,
     NotConverged,   ///< neither solved nor shown to have no solution
     NoHeightField,  ///< the liquid would hang over its rim; SolveReport::largest_volume says how much does not
-    OutOfSteps,     ///< as NotConverged, for want of steps; SolveReport::largest_volume says how far they went
+    OutOfSteps,     ///< as NotConverged, for want of steps or work; SolveReport::largest_volume says how far they went
     Unstable,       ///< gravity pulls the liquid off; SolveReport::bond_number and critical_bond_number say how much
 };
 
@@ -92,6 +92,9 @@ struct SolveOptions {
              ///< but for FillSharing::Each, which it must have. Empty: fill says how much
     Solver solver = Solver::Auto;
     std::size_t most_newton_steps = 400;  ///< of the exact model, for a droplet; to show that there is none takes 100
+    std::optional<double> most_work =
+        {};  ///< of the exact model, for a droplet: unknowns times iterations of their linear systems, and 16 for every
+             ///< step. Empty: 6e7, and 2000 for every unknown
 
     /// @throws Error InvalidArgument
     void validate() const;
