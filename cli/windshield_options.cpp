@@ -42,8 +42,8 @@ constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape windshield",
-                                  "rain on a moving car's windshield, as its driver sees it", "[OPTIONS] OUTPUT",
+    static const CommandText text{"droplet-shape windshield", "show rain on a moving car's windshield",
+                                  "[OPTIONS] OUTPUT",
                                   "Quantities carry a unit:\n"
                                   "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
                                   "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
@@ -63,80 +63,83 @@ const CommandText& commandText()
 void declare(CommandLine& line)
 {
     line.addArgument("OUTPUT",
-                     "frames, as out/%05d.png; a video, .mp4 .mkv .mov or\n"
-                     ".webm, which takes ffmpeg; or .png, the last frame");
+                     "Frames, such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; or a .png "
+                     "of the last frame");
     constexpr const char* kCar = "Car and rain";
-    line.add(kCar, "--preset", "NAME",
-             "where values are from that no option gives, of the\n"
-             "thesis: figure-3.10, figure-3.11 or figure-3.12\n"
-             "[figure-3.12]");
-    line.add(kCar, "--rain", "RAINFALL", "Marshall and Palmer's raindrops [5mm/h]");
-    line.add(kCar, "--speed", "SPEED", "of the car, through still air [by preset]");
-    line.add(kCar, "--drive-cycle", "FILE", "speed over time: CSV with time_s,speed_m_per_s or\nspeed_km_per_h");
+    line.add(kCar, "--preset", "figure-3.10|figure-3.11|figure-3.12",
+             "Named set of default values, of the thesis [figure-3.12]");
+    line.add(kCar, "--rain", "RAINFALL", "Rainfall, with the drop sizes of Marshall and Palmer [5mm/h]");
+    line.add(kCar, "--speed", "SPEED", "Speed of the car in still air [by preset]");
+    line.add(kCar, "--drive-cycle", "FILE",
+             "Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h");
     line.exclude({"--speed", "--drive-cycle"});
-    line.add(kCar, "--wind", "NAME",
-             "along the glass: turned, with all of its speed;\n"
-             "projected, with that of its part along it [turned]");
-    line.add(kCar, "--noise", "ACCELERATION", "root mean square of the car's shaking [0.5m/s2]");
-    line.add(kCar, "--wiper", "DURATION", "two wipers that begin a stroke so often: 1.2s or more");
-    line.add(kCar, "--seed", "N", "of all that is random [1]");
+    line.add(kCar, "--wind", "turned|projected",
+             "Wind along the glass: turned keeps all of its speed, projected only the part along the glass [turned]");
+    line.add(kCar, "--noise", "ACCELERATION", "Root mean square of the car's vibration [0.5m/s2]");
+    line.add(kCar, "--wiper", "DURATION", "Wiper period, at least 1.2s; without it there are no wipers");
+    line.add(kCar, "--seed", "N", "Random seed [1]");
     constexpr const char* kGlass = "Glass";
-    line.add(kGlass, "--glass-width", "LENGTH", "along its bend [1.4m]");
-    line.add(kGlass, "--glass-height", "LENGTH", "up the glass [0.8m]");
-    line.add(kGlass, "--radius", "LENGTH", "of its bend across [5m]");
-    line.add(kGlass, "--slope", "ANGLE", "from horizontal [45deg]");
-    line.add(kGlass, "--surface", "FILE", "another glass: .glb or .gltf with uv, outside out");
+    line.add(kGlass, "--glass-width", "LENGTH", "Width of the glass, along its bend [1.4m]");
+    line.add(kGlass, "--glass-height", "LENGTH", "Height of the glass, along its slope [0.8m]");
+    line.add(kGlass, "--radius", "LENGTH", "Radius of the glass's bend across the car [5m]");
+    line.add(kGlass, "--slope", "ANGLE", "Slope of the glass, from horizontal [45deg]");
+    line.add(kGlass, "--surface", "FILE",
+             "Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that "
+             "roll it out flat");
     constexpr const char* kDroplets = "Droplets";
     line.add(kDroplets, "--hysteresis", "NUMBER",
-             "cosine of the receding less that of the advancing\n"
-             "contact angle [by preset]");
-    line.add(kDroplets, "--still-diameter", "D", "raindrops of less never move [1mm]");
-    line.add(kDroplets, "--film", "LENGTH", "what droplets leave behind, a film so thick [0mm]");
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
+    line.add(kDroplets, "--still-diameter", "D", "Raindrops smaller than this never move [1mm]");
+    line.add(kDroplets, "--film", "LENGTH", "Thickness of the film that running droplets leave behind [0mm]");
     declareForces(line);
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "to be shown; of a drive cycle its own [10s]");
-    line.add(kTimes, "--warm-up", "DURATION", "of rain before the first frame [10s]");
-    line.add(kTimes, "--fps", "RATE", "frames per second [30]");
+    line.add(kTimes, "--time", "DURATION", "Time to show; with --drive-cycle the cycle's own [10s]");
+    line.add(kTimes, "--warm-up", "DURATION", "Time of rain before the first frame [10s]");
+    line.add(kTimes, "--fps", "RATE", "Frames per second [30]");
     constexpr const char* kLooks = "View";
     line.add(kLooks, "--background", "FILE",
-             "what is behind the glass: a picture, or a video, which\n"
-             "takes ffmpeg [an evening road]");
-    line.addFlag(kLooks, "--fit", "scale the background to cover the frame, cut the rest");
-    line.add(
-        kLooks, "--environment", "FILE",
-        "panorama of what is around the car, .hdr, .exr, .png or\n.jpg; all of the background, if there is no other");
+             "Picture or video behind the glass; a video needs ffmpeg, plays at its own speed and repeats [an evening "
+             "road]");
+    line.addFlag(kLooks, "--fit", "Scale the background to cover the frame and crop the rest");
+    line.add(kLooks, "--environment", "FILE",
+             "Panorama around the car, its middle straight ahead: .hdr, .exr, .png or .jpg; without --background it is "
+             "the whole background");
     line.add(kLooks, "--background-blur", "ANGLE",
-             "of the disc that a point of light behind the glass\nbecomes; the droplets stay sharp [0deg]");
-    line.add(kLooks, "--size", "SIZE", "of the frame in pixels [the background's, or 1280x720]");
-    line.add(kLooks, "--field-of-view", "ANGLE", "of the frame's width [45deg]");
-    line.add(kLooks, "--eye-distance", "LENGTH", "from the glass [0.5m]");
+             "Diameter of the disc that a distant point of light becomes, up to 20deg; droplets stay sharp [0deg]");
+    line.add(kLooks, "--size", "SIZE", "Width and height of the frame in pixels [the background's, or 1280x720]");
+    line.add(kLooks, "--field-of-view", "ANGLE", "Angle of view across the frame's width [45deg]");
+    line.add(kLooks, "--eye-distance", "LENGTH", "Distance of the eye from the glass [0.5m]");
     line.add(kLooks, "--eye", "PLACE",
-             "from the middle of the glass: right, ahead and up, as\n0.3m,-0.6m,0.1m; behind it");
-    line.add(kLooks, "--look-at", "PLACE",
-             "what is in the middle of the frame, from the middle of\nthe glass: right, ahead and up [straight ahead]");
-    line.add(kLooks, "--samples", "N", "rays a pixel across and down, 1 to 4 [2]");
-    line.add(kLooks, "--exposure", "STOPS", "of all that is seen: 1 is twice the light, -1 half [0]");
-    line.add(kLooks, "--highlight-boost", "NUMBER",
-             "lamps are up to 1 + so many times as bright as the\nbackground shows them: 0 to 4 [3, by daylight less]");
+             "Position of the eye relative to the middle of the glass: right, ahead and up, such as 0.3m,-0.6m,0.1m; "
+             "it is behind the glass");
+    line.add(
+        kLooks, "--look-at", "PLACE",
+        "Point in the middle of the frame, relative to the middle of the glass: right, ahead and up [straight ahead]");
+    line.add(kLooks, "--samples", "N", "Rays per pixel in each direction, 1 to 4 [2]");
+    line.add(kLooks, "--exposure", "STOPS", "Exposure of the frame: 1 is twice the light, -1 half [0]");
+    line.add(
+        kLooks, "--highlight-boost", "NUMBER",
+        "How much brighter lamps are than the background shows them: up to 1 + this, 0 to 4 [3, by daylight less]");
     line.add(kLooks, "--shutter", "OPEN",
-             "motion blur: part of a frame's time that the shutter is\nopen, as 180deg or 0.5 [0]");
-    line.addFlag(kLooks, "--layer", "frames of the droplets alone, with alpha");
-    line.add(kLooks, "--codec", "NAME", "ffmpeg's encoder [libx264, libvpx-vp9 of .webm]");
-    line.add(kLooks, "--quality", "NUMBER", "of a video, 1 to 100 [65]");
+             "Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 [0]");
+    line.addFlag(kLooks, "--layer", "Write only the droplets, with alpha");
+    line.add(kLooks, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
+    line.add(kLooks, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
-             "textures of the whole glass, as maps/%05d.png or .exr:\n"
-             "three files a frame, -normal, -thickness and -velocity");
-    line.add(kOut, "--map-width", "N", "of those, in pixels [2048]");
-    line.add(kOut, "--droplets", "FILE", "every running droplet of every frame: .csv or .json");
-    line.addFlag(kOut, "--moving-only", "of those, only droplets that move");
-    line.add(kOut, "--model", "FILE", "droplets as an animated .glb");
-    line.add(kOut, "--model-animation", "NAME",
-             "nodes: joints that every reader plays; texture: one\ndraw call, for a shader of your own [nodes]");
-    line.add(kOut, "--json", "FILE", "write a report, with the water's balance every second;\n- is standard output");
+             "Textures of the whole glass, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness "
+             "and -velocity");
+    line.add(kOut, "--map-width", "N", "Width of the textures in pixels [2048]");
+    line.add(kOut, "--droplets", "FILE", "Write a table of all running droplets in every frame: .csv or .json");
+    line.addFlag(kOut, "--moving-only", "Leave droplets at rest out of the table");
+    line.add(kOut, "--model", "FILE", "Write the droplets as an animated .glb");
+    line.add(
+        kOut, "--model-animation", "nodes|texture",
+        "Form of the animation: nodes plays in every viewer; texture needs a shader and takes one draw call [nodes]");
+    line.add(kOut, "--json", "FILE", "Write a report, with the water's balance every second; - is standard output");
     constexpr const char* kRun = "Run";
-    line.addFlag(kRun, "--resume", "go on where a run of the same options was interrupted");
-    line.addFlag(kRun, "--no-clobber", "do not replace existing files");
+    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareCommon(line, kRun, "rain = \"5mm/h\"");
     line.exclude({"--eye", "--eye-distance"});
     line.exclude({"--resume", "--no-clobber"});

@@ -18,7 +18,7 @@ _droplet_shape()
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --one-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         wind-tunnel) options='--preset --volume --wind --slope --hysteresis --falling-angle --falling-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
-        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper --seed --glass-width --glass-height --radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --layer --codec --quality --maps --map-width --droplets --moving-only --model --json --resume --no-clobber --threads --quiet --config --help --version' ;;
+        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper --seed --glass-width --glass-height --radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
         *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
     [[ ' animate batch compare glyphs wind-tunnel windshield ' == *" $command "* ]] || command=
@@ -96,8 +96,9 @@ _droplet_shape()
         *:--em) return ;;
         *:--align) choices='start centre end' ;;
         *:--line-spacing) return ;;
-        windshield:--preset) return ;;
+        windshield:--preset) choices='figure-3.10 figure-3.11 figure-3.12' ;;
         *:--preset) choices='hashimoto thesis thesis,hashimoto' ;;
+        windshield:--wind) choices='turned projected' ;;
         *:--wind) return ;;
         *:--slope) return ;;
         *:--hysteresis) return ;;
@@ -130,6 +131,7 @@ _droplet_shape()
         *:--still-diameter) return ;;
         *:--film) return ;;
         *:--warm-up) return ;;
+        *:--background-blur) return ;;
         *:--size) return ;;
         *:--field-of-view) return ;;
         *:--eye-distance) return ;;
@@ -138,11 +140,13 @@ _droplet_shape()
         *:--samples) return ;;
         *:--exposure) return ;;
         *:--highlight-boost) return ;;
+        *:--shutter) return ;;
         *:--codec) return ;;
         *:--quality) return ;;
         *:--maps) files=1 ;;
         *:--map-width) return ;;
         *:--droplets) files=1 ;;
+        *:--model-animation) choices='nodes texture' ;;
     esac
     if [[ -n $choices ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")
