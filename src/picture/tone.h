@@ -25,10 +25,10 @@ inline const std::array<float, 256>& displayLevels()
     return levels;
 }
 
-/// The nearest whole number from 0 to most, without a call.
+/// The nearest whole number from 0 to most, without a call or a branch, which std::clamp may be.
 inline int nearest(float value, std::size_t most)
 {
-    const float half_up = std::clamp(value, 0.0F, static_cast<float>(most)) + 0.5F;
+    const float half_up = std::min(std::max(value, 0.0F), static_cast<float>(most)) + 0.5F;
     return static_cast<int>(half_up);
 }
 

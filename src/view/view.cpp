@@ -78,7 +78,7 @@ struct Straight {
         return {};
     }
     // What is brighter than white keeps its hue.
-    const float most = std::max({light[0], light[1], light[2], light[3]});
+    const float most = std::max(std::max(light[0], light[1]), std::max(light[2], light[3]));
     const Four straight = four(1.0F / most) * light;
     return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
 }
@@ -461,6 +461,25 @@ struct DriversView::Content {
         }
     }
 
+    /// Puts the light of a tile in which nothing is blurred on what takes it.
+    template <typename Taker>
+    void takeTile(int column, int row, const TileLight& light, const EncodedLevels& levels, Taker& taker) const
+    {
+        const int left = column * kTile;
+        const auto across = static_cast<std::size_t>(std::min(kTile, sight.eye.width() - left));
+        const int bottom = std::min((row + 1) * kTile, sight.eye.height());
+        const Four* from = light.data();
+        for (int y = row * kTile; y < bottom; ++y, from += kTile) {
+            const std::size_t first = sight.eye.at(left, y);
+            for (std::size_t x = 0; x < across; ++x) {
+                const Straight straight = straightOf(from[x], levels);
+                if (straight.alpha > 0) {
+                    taker.take(first + x, straight);
+                }
+            }
+        }
+    }
+
     /// Puts what is seen on what takes it, in parallel; tiles without water are skipped.
     template <typename Taker>
     void forWet(Taker& taker) const
@@ -480,17 +499,19 @@ struct DriversView::Content {
                     return sight.eye.at(c * kTile + static_cast<int>(pixel % kTile),
                                         r * kTile + static_cast<int>(pixel / kTile));
                 };
-                if (moments > 1) {
-                    const auto look = [&](std::uint8_t pixel, const Four& seen) {
-                        return taker.light(number(pixel), straightOf(seen));
-                    };
-                    pass(tile, moments, light, look, passed);
+                if (moments == 1) {
+                    takeTile(c, r, light, levels, taker);
+                    continue;
                 }
+                const auto look = [&](std::uint8_t pixel, const Four& seen) {
+                    return taker.light(number(pixel), straightOf(seen));
+                };
+                pass(tile, moments, light, look, passed);
                 for (int y = r * kTile; y < std::min((r + 1) * kTile, sight.eye.height()); ++y) {
                     for (int x = c * kTile; x < std::min((c + 1) * kTile, sight.eye.width()); ++x) {
                         const std::uint8_t pixel = pixelInTile(x, y);
                         const Straight straight = straightOf(light[pixel], levels);
-                        if (moments > 1 && passed.moments[pixel] > 0) {
+                        if (passed.moments[pixel] > 0) {
                             const std::size_t at = sight.eye.at(x, y);
                             const auto rest = static_cast<float>(moments - passed.moments[pixel]);
                             taker.takeMean(at, four(1.0F / static_cast<float>(moments)) *
@@ -569,18 +590,24 @@ void DriversView::lookAt(const Picture& picture)
                           });
         return;
     }
-    const auto dim = [&](std::size_t at, std::size_t k) {
-        to[at + k] = static_cast<std::uint8_t>((from[at + k] * shares[k] + 128) >> 8);
+    // By 16 bits, which hold it all: 255 x 256 + 128.
+    const auto dimmed = [](std::uint8_t level, std::uint16_t share) {
+        return static_cast<std::uint8_t>(static_cast<std::uint16_t>(level * share + 128) >> 8);
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs, kRunsWorthAThread), [&](const auto& range) {
+        // The thread's own: bytes written may be any that are read, for all that a compiler knows.
+        const std::array<std::uint16_t, kRun> own = shares;
         for (std::size_t run = range.begin(); run < range.end(); ++run) {
+            std::array<std::uint8_t, kRun> levels;
+            std::copy_n(from + run * kRun, kRun, levels.begin());
             for (std::size_t k = 0; k < kRun; ++k) {
-                dim(run * kRun, k);
+                levels[k] = dimmed(levels[k], own[k]);
             }
+            std::copy_n(levels.begin(), kRun, to + run * kRun);
         }
     });
     for (std::size_t k = 0; runs * kRun + k < picture.rgb.size(); ++k) {
-        dim(runs * kRun, k);
+        to[runs * kRun + k] = dimmed(from[runs * kRun + k], shares[k]);
     }
 }
 
