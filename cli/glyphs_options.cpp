@@ -16,8 +16,7 @@ constexpr const char* kUsage = "usage: droplet-shape glyphs --font FILE --text T
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape glyphs", "make droplets from type",
-        "[OPTIONS] --font FILE -o OUTPUT",
+        "droplet-shape glyphs", "make droplets from type", "[OPTIONS] --font FILE -o OUTPUT",
         std::string("Placeholders in OUTPUT and --json, for --charset and --all:\n"
                     "  {name} is the font's name of the glyph, made safe for files (see --list),\n"
                     "  {gid} its index, {codepoint} its character, such as U+0041; {{ and }} are\n"

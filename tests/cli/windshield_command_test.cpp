@@ -117,10 +117,10 @@ TEST_F(WindshieldCommand, FramesAreTheSameAtAnyNumberOfThreads)
 TEST_F(WindshieldCommand, EverythingComesOut)
 {
     std::filesystem::create_directory(path("f"));
-    const CommandResult run = play(
-        path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"),
-                           "--model", path("d.glb"), "--model-animation", "texture", "--json", "-", "--wiper", "1.5s",
-                           "--background-blur", "1deg", "--shutter", "180deg"});
+    const CommandResult run =
+        play(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
+                                path("d.csv"), "--model", path("d.glb"), "--model-animation", "texture", "--json", "-",
+                                "--wiper", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
