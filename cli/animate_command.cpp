@@ -308,7 +308,7 @@ private:
     /// A picture for the preview or the sheet.
     [[nodiscard]] droplet::Picture draw(const droplet::Surface& surface, const droplet::RenderOptions& render)
     {
-        const droplet::Picture picture = droplet::render(surface, render);
+        droplet::Picture picture = droplet::render(surface, render);
         display_.tellDrawn(++drawn_, film_.size() + std::min(shots_.size(), kMostTiles));
         return picture;
     }
