@@ -36,8 +36,9 @@ LightPicture halved(const LightPicture& from)
             const Four* const lower = 2 * y + 1 < from.height ? upper + from.width : upper;
             Four* const row = to.light.data() + static_cast<std::ptrdiff_t>(y) * to.width;
             for (int x = 0; x < to.width; ++x) {
-                const int right = std::min(2 * x + 1, from.width - 1);
-                row[x] = four(0.25F) * ((upper[2 * x] + upper[right]) + (lower[2 * x] + lower[right]));
+                const int left = 2 * x;
+                const int right = std::min(left + 1, from.width - 1);
+                row[x] = four(0.25F) * ((upper[left] + upper[right]) + (lower[left] + lower[right]));
             }
         }
     });
@@ -102,7 +103,7 @@ LightPicture discMeans(const LightPicture& from, double radius)
     const double share = 1.0 / area;
     LightPicture to{from.width, from.height, {}};
     to.light.resize(from.light.size());
-    const auto stride = static_cast<std::size_t>(from.width + 2 * margin + 1);
+    const auto stride = static_cast<std::size_t>(from.width) + 2 * static_cast<std::size_t>(margin) + 1;
     tbb::parallel_for(0, (from.height + kBand - 1) / kBand, [&](int band) {
         const int top = band * kBand;
         const int bottom = std::min(top + kBand, from.height);

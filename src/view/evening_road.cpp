@@ -191,9 +191,9 @@ private:
         constexpr float kApart = 2.0F;  // [px]
         constexpr float kMost = 32.0F;
         const float moments = std::clamp(std::ceil(shift / (kApart * pixel_)), 1.0F, kMost);
-        for (float k = 0.0F; k < moments; ++k) {
+        for (int k = 0; k < static_cast<int>(moments); ++k) {
             Lamp there = lamp;
-            there.depth = std::max(lamp.depth + way * ((k + 0.5F) / moments - 0.5F), 1.0F);
+            there.depth = std::max(lamp.depth + way * ((static_cast<float>(k) + 0.5F) / moments - 0.5F), 1.0F);
             there.radiance = (1.0F / moments) * lamp.radiance;
             addOne(moments > 1.0F ? there : lamp);
         }

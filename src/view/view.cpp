@@ -204,7 +204,8 @@ struct DriversView::Content {
         const PictureFrame frame = eye.frame();
         forPixels([&](std::size_t at) {
             const auto column = static_cast<float>(at % static_cast<std::size_t>(eye.width()));
-            const auto row = static_cast<float>(at / static_cast<std::size_t>(eye.width()));
+            const std::size_t rows_above = at / static_cast<std::size_t>(eye.width());
+            const auto row = static_cast<float>(rows_above);
             constexpr int kAcross = 2;  // rays a pixel, each way
             Vec3f sum;
             for (int k = 0; k < kAcross * kAcross; ++k) {

@@ -21,7 +21,8 @@ Vec3 halfTurned(Vec3 v)
 
 Net capNet(double angle, const CapDetail& detail)
 {
-    const auto [around, rings] = detail;
+    const std::uint32_t around = detail.around;
+    const std::uint32_t rings = detail.rings;
     Net net;
     const double radius = 1.0 / std::sin(angle);
     const double centre = -radius * std::cos(angle);
