@@ -333,7 +333,7 @@ private:
         std::vector<Torn> torn;
         for (std::uint32_t i = 0; i < wind_.size(); ++i) {
             if (const double parts = partsOf(i); parts > 1.0) {
-                torn.push_back({i, s_.droplets[i].volume / parts, parts});
+                torn.push_back({i, s_.droplets[i].volume / parts, static_cast<std::size_t>(parts)});
             }
         }
         if (torn.empty()) {
@@ -359,7 +359,7 @@ private:
     struct Torn {
         std::uint32_t droplet = 0;
         double volume = 0.0;  // of each part
-        double parts = 0.0;
+        std::size_t parts = 0;
     };
 
     double partsOf(std::size_t i) const
@@ -390,7 +390,7 @@ private:
         Vec2 place = s_.droplets[torn.droplet].position;
         const Vec2 velocity = s_.droplets[torn.droplet].velocity;
         s_.droplets[torn.droplet].volume = torn.volume;
-        for (double k = 1.0; k < torn.parts; ++k) {
+        for (std::size_t k = 1; k < torn.parts; ++k) {
             place = place + onward;
             while (p_.glass.holds(place) && !(p_.glass.holds(place + onward) && is_free(place))) {
                 place = place + onward;
