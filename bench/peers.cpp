@@ -59,7 +59,7 @@ Point insideOf(const Loop& loop)
 
 struct Refined {
     std::size_t triangles = 0;
-    double least_angle = std::numeric_limits<double>::infinity();  // [rad]
+    double min_angle = std::numeric_limits<double>::infinity();  // [rad]
 };
 
 void addLoop(const Loop& loop, Triangulation& triangulation)
@@ -101,7 +101,7 @@ Refined countTriangles(const Triangulation& triangulation)
         for (int k = 0; k < 3; ++k) {
             const auto u = face->vertex((k + 1) % 3)->point() - face->vertex(k)->point();
             const auto v = face->vertex((k + 2) % 3)->point() - face->vertex(k)->point();
-            refined.least_angle = std::min(refined.least_angle, std::atan2(u.x() * v.y() - u.y() * v.x(), u * v));
+            refined.min_angle = std::min(refined.min_angle, std::atan2(u.x() * v.y() - u.y() * v.x(), u * v));
         }
     }
     return refined;
@@ -131,7 +131,7 @@ void registerMesher(const std::shared_ptr<Case>& letter, std::size_t size)
         [](const std::unique_ptr<Triangulation>& triangulation, benchmark::UserCounters& counters) {
             const Refined refined = countTriangles(*triangulation);
             counters["triangles"] = static_cast<double>(refined.triangles);
-            counters["min_angle_deg"] = refined.least_angle / kDegree;
+            counters["min_angle_deg"] = refined.min_angle / kDegree;
         });
 }
 

@@ -24,8 +24,8 @@ constexpr const char* kOutput = "droplet_bench.glb";
 struct SolverCase {
     const char* name;
     Solver solver;
-    std::size_t most;          // triangles; beyond, it takes minutes
-    std::size_t most_on_disc;  // which has wider separators than strokes have
+    std::size_t max;          // triangles; beyond, it takes minutes
+    std::size_t max_on_disc;  // which has wider separators than strokes have
 };
 
 constexpr std::array kSolvers = {
@@ -78,11 +78,11 @@ void registerTriangulate(const std::shared_ptr<Case>& footprint, std::size_t siz
         [footprint, size] { return triangulate(footprint->domain(), meshOf(size)); },
         [](const std::vector<PlanarMesh>& meshes, Counters& counters) {
             counters["triangles"] = static_cast<double>(triangleCount(meshes));
-            double least = std::numeric_limits<double>::infinity();
+            double min = std::numeric_limits<double>::infinity();
             for (const PlanarMesh& mesh : meshes) {
-                least = std::min(least, minAngle(mesh));
+                min = std::min(min, minAngle(mesh));
             }
-            counters["min_angle_deg"] = least / kDegree;
+            counters["min_angle_deg"] = min / kDegree;
         });
 }
 
@@ -109,7 +109,7 @@ void judge(const std::vector<PlanarMesh>& meshes, const Solution& solution, Coun
 void registerSolve(const std::shared_ptr<Case>& footprint, std::size_t size, const std::optional<Disc>& disc)
 {
     for (const SolverCase& solver : kSolvers) {
-        if (size > (disc ? solver.most_on_disc : solver.most)) {
+        if (size > (disc ? solver.max_on_disc : solver.max)) {
             continue;
         }
         SolveOptions options;

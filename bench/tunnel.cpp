@@ -75,7 +75,7 @@ Errors errorsOf(const TunnelSweep& what, const Tunnel& found)
     const ForceModel& model = what.model;
     const Real g = model.gravity;
     Errors errors;
-    const auto raise = [](double& most, Real error) { most = std::max(most, static_cast<double>(std::abs(error))); };
+    const auto raise = [](double& max, Real error) { max = std::max(max, static_cast<double>(std::abs(error))); };
     for (std::size_t c = 0; c < found.cases.size(); ++c) {
         const TunnelCase& of = found.cases[c];
         const Real radius = std::cbrt(static_cast<Real>(of.cap.volume) * 3 / (2 * pi));

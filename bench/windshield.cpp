@@ -77,7 +77,7 @@ WindshieldState scattered(const WindshieldParameters& p, std::size_t running, st
         const Vec2 place{size.x * uniform(bits), size.y * uniform(bits)};
         const std::size_t number =
             static_cast<std::size_t>(place.y / s.cell) * s.columns + static_cast<std::size_t>(place.x / s.cell);
-        if (s.counts[number] < StillCells::kMost) {
+        if (s.counts[number] < StillCells::kMax) {
             const double volume = (0.02 + 0.38 * uniform(bits)) * 1e-9;
             s.put(number, {place, volume});
             state.rained.add(volume);

@@ -87,11 +87,11 @@ void check(const AnimateOptions& options, const Frames& frames)
 /// As in `3-7, 9`; of more than eight parts the rest is counted.
 std::string compactList(const std::vector<std::size_t>& numbers)
 {
-    constexpr std::size_t kMostParts = 8;
+    constexpr std::size_t kMaxParts = 8;
     std::string text;
     std::size_t parts = 0;
     for (std::size_t i = 0; i < numbers.size(); ++parts) {
-        if (parts == kMostParts) {
+        if (parts == kMaxParts) {
             return text + fmt::format(" and {} more", numbers.size() - i);
         }
         std::size_t last = i;
@@ -252,12 +252,12 @@ private:
     }
 
     /// So many of a sequence's frames are enough to see how it goes.
-    static constexpr std::size_t kMostTiles = 60;
+    static constexpr std::size_t kMaxTiles = 60;
 
     /// Whether one of so many is on the sheet.
     [[nodiscard]] static bool isChosen(std::size_t frame, std::size_t count)
     {
-        return count <= kMostTiles || frame * kMostTiles / count != (frame + 1) * kMostTiles / count;
+        return count <= kMaxTiles || frame * kMaxTiles / count != (frame + 1) * kMaxTiles / count;
     }
 
     /// Keeps a frame's surface until all are known, for they have one camera. Where nobody knows how many will come,
@@ -278,11 +278,11 @@ private:
             caption += fmt::format(", {:.3g} mm high", report.total.height_max / droplet::kMillimetre);
         }
         shots_.push_back({surface, std::move(caption)});
-        if (count == 0 && shots_.size() == 2 * kMostTiles) {
-            for (std::size_t k = 0; k < kMostTiles; ++k) {
+        if (count == 0 && shots_.size() == 2 * kMaxTiles) {
+            for (std::size_t k = 0; k < kMaxTiles; ++k) {
                 shots_[k] = std::move(shots_[2 * k]);
             }
-            shots_.resize(kMostTiles);
+            shots_.resize(kMaxTiles);
             sheet_step_ *= 2;
         }
     }
@@ -309,7 +309,7 @@ private:
     [[nodiscard]] droplet::Picture draw(const droplet::Surface& surface, const droplet::RenderOptions& render)
     {
         droplet::Picture picture = droplet::render(surface, render);
-        display_.tellDrawn(++drawn_, film_.size() + std::min(shots_.size(), kMostTiles));
+        display_.tellDrawn(++drawn_, film_.size() + std::min(shots_.size(), kMaxTiles));
         return picture;
     }
 

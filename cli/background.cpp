@@ -50,12 +50,12 @@ Background::Background(const BackgroundOptions& options) : options_(options)
         video_ = std::make_unique<Video>(path, options_.frames_per_second);
         first = videoFrame();
     }
-    constexpr int kLeast = 16;
-    constexpr int kMost = 8192;
+    constexpr int kMin = 16;
+    constexpr int kMax = 8192;
     if (!options_.width) {
         width_ = first.width;
         height_ = first.height;
-        if (width_ < kLeast || height_ < kLeast || width_ > kMost || height_ > kMost) {
+        if (width_ < kMin || height_ < kMin || width_ > kMax || height_ > kMax) {
             throw Error(ErrorCode::InvalidInput,
                         path + ": has " + sizeOf(width_, height_) +
                             " pixels; a frame has 16 to 8192 each way: --size and --fit make one");

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// A shard as in `2/8`.
 BatchShard shardOf(const Given& given)
 {
-    constexpr std::size_t kMost = 1'000'000;
+    constexpr std::size_t kMax = 1'000'000;
     const auto number = [](std::string_view digits) {
         std::size_t value = 0;
         const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -26,7 +26,7 @@ BatchShard shardOf(const Given& given)
     const auto slash = text.find('/');
     const BatchShard shard{number(text.substr(0, slash)),
                            slash == std::string_view::npos ? 0 : number(text.substr(slash + 1))};
-    if (shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
+    if (shard.index < 1 || shard.index > shard.count || shard.count > kMax) {
         refuse(given, "a share and the number of shares, such as 2/8");
     }
     return shard;

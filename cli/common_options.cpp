@@ -29,9 +29,9 @@ std::optional<std::string> textAskedFor(const CommandLine& line)
 
 std::optional<std::size_t> readThreads(const CommandLine& line)
 {
-    constexpr std::size_t kMostThreads = 1024;  // more than any machine this runs on
+    constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
     const auto threads = line.value("--threads");
-    return threads ? std::optional(count(*threads, kMostThreads, "1024")) : std::nullopt;
+    return threads ? std::optional(count(*threads, kMaxThreads, "1024")) : std::nullopt;
 }
 
 }  // namespace cli

@@ -33,15 +33,15 @@ std::vector<droplet::ViewBox> boxesOfOneSize(const std::vector<std::string>& dro
     tbb::parallel_for(std::size_t{0}, droplets.size(), [&](std::size_t i) {
         boxes[i] = droplet::around(droplet::readSurface(droplets[i]).surface).value();
     });
-    droplet::Vec3 most;
+    droplet::Vec3 max;
     for (const auto& [low, high] : boxes) {
-        most = {std::max(most.x, high.x - low.x), std::max(most.y, high.y - low.y), std::max(most.z, high.z - low.z)};
+        max = {std::max(max.x, high.x - low.x), std::max(max.y, high.y - low.y), std::max(max.z, high.z - low.z)};
     }
     for (auto& [low, high] : boxes) {
         const droplet::Vec3 middle = 0.5 * (low + high);
-        const droplet::Vec3 half = 0.5 * most;
+        const droplet::Vec3 half = 0.5 * max;
         low = {middle.x - half.x, middle.y - half.y, low.z};
-        high = {middle.x + half.x, middle.y + half.y, low.z + most.z};
+        high = {middle.x + half.x, middle.y + half.y, low.z + max.z};
     }
     return boxes;
 }

@@ -135,8 +135,8 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
         clean.fill_holes = quantity(*holes, kArea);
     }
     if (const auto keep = line.value("--keep")) {
-        constexpr std::size_t kMost = 1'000'000;
-        clean.keep = count(*keep, kMost, "1M");
+        constexpr std::size_t kMax = 1'000'000;
+        clean.keep = count(*keep, kMax, "1M");
     }
 }
 
@@ -251,7 +251,7 @@ void readGround(const CommandLine& line, DropletSettings& settings)
 void readSurface(const CommandLine& line, DropletSettings& settings)
 {
     if (const auto triangles = line.value("--triangles")) {
-        settings.droplet.mesh.triangles = count(*triangles, kMostTriangles, "100M, such as 5000, 5k or 1M");
+        settings.droplet.mesh.triangles = count(*triangles, kMaxTriangles, "100M, such as 5000, 5k or 1M");
     }
     if (const auto edge = line.value("--edge")) {
         settings.droplet.mesh.edge = quantity(*edge, kLength);
@@ -450,13 +450,13 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
 RunOptions readRun(const CommandLine& line)
 {
     RunOptions options;
-    constexpr std::size_t kMostThreads = 1024;  // more than any machine this runs on
+    constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }
     options.files.no_clobber = line.flag("--no-clobber");
     if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMostThreads, "1024");
+        options.threads = count(*threads, kMaxThreads, "1024");
     }
     options.verbosity = line.flag("--quiet")     ? Verbosity::Quiet
                         : line.flag("--verbose") ? Verbosity::Verbose

@@ -17,7 +17,7 @@
 namespace cli {
 
 /// Indices of 32 bits and files of 4 GiB end at some hundred million triangles.
-inline constexpr std::size_t kMostTriangles = 100'000'000;
+inline constexpr std::size_t kMaxTriangles = 100'000'000;
 
 /// What the help says of units, for footers.
 inline constexpr const char* kUnitsText =

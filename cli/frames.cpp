@@ -83,11 +83,11 @@ std::string sizeOf(int width, int height)
 /// beyond the middle half of it.
 bool disagree(const droplet::MaskLevels& levels, const droplet::MaskLevels& decided)
 {
-    constexpr double kMost = 0.25;
+    constexpr double kMax = 0.25;
     const double step = decided.liquid - decided.dry;
     const double half = (0.5 * (levels.dry + levels.liquid) - decided.dry) / step;
     return levels.channel != decided.channel || (levels.liquid - levels.dry) * step < 0.0 ||
-           std::abs(half - 0.5) > kMost;
+           std::abs(half - 0.5) > kMax;
 }
 
 droplet::MaskLevels levelsOf(const droplet::Mask& mask, bool invert)

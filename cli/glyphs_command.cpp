@@ -78,13 +78,13 @@ Selection select(const Font& font, const GlyphChoice& choice)
 
 std::string lacking(const std::vector<char32_t>& missing)
 {
-    constexpr std::size_t kMost = 10;
+    constexpr std::size_t kMax = 10;
     std::string text = "the font has no glyph for ";
-    for (std::size_t i = 0; i < std::min(kMost, missing.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, missing.size()); ++i) {
         text += (i > 0 ? ", " : "") + droplet::shownCharacter(missing[i]);
     }
-    if (missing.size() > kMost) {
-        text += " and " + std::to_string(missing.size() - kMost) + " more";
+    if (missing.size() > kMax) {
+        text += " and " + std::to_string(missing.size() - kMax) + " more";
     }
     return text;
 }
@@ -287,7 +287,7 @@ void list(const Font& font, const GlyphsOptions& options)
 {
     std::ostringstream text;
     for (const droplet::FontAxis& axis : font.axes()) {
-        text << "axis\t" << axis.tag << "\t" << axis.least << ".." << axis.most << "\t" << axis.standard << "\t"
+        text << "axis\t" << axis.tag << "\t" << axis.min << ".." << axis.max << "\t" << axis.standard << "\t"
              << axis.name << "\n";
     }
     const auto ink = [&](GlyphId glyph) {

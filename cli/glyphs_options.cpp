@@ -68,10 +68,10 @@ void declare(CommandLine& line)
     declareRun(line);
 }
 
-double number(const Given& given, double least, double most, const std::string& words)
+double number(const Given& given, double min, double max, const std::string& words)
 {
     const auto value = finiteNumber(given.text);
-    if (!value || *value < least || *value > most) {
+    if (!value || *value < min || *value > max) {
         refuse(given, words);
     }
     return *value;
@@ -81,9 +81,9 @@ droplet::FontOptions readFace(const CommandLine& line)
 {
     droplet::FontOptions face;
     if (const auto index = line.value("--face-index")) {
-        constexpr double kMost = 65535.0;  // of FreeType
+        constexpr double kMax = 65535.0;  // of FreeType
         const std::string words = "a whole number from 0 to 65535";
-        const double value = number(*index, 0.0, kMost, words);
+        const double value = number(*index, 0.0, kMax, words);
         face.face_index = static_cast<std::size_t>(value);
         if (static_cast<double>(face.face_index) != value) {
             refuse(*index, words);

@@ -46,11 +46,11 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& n
 {
     constexpr std::size_t kFarthest = 2;  // a slip or two; more is another word
     std::string best;
-    std::size_t least = kFarthest + 1;
+    std::size_t min = kFarthest + 1;
     for (const std::string& name : names) {
         const std::size_t changes = distance(name, word);
-        if (changes < least) {
-            least = changes;
+        if (changes < min) {
+            min = changes;
             best = name;
         }
     }

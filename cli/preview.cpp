@@ -15,8 +15,8 @@
 namespace cli {
 namespace {
 
-constexpr int kMostPixels = 8192;        // of a side
-constexpr std::size_t kMostTurns = 360;  // pictures of a turntable
+constexpr int kMaxPixels = 8192;        // of a side
+constexpr std::size_t kMaxTurns = 360;  // pictures of a turntable
 constexpr int kFewestDigits = 3;
 
 void readSize(const Given& given, PreviewOptions& options)
@@ -26,7 +26,7 @@ void readSize(const Given& given, PreviewOptions& options)
     const auto side = [&](std::string_view text) {
         int value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || value < kFewestPixels || value > kMostPixels) {
+        if (error != std::errc() || end != text.data() + text.size() || value < kFewestPixels || value > kMaxPixels) {
             refuse(given, words);
         }
         return value;
@@ -175,7 +175,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
             {{"look", Colouring::Look}, {"contours", Colouring::Contours}, {"contact-angle", Colouring::ContactAngle}});
     }
     if (const auto turns = line.value("--turntable")) {
-        options.turns = count(*turns, kMostTurns, "360");
+        options.turns = count(*turns, kMaxTurns, "360");
     }
     const auto preview = line.value("--preview");
     if (!preview) {

@@ -333,12 +333,12 @@ void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
     const double edge = *options.mesh.edge;
     const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
     const double triangles = area / equilateral;
-    if (triangles > static_cast<double>(kMostTriangles)) {
-        const double least = edge * std::sqrt(triangles / static_cast<double>(kMostTriangles));
+    if (triangles > static_cast<double>(kMaxTriangles)) {
+        const double min = edge * std::sqrt(triangles / static_cast<double>(kMaxTriangles));
         throw Error(ErrorCode::InvalidArgument,
                     fmt::format("--edge: {:.3g}mm would take {:.3g} triangles on this footprint, must be at least "
                                 "{:.3g}mm",
-                                edge / droplet::kMillimetre, triangles, least / droplet::kMillimetre));
+                                edge / droplet::kMillimetre, triangles, min / droplet::kMillimetre));
     }
 }
 

@@ -97,19 +97,19 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     }
     const std::string words = "two numbers such as 0..2, the first from 0 to 1, the second larger and at least 1";
     const auto dots = given->text.find("..");
-    const auto least = finiteNumber(given->text.substr(0, dots));
-    const auto most = dots == std::string::npos ? std::nullopt : finiteNumber(given->text.substr(dots + 2));
-    if (!least || !most) {
+    const auto min = finiteNumber(given->text.substr(0, dots));
+    const auto max = dots == std::string::npos ? std::nullopt : finiteNumber(given->text.substr(dots + 2));
+    if (!min || !max) {
         refuse(*given, words);
     }
-    const droplet::FillRange range{*least, *most};
-    constexpr double kMostFills = 1e6;  // far beyond what the linear model is good for
+    const droplet::FillRange range{*min, *max};
+    constexpr double kMaxFills = 1e6;  // far beyond what the linear model is good for
     try {
         range.validate();
     } catch (const droplet::Error&) {
         refuse(*given, words);
     }
-    if (range.most > kMostFills) {
+    if (range.max > kMaxFills) {
         refuse(*given, words + ", up to 1000000");
     }
     const auto clash = [&](const std::string& option, const std::string& why) {

@@ -150,8 +150,8 @@ std::string retention(const Report& report)
 std::string object(const droplet::ObjectReport& onto)
 {
     return fmt::format("{}: {} laid on it, {} left out, lengths {} to {} times the picture's", oneLine(onto.path),
-                       counted(onto.droplets_laid, "droplet"), onto.droplets_left_out, digits(onto.least_scale, 3),
-                       digits(onto.most_scale, 3));
+                       counted(onto.droplets_laid, "droplet"), onto.droplets_left_out, digits(onto.min_scale, 3),
+                       digits(onto.max_scale, 3));
 }
 
 std::string gravity(const Report& report)

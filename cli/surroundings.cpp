@@ -67,8 +67,8 @@ droplet::ObjectReport lay(droplet::Droplet& droplet, const droplet::TexturedMesh
             onto.outside + onto.across + onto.folded,
             onto.flipped_charts,
             onto.overlapping_charts,
-            onto.least_scale,
-            onto.most_scale};
+            onto.min_scale,
+            onto.max_scale};
 }
 
 }  // namespace cli

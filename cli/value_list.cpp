@@ -107,8 +107,8 @@ std::vector<double> valuesOf(const Given& given, const Item& item, const ValueOf
     }
     constexpr double kRounding = 1e-9;
     const double steps = std::floor((to - from) / step + kRounding);
-    if (!(steps < static_cast<double>(kMostValues))) {
-        refuse(given, "at most " + std::to_string(kMostValues) + " values");
+    if (!(steps < static_cast<double>(kMaxValues))) {
+        refuse(given, "at most " + std::to_string(kMaxValues) + " values");
     }
     std::vector<double> values;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(steps); ++k) {
@@ -135,8 +135,8 @@ std::vector<double> listOf(const Given& given, const ValueOf& value_of)
         for (const double value : valuesOf(given, item, value_of)) {
             values.push_back(value);
         }
-        if (values.size() > kMostValues) {
-            refuse(given, "at most " + std::to_string(kMostValues) + " values");
+        if (values.size() > kMaxValues) {
+            refuse(given, "at most " + std::to_string(kMaxValues) + " values");
         }
     }
     return values;

@@ -61,7 +61,7 @@ Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const 
 /// Qualities from 100 down are steps of the quantiser from 0 up, each codec's own.
 std::vector<std::string> qualityOf(const std::string& codec, double quality)
 {
-    const auto steps = [&](double most) { return std::to_string(std::lround(most * (1.0 - quality / 100.0))); };
+    const auto steps = [&](double max) { return std::to_string(std::lround(max * (1.0 - quality / 100.0))); };
     if (codec == "libx264" || codec == "libx265") {
         return {"-crf", steps(51.0)};
     }

@@ -77,14 +77,14 @@ std::string lineOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
 
 std::string summary(const std::vector<droplet::TunnelRun>& runs)
 {
-    constexpr std::size_t kMostLines = 24;
+    constexpr std::size_t kMaxLines = 24;
     std::string lines;
     std::size_t count = 0;
     std::size_t left_out = 0;
     for (const droplet::TunnelRun& run : runs) {
         const std::size_t volumes = run.swept.volumes.size();
         for (std::size_t c = 0; c < run.tunnel.cases.size(); ++c) {
-            if (count++ >= kMostLines) {
+            if (count++ >= kMaxLines) {
                 ++left_out;
                 continue;
             }
@@ -100,8 +100,8 @@ droplet::Drawing drawn(const std::vector<droplet::TunnelRun>& runs, bool is_map)
     droplet::ChartOptions options;
     for (const droplet::TunnelRun& run : runs) {
         for (const droplet::TunnelRow& row : run.tunnel.rows) {
-            options.least = std::min(options.least, row.acceleration);
-            options.most = std::max(options.most, row.acceleration);
+            options.min = std::min(options.min, row.acceleration);
+            options.max = std::max(options.max, row.acceleration);
         }
     }
     std::vector<droplet::Drawing> drawings;

@@ -153,12 +153,12 @@ void readTrace(const CommandLine& line, WindTunnelOptions& options)
     if (const auto period = line.value("--gust-period")) {
         options.gust.period = quantity(*period, kTime);
     }
-    if (options.gust.amplitude > 0.0 && options.trace.duration / options.gust.period > droplet::kMostGusts) {
+    if (options.gust.amplitude > 0.0 && options.trace.duration / options.gust.period > droplet::kMaxGusts) {
         refuse("--gust-period: at most 100000 of them must make --time");
     }
     if (options.traces &&
-        options.trace.duration / options.trace.interval > static_cast<double>(droplet::kMostMotionPoints)) {
-        refuse("--trace-step: at most " + std::to_string(droplet::kMostMotionPoints) + " of them must make --time");
+        options.trace.duration / options.trace.interval > static_cast<double>(droplet::kMaxMotionPoints)) {
+        refuse("--trace-step: at most " + std::to_string(droplet::kMaxMotionPoints) + " of them must make --time");
     }
 }
 
@@ -284,9 +284,9 @@ void check(const WindTunnelOptions& options)
         for (const std::size_t count : {swept.volumes.size(), swept.winds.size(), swept.slopes.size()}) {
             rows *= static_cast<double>(count);
         }
-        if (rows > static_cast<double>(droplet::kMostTunnelRows)) {
+        if (rows > static_cast<double>(droplet::kMaxTunnelRows)) {
             refuse("--volume, --wind, --slope and --hysteresis make " + std::to_string(static_cast<long long>(rows)) +
-                   " combinations, more than " + std::to_string(droplet::kMostTunnelRows));
+                   " combinations, more than " + std::to_string(droplet::kMaxTunnelRows));
         }
         for (const auto& [option, count] : lists) {
             if (options.traces && count > 1) {
@@ -298,9 +298,9 @@ void check(const WindTunnelOptions& options)
             return output.kind == TunnelFile::ChartSvg || output.kind == TunnelFile::ChartPng ||
                    output.kind == TunnelFile::MapSvg || output.kind == TunnelFile::MapPng;
         });
-        if (draws && swept.slopes.size() * hystereses > droplet::kMostPanels) {
+        if (draws && swept.slopes.size() * hystereses > droplet::kMaxPanels) {
             refuse("charts have a panel for each --slope with each --hysteresis, at most " +
-                   std::to_string(droplet::kMostPanels) + ", not " + std::to_string(swept.slopes.size() * hystereses));
+                   std::to_string(droplet::kMaxPanels) + ", not " + std::to_string(swept.slopes.size() * hystereses));
         }
     }
     if (options.traces && options.runs.size() > 1) {

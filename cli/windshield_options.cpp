@@ -247,10 +247,10 @@ void readSize(const Given& given, droplet::ViewOptions& view)
     const bool is_whole = failure == std::errc{} && cross != end && *cross == 'x';
     const auto [stop, second] = is_whole ? std::from_chars(cross + 1, end, view.height)
                                          : std::from_chars_result{end, std::errc::invalid_argument};
-    constexpr int kLeast = 16;
-    constexpr int kMost = 8192;
-    if (!is_whole || second != std::errc{} || stop != end || view.width < kLeast || view.width > kMost ||
-        view.height < kLeast || view.height > kMost) {
+    constexpr int kMin = 16;
+    constexpr int kMax = 8192;
+    if (!is_whole || second != std::errc{} || stop != end || view.width < kMin || view.width > kMax ||
+        view.height < kMin || view.height > kMax) {
         refuse(given, "WIDTHxHEIGHT, each from 16 to 8192");
     }
 }

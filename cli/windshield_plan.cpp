@@ -46,11 +46,11 @@ droplet::Glass glassFrom(const std::string& surface, std::vector<std::string>& w
     const droplet::TexturedMesh object = droplet::readObject(surface);
     droplet::Glass glass = forOption(surface, [&] { return droplet::Glass(object, {}); });
     constexpr double kBent = 0.02;
-    if (glass.mostStretch() > 1.0 + kBent || glass.leastStretch() < 1.0 - kBent) {
+    if (glass.maxStretch() > 1.0 + kBent || glass.minStretch() < 1.0 - kBent) {
         warnings.push_back(
             fmt::format("{}: rolled out by its uv, lengths are {:.3g} to {:.3g} times what they are on the rolled out "
                         "glass",
-                        surface, glass.leastStretch(), glass.mostStretch()));
+                        surface, glass.minStretch(), glass.maxStretch()));
     }
     return glass;
 }

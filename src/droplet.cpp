@@ -31,9 +31,9 @@ std::string countText(std::size_t count)
 
 std::string percent(double share)
 {
-    constexpr double kLeast = 1e-3;
+    constexpr double kMin = 1e-3;
     constexpr double kWhole = 0.1;  // from here on without a decimal, which two digits would write as 9.5e+02
-    return share < kLeast    ? "less than 0.1 %"
+    return share < kMin      ? "less than 0.1 %"
            : share >= kWhole ? numberText(std::round(100.0 * share)) + " %"
                              : numberText(100.0 * share, 2) + " %";
 }

@@ -30,7 +30,7 @@ std::string shown(const std::filesystem::path& path)
     return oneLine(path.string());
 }
 
-Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(const Bytes&)>& expected)
+Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(const Bytes&)>& expected)
 {
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -41,9 +41,9 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::
     }
     Bytes bytes;
     Bytes chunk(std::size_t{1} << 16);
-    while (bytes.size() < most) {
+    while (bytes.size() < max) {
         errno = 0;
-        const std::size_t count = std::fread(chunk.data(), 1, std::min(chunk.size(), most - bytes.size()), file.get());
+        const std::size_t count = std::fread(chunk.data(), 1, std::min(chunk.size(), max - bytes.size()), file.get());
         const int error = errno;
         bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
         if (std::ferror(file.get()) != 0) {
@@ -54,15 +54,15 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::
         }
         std::error_code no_size;  // a pipe has none, and needs none
         if (const auto size = std::filesystem::file_size(path, no_size); !no_size) {
-            bytes.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
+            bytes.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, max)));
         }
     }
     return bytes;
 }
 
-Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(std::byte)>& expected)
+Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(std::byte)>& expected)
 {
-    return readBytes(path, most, [&](const Bytes& begun) { return expected(begun.front()); });
+    return readBytes(path, max, [&](const Bytes& begun) { return expected(begun.front()); });
 }
 
 void readFile(const std::filesystem::path& path, const std::function<void()>& read)

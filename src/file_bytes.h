@@ -21,13 +21,13 @@ public:
 /// A path as it can stand in a message of one line.
 std::string shown(const std::filesystem::path& path);
 
-/// Up to `most` bytes of a file, which may be a pipe; of one that does not begin as `expected`, the beginning alone, so
+/// Up to `max` bytes of a file, which may be a pipe; of one that does not begin as `expected`, the beginning alone, so
 /// that an endless device is not read for ever. What has been read is asked about every 64 KiB.
 /// @throws Damage where it cannot be read
-Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(const Bytes&)>& expected);
+Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(const Bytes&)>& expected);
 
 /// The same, by the first byte.
-Bytes readBytes(const std::filesystem::path& path, std::size_t most, const std::function<bool(std::byte)>& expected);
+Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(std::byte)>& expected);
 
 /// Runs a reader of a file. What it throws becomes one line that names the file.
 /// @throws Error InvalidInput

@@ -34,11 +34,11 @@ void require(bool holds, const char* field, const Value& value, const char* cons
     }
 }
 
-/// Refuses a number that is not from `least` to `greatest`.
-inline void requireWithin(const char* field, int value, int least, int greatest)
+/// Refuses a number that is not from `min` to `max`.
+inline void requireWithin(const char* field, int value, int min, int max)
 {
-    if (value < least || value > greatest) {
-        refuseValue(field, value, "from " + std::to_string(least) + " to " + std::to_string(greatest));
+    if (value < min || value > max) {
+        refuseValue(field, value, "from " + std::to_string(min) + " to " + std::to_string(max));
     }
 }
 

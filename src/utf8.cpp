@@ -44,8 +44,8 @@ std::u32string decodeUtf8(std::string_view text, const std::string& subject)
             c = (c << 6U) | (next & 0x3fU);
         }
         // The shortest form alone.
-        constexpr char32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
-        if (!good || c < kLeast[count] || !isScalarValue(c)) {
+        constexpr char32_t kMin[] = {0, 0x80, 0x800, 0x10000};
+        if (!good || c < kMin[count] || !isScalarValue(c)) {
             throw Error(ErrorCode::InvalidArgument, subject + " is not UTF-8 at byte " + std::to_string(i + 1));
         }
         characters.push_back(c);

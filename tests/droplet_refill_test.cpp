@@ -126,7 +126,7 @@ TEST(DropletRefill, IsRefusedBeforeAnythingIsSolved)
     };
     EXPECT_THAT(refusal([](DropletOptions& o) { o.solve.model = Model::Exact; }), HasSubstr("exact"));
     EXPECT_THAT(refusal([](DropletOptions& o) { o.solve.no_penetration = true; }), HasSubstr("no_penetration"));
-    EXPECT_THAT(refusal([](DropletOptions& o) { o.fill_range->most = 0.5; }), HasSubstr("fill_range"));
+    EXPECT_THAT(refusal([](DropletOptions& o) { o.fill_range->max = 0.5; }), HasSubstr("fill_range"));
 }
 
 TEST(DropletRefill, FillsBeyondTheRangeAndDamagedOnesAreRefused)

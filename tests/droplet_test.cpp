@@ -698,8 +698,8 @@ TEST(Droplet, RefusesWhatDoesNotExist)
     options.solve.gravity = 0.0;
     options.solve.model = Model::Exact;
     const double radius = 100.0 * 0.2 * kMillimetre;
-    const double most = 2.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-    options.solve.fill = {FillBy::Volume, 1.2 * most, FillSharing::Each};
+    const double max = 2.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    options.solve.fill = {FillBy::Volume, 1.2 * max, FillSharing::Each};
     try {
         (void)makeDroplet(mask, options);
         FAIL();
@@ -708,9 +708,9 @@ TEST(Droplet, RefusesWhatDoesNotExist)
         const std::string message = error.what();
         const auto at = message.find("largest volume that exists is ");
         ASSERT_NE(at, std::string::npos) << message;
-        EXPECT_NEAR(std::stod(message.substr(at + 30)) * kMicrolitre / most, 1.0, 0.02) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + 30)) * kMicrolitre / max, 1.0, 0.02) << message;
     }
-    options.solve.fill.amount = 0.9 * most;
+    options.solve.fill.amount = 0.9 * max;
     EXPECT_EQ(makeDroplet(mask, options).solution.report.termination, Termination::Converged);
     options.solve.gravity = -300.0;
     try {

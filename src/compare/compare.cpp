@@ -145,14 +145,14 @@ struct Side {
 /// The least angle between a normal and those the other side has at a place.
 double angleAt(const Side& other, Vec3 normal, const NearestTriangles::Found& found)
 {
-    double least = angleBetween(normal, other.normal(found.triangle, found.point));
+    double min = angleBetween(normal, other.normal(found.triangle, found.point));
     constexpr double kAlike = 1e-6;  // crisp edges are no matter of so little
-    if (least > kAlike) {
+    if (min > kAlike) {
         for (const std::uint32_t triangle : other.tree.within(found.point, kSamePlace)) {
-            least = std::min(least, angleBetween(normal, other.normal(triangle, found.point)));
+            min = std::min(min, angleBetween(normal, other.normal(triangle, found.point)));
         }
     }
-    return least;
+    return min;
 }
 
 /// Integrals over a triangle, or many.
@@ -246,17 +246,17 @@ constexpr std::size_t kPiecesOfTriangle = 16;
 
 /// The length of a side that is not cut: longer where many large triangles, one through the other, as in broken files,
 /// would be cut into pieces without end.
-double longestSide(const std::vector<Corners3>& triangles, double longest, std::size_t most)
+double longestSide(const std::vector<Corners3>& triangles, double longest, std::size_t max)
 {
     for (;; longest *= 2.0) {
         std::size_t count = 0;
         for (const Corners3& triangle : triangles) {
-            count += countPieces(triangle, longest, most + 1 - count);
-            if (count > most) {
+            count += countPieces(triangle, longest, max + 1 - count);
+            if (count > max) {
                 break;
             }
         }
-        if (count <= most) {
+        if (count <= max) {
             return longest;
         }
     }
@@ -366,13 +366,13 @@ std::optional<ContactAngleRange> contactAngles(const Surface& surface)
                 if (!range) {
                     range = ContactAngleRange{at_v, 0.0, at_v};
                 }
-                range->least = std::min({range->least, at_v, at_w});
-                range->most = std::max({range->most, at_v, at_w});
+                range->min = std::min({range->min, at_v, at_w});
+                range->max = std::max({range->max, at_v, at_w});
             }
         }
     }
     if (range) {
-        range->mean = around > 0.0 ? sum / around : 0.5 * (range->least + range->most);
+        range->mean = around > 0.0 ? sum / around : 0.5 * (range->min + range->max);
     }
     return range;
 }
@@ -476,7 +476,7 @@ Comparison compare(const Surface& a, const Surface& b, const CompareOptions& opt
     HausdorffOptions search;
     search.share = options.share;
     const std::size_t enough = kPieces + kPiecesOfTriangle * (a.triangles.size() + b.triangles.size());
-    search.most_pieces = std::min(options.most_pieces, enough);
+    search.max_pieces = std::min(options.max_pieces, enough);
     if (options.tolerance) {
         search.tolerance = *options.tolerance / frame.scale();
     }

@@ -33,7 +33,7 @@ Json orNull(const std::optional<double>& value, double unit = 1.0)
 
 Json angles(const std::optional<ContactAngleRange>& range)
 {
-    return range ? Json{{"min", degrees(range->least)}, {"mean", degrees(range->mean)}, {"max", degrees(range->most)}}
+    return range ? Json{{"min", degrees(range->min)}, {"mean", degrees(range->mean)}, {"max", degrees(range->max)}}
                  : Json();
 }
 

@@ -74,19 +74,19 @@ void bound(Piece& piece, const NearestTriangles& to, double settled)
 
 /// A convex polygon in space.
 struct Polygon {
-    static constexpr std::size_t kMost = 16;
-    std::array<Vec3, kMost> corners;
+    static constexpr std::size_t kMax = 16;
+    std::array<Vec3, kMax> corners;
     std::size_t count = 0;
 
     void add(Vec3 p)
     {
-        if (count < kMost) {
+        if (count < kMax) {
             corners[count] = p;
         }
         ++count;
     }
     /// Round-off can make more corners than there should be.
-    [[nodiscard]] bool fits() const { return count <= kMost; }
+    [[nodiscard]] bool fits() const { return count <= kMax; }
 };
 
 double largestFrom(const Polygon& polygon, const Corners3& triangle)
@@ -150,8 +150,8 @@ bool beyond(const Polygon& polygon, Vec3 origin, Vec3 outward)
 template <typename Meet>
 bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
 {
-    constexpr std::size_t kMostTriangles = 48;  // opposite the piece: else it is halved first
-    constexpr std::size_t kMostNear = 1024;
+    constexpr std::size_t kMaxTriangles = 48;  // opposite the piece: else it is halved first
+    constexpr std::size_t kMaxNear = 1024;
     const auto& [a, b, c] = piece.corners;
     const Vec3 normal = cross(b.at - a.at, c.at - a.at);
     double radius = 0.0;
@@ -161,7 +161,7 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         away = std::max(away, corner.found.distance);
     }
     constexpr double kMargin = 1.01;
-    const auto found = to.boxesWithin(piece.centre.at, kMargin * radius + 2.0 * away, kMostNear);
+    const auto found = to.boxesWithin(piece.centre.at, kMargin * radius + 2.0 * away, kMaxNear);
     if (!found) {
         return false;
     }
@@ -172,7 +172,7 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         const Corners3& triangle = to.triangles()[t];
         return dot(to.facet(t), normal) > 0.0 && !apart(corners, triangle, normal) && !apart(triangle, corners, normal);
     });
-    if (opposite.size() > kMostTriangles) {
+    if (opposite.size() > kMaxTriangles) {
         return false;
     }
     std::vector<Polygon> uncovered(1);
@@ -216,16 +216,16 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
         opposite.push_back(corner.found.triangle);
     }
     for (const Polygon& polygon : uncovered) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         std::uint32_t nearest = piece.centre.found.triangle;
         for (const std::uint32_t t : opposite) {
             const double largest = largestFrom(polygon, to.triangles()[t]);
-            if (largest < least) {
-                least = largest;
+            if (largest < min) {
+                min = largest;
                 nearest = t;
             }
         }
-        meet(polygon, least, nearest);
+        meet(polygon, min, nearest);
     }
     return true;
 }
@@ -251,11 +251,11 @@ struct Cut {
 void halve(const Piece& piece, const NearestTriangles& to, double settled, Cut& result)
 {
     std::size_t longest = 0;
-    double most = -1.0;
+    double max = -1.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double size = length(piece.corners[(k + 1) % 3].at - piece.corners[k].at);
-        if (size > most) {
-            most = size;
+        if (size > max) {
+            max = size;
             longest = k;
         }
     }
@@ -285,7 +285,7 @@ Cut cut(const Piece& piece, const NearestTriangles& to, double settled)
             result.dismissed = std::max(result.dismissed, std::min(largest, piece.upper));
             return;
         }
-        std::array<Sample, Polygon::kMost> samples;
+        std::array<Sample, Polygon::kMax> samples;
         for (std::size_t k = 0; k < polygon.count; ++k) {
             samples[k] = sampled(polygon.corners[k], to, triangle);
         }
@@ -380,7 +380,7 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
 
     std::vector<Piece> batch;
     std::vector<Cut> cuts;
-    for (std::size_t looked_at = from.size(); !open.empty() && looked_at < options.most_pieces;) {
+    for (std::size_t looked_at = from.size(); !open.empty() && looked_at < options.max_pieces;) {
         const double line = settled();
         batch.clear();
         while (!open.empty() && open.front().upper > line && batch.size() < kBatch) {

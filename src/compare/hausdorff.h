@@ -15,7 +15,7 @@ namespace droplet {
 struct HausdorffOptions {
     double share = 0.01;              ///< upper − lower, as a share of the upper bound
     std::optional<double> tolerance;  ///< also, whether the distance is over this must be certain
-    std::size_t most_pieces = 0;      ///< looked at; then the bounds stay as they are
+    std::size_t max_pieces = 0;       ///< looked at; then the bounds stay as they are
 };
 
 /// Bounds of the largest distance of a surface's points from another.

@@ -60,11 +60,11 @@ std::size_t borderLength(const cv::Mat& image)
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-void checkLength(std::size_t length, std::size_t most, const char* of)
+void checkLength(std::size_t length, std::size_t max, const char* of)
 {
-    if (length > most) {
+    if (length > max) {
         throw Error(ErrorCode::InvalidInput, std::string("the footprint's ") + of + " " + std::to_string(length) +
-                                                 " pixels long, more than the limit of " + std::to_string(most) +
+                                                 " pixels long, more than the limit of " + std::to_string(max) +
                                                  "; make the picture smaller or smooth it");
     }
 }

@@ -28,7 +28,7 @@ constexpr double kKeepTurn = 25.0 * std::numbers::pi / 180.0;
 constexpr double kKeepTurnHard = 56.0 * std::numbers::pi / 180.0;
 
 /// Most turn at a corner: a sharper tip than 20° is narrower than a pixel for longer than a side.
-constexpr double kMostTurn = 160.0 * std::numbers::pi / 180.0;
+constexpr double kMaxTurn = 160.0 * std::numbers::pi / 180.0;
 
 /// A side is extended along the line through its last stretch of this length [px].
 constexpr double kSide = 3.5;
@@ -39,11 +39,11 @@ constexpr double kReach = 3.0;
 
 /// The most a corner may add to what lies between its ends [px²]: a tip that holds no pixel centre has less, be it the
 /// corner of a square (1/4) or of an angle of 30°.
-constexpr double kMostAdded = 1.0;
+constexpr double kMaxAdded = 1.0;
 
 /// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of
 /// polygons, bend by more, and the straight sides of squares and bars by 0.05 px at most.
-constexpr double kMostBend = 0.12;
+constexpr double kMaxBend = 0.12;
 
 /// Walks along the loop from a slot, forward or backward.
 class Walker {
@@ -260,9 +260,9 @@ Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chor
     double best_cost = std::numeric_limits<double>::infinity();
     // Giving up a slot must be worth more than a poor fit in it.
     constexpr double kDropCost = 0.25;
-    constexpr std::size_t kMostDropped = 2;
+    constexpr std::size_t kMaxDropped = 2;
     for (std::size_t first = 0; first + 1 < 2 * kSlots; ++first) {
-        for (std::size_t dropped = 0; dropped <= kMostDropped && first + dropped + 1 < 2 * kSlots; ++dropped) {
+        for (std::size_t dropped = 0; dropped <= kMaxDropped && first + dropped + 1 < 2 * kSlots; ++dropped) {
             const Turn turn{slot_at(first), slot_at(first + dropped + 1)};
             if (dropped > 0 && (!loop[slot_at(first + 1)].measured || !sharedPixel(loop, turn))) {
                 continue;
@@ -606,15 +606,15 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     const Side before = fitSide(loop, breaks, turn.first, false);
     const Side after = fitSide(loop, breaks, turn.last, true);
     const std::optional<Vec2> tip = meet(before.line, after.line);
-    const double least_turn = coverage ? kKeepTurn : kKeepTurnHard;
+    const double min_turn = coverage ? kKeepTurn : kKeepTurnHard;
     if (!tip) {
         return std::nullopt;
     }
     const double turning = std::abs(angleBetween(before.line.direction, -1.0 * after.line.direction));
-    if (turning < least_turn || turning > kMostTurn) {
+    if (turning < min_turn || turning > kMaxTurn) {
         return std::nullopt;
     }
-    if (!coverage && std::max(before.bend, after.bend) > kMostBend) {
+    if (!coverage && std::max(before.bend, after.bend) > kMaxBend) {
         return std::nullopt;
     }
     const bool drops = (turn.first + 1) % n != turn.last;
@@ -631,7 +631,7 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
         return Corner{turn, first_is_nearer ? before.end : after.end, first_is_nearer, !first_is_nearer};
     }
     const double added = 0.5 * std::abs(cross(*tip - before.end, after.end - before.end));
-    if (added > kMostAdded) {
+    if (added > kMaxAdded) {
         return std::nullopt;
     }
     const std::optional<Vec2> pixel = drops ? sharedPixel(loop, turn) : std::nullopt;

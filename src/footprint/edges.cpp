@@ -9,7 +9,7 @@
 namespace droplet {
 namespace {
 
-void dropRegions(cv::Mat& is_liquid, const cv::Mat& at_edge, int least_area, bool liquid)
+void dropRegions(cv::Mat& is_liquid, const cv::Mat& at_edge, int min_area, bool liquid)
 {
     cv::Mat label;
     cv::Mat stats;
@@ -42,7 +42,7 @@ void dropRegions(cv::Mat& is_liquid, const cv::Mat& at_edge, int least_area, boo
     for (int k = 1; k < count; ++k) {
         const Rim& rim = rims[static_cast<std::size_t>(k)];
         dropped[static_cast<std::size_t>(k)] =
-            k != largest && (2 * rim.at_edge < rim.length || stats.at<int>(k, cv::CC_STAT_AREA) < least_area);
+            k != largest && (2 * rim.at_edge < rim.length || stats.at<int>(k, cv::CC_STAT_AREA) < min_area);
     }
     for (int y = 0; y < label.rows; ++y) {
         for (int x = 0; x < label.cols; ++x) {
@@ -73,17 +73,17 @@ LocalRange localRange(const cv::Mat& image, int reach)
 {
     LocalRange range;
     const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1});
-    cv::erode(image, range.least, window);
-    cv::dilate(image, range.most, window);
+    cv::erode(image, range.min, window);
+    cv::dilate(image, range.max, window);
     return range;
 }
 
-void dropRegionsWithoutEdge(cv::Mat& is_liquid, const cv::Mat& is_edge, int least_area)
+void dropRegionsWithoutEdge(cv::Mat& is_liquid, const cv::Mat& is_edge, int min_area)
 {
     cv::Mat at_edge;
     cv::dilate(is_edge, at_edge, {});
-    dropRegions(is_liquid, at_edge, least_area, true);
-    dropRegions(is_liquid, at_edge, least_area, false);
+    dropRegions(is_liquid, at_edge, min_area, true);
+    dropRegions(is_liquid, at_edge, min_area, false);
 }
 
 }  // namespace droplet

@@ -12,16 +12,16 @@ cv::Mat workingImage(const LevelView& plane, int longest = 1024);
 
 /// Least and most of an image's levels within a distance.
 struct LocalRange {
-    cv::Mat least;
-    cv::Mat most;
+    cv::Mat min;
+    cv::Mat max;
 };
 
 LocalRange localRange(const cv::Mat& image, int reach);
 
 /// Gives regions, liquid or dry, to their surroundings if less than half of their rim lies at an edge, or if they have
-/// fewer pixels than `least_area`. The largest region of each kind stays. Liquid is 8-connected, dry 4-connected.
+/// fewer pixels than `min_area`. The largest region of each kind stays. Liquid is 8-connected, dry 4-connected.
 /// @param is_liquid  255 or 0, changed in place
 /// @param is_edge    255 or 0
-void dropRegionsWithoutEdge(cv::Mat& is_liquid, const cv::Mat& is_edge, int least_area);
+void dropRegionsWithoutEdge(cv::Mat& is_liquid, const cv::Mat& is_edge, int min_area);
 
 }  // namespace droplet

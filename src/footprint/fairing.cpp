@@ -286,7 +286,7 @@ private:
         const Around here = around[0];
         around = {around[1], around[2], Around{}};
         Around& factors = around_.emplace_back();
-        double most = 0.0;
+        double max = 0.0;
         for (std::size_t q = 0; q < kHalfBand; ++q) {
             factors[q] = here[q] * factor.band[0];
             for (std::size_t p = 0; p <= q; ++p) {
@@ -295,10 +295,10 @@ private:
             dense_right_[row(q)] -= factors[q] * factor.right;
             for (std::size_t a = 0; a < kHalfBand; ++a) {
                 around[a][q] -= factor.band[a + 1] * here[q];
-                most = std::max(most, std::abs(around[a][q]));
+                max = std::max(max, std::abs(around[a][q]));
             }
         }
-        if (most < kNoCoupling * pivot) {
+        if (max < kNoCoupling * pivot) {
             around = {};
             return false;
         }

@@ -163,21 +163,21 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
 bool usesAlpha(const std::vector<std::uint16_t>& alpha)
 {
     // Not std::any_of nor std::min_element, of which compilers make no vector instructions.
-    std::uint16_t least = kWhite;
+    std::uint16_t min = kWhite;
     for (const std::uint16_t level : alpha) {
-        least = std::min(least, level);
+        min = std::min(min, level);
     }
-    return 2 * std::int64_t{least} < kWhite;
+    return 2 * std::int64_t{min} < kWhite;
 }
 
 /// The levels of an alpha channel. Drawn, not photographed, it has no strays.
 Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
 {
-    std::uint16_t most = 0;
+    std::uint16_t max = 0;
     for (const std::uint16_t level : alpha) {
-        most = std::max(most, level);
+        max = std::max(max, level);
     }
-    return {0, isClear(most) ? most : kWhite, isClear(most)};
+    return {0, isClear(max) ? max : kWhite, isClear(max)};
 }
 
 void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool invert)

@@ -155,14 +155,14 @@ private:
 
     void crossing(std::ptrdiff_t first, std::ptrdiff_t step, int i, int count)
     {
-        std::uint16_t least = std::numeric_limits<std::uint16_t>::max();
-        std::uint16_t most = 0;
+        std::uint16_t min = std::numeric_limits<std::uint16_t>::max();
+        std::uint16_t max = 0;
         for (int k = std::max(0, i - reach_); k < std::min(count, i + reach_); ++k) {
-            least = std::min(least, at(first + k * step));
-            most = std::max(most, at(first + k * step));
+            min = std::min(min, at(first + k * step));
+            max = std::max(max, at(first + k * step));
         }
         ++crossings_;
-        sharp_ += most - least >= kMiddle ? 1 : 0;
+        sharp_ += max - min >= kMiddle ? 1 : 0;
     }
 
     LevelView plane_;
@@ -189,7 +189,7 @@ double softRegions(const LevelView& plane)
     cv::Mat is_liquid = soft >= 0.5;
     const int reach = std::max(3, std::min(soft.cols, soft.rows) / 100);
     const LocalRange range = localRange(soft, reach);
-    const cv::Mat is_edge = range.most - range.least >= 0.4;
+    const cv::Mat is_edge = range.max - range.min >= 0.4;
     const cv::Mat before = is_liquid.clone();
     dropRegionsWithoutEdge(is_liquid, is_edge, 0);
     return cv::mean(before != is_liquid)[0] / 255.0;
@@ -217,8 +217,8 @@ MaskLook lookOfMask(const LevelView& coverage, bool as_they_stand)
     }
     // Soft edges between two levels are a mask's, too, if not a sharp one's.
     constexpr double kBimodal = 0.55;
-    const double least = as_they_stand && survey.plateaus() >= kBimodal ? 0.5 : 0.0;
-    return {std::max(least, confidence), true, sharp >= kSharp};
+    const double min = as_they_stand && survey.plateaus() >= kBimodal ? 0.5 : 0.0;
+    return {std::max(min, confidence), true, sharp >= kSharp};
 }
 
 bool isDrawn(const LevelView& luma)

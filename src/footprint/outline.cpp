@@ -372,7 +372,7 @@ std::vector<Turn> apart(std::vector<Turn> turns, const std::vector<Turn>& furthe
 /// @return the loop with the corners that remain; smooth everywhere if none do
 CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
 {
-    const double least_gain = search.coverage ? kCornerGain : kCornerGainHard;
+    const double min_gain = search.coverage ? kCornerGain : kCornerGainHard;
     // What was found in the rough curve may be a slot or two off: each round but the last tries failures elsewhere.
     constexpr int kRelocations = 2;
     int relocations = 0;
@@ -388,7 +388,7 @@ CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
             const double gain =
                 costAround(search.smooth, search.smooth_strain, turn) - costAround(result.slots, broken_strain, turn);
             const std::optional<Corner> corner =
-                gain > least_gain ? findCorner(result.slots, breaks, turn, search.coverage) : std::nullopt;
+                gain > min_gain ? findCorner(result.slots, breaks, turn, search.coverage) : std::nullopt;
             if (corner) {
                 result.corners.push_back(*corner);
                 kept.push_back(turn);

@@ -185,7 +185,7 @@ std::optional<Sorted> sortByEdges(const cv::Mat& working)
     constexpr double kFaintest = 0.10;   // contrast of an edge
     constexpr double kAboveNoise = 6.0;  // standard deviations
     constexpr int kRounds = 3;
-    constexpr int kLeastArea = 12;  // of a region [px]
+    constexpr int kMinArea = 12;  // of a region [px]
     cv::Mat image;
     cv::medianBlur(working, image, 3);
     const double noise = noiseOf(working);
@@ -195,8 +195,8 @@ std::optional<Sorted> sortByEdges(const cv::Mat& working)
 
     // Edges by contrast, which light does not change.
     const LocalRange range = localRange(soft, kReach);
-    const cv::Mat step = range.most - range.least;
-    const cv::Mat contrast = step / (range.most + range.least + 0.04);
+    const cv::Mat step = range.max - range.min;
+    const cv::Mat contrast = step / (range.max + range.min + 0.04);
     cv::Mat clear = contrast > kFaintest;
     clear &= step > std::max(0.02, kAboveNoise * std::max(soft_noise, 0.3 * noise));
     const int edge_pixels = cv::countNonZero(clear);
@@ -221,9 +221,9 @@ std::optional<Sorted> sortByEdges(const cv::Mat& working)
 
     Sorted sorted;
     sorted.image = soft;
-    const cv::Mat middle = 0.5 * (range.most + range.least);
+    const cv::Mat middle = 0.5 * (range.max + range.min);
     sorted.is_liquid = soft < spread(middle, is_edge);
-    dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kLeastArea);
+    dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kMinArea);
     if (shareOfBorder(sorted.is_liquid) > 0.5) {
         sorted.is_liquid = ~sorted.is_liquid;
     }
@@ -241,7 +241,7 @@ std::optional<Sorted> sortByEdges(const cv::Mat& working)
         if (dark) {
             fillGlints(sorted);
         }
-        dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kLeastArea);
+        dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kMinArea);
     }
     return cv::countNonZero(sorted.is_liquid) == 0 ? std::nullopt : std::optional(sorted);
 }

@@ -80,7 +80,7 @@ std::string commonColours(const Image& image)
         std::size_t count = 0;
         std::array<std::size_t, 3> sum{};
     };
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMax = 4;
     std::vector<Bin> bins(4096);
     std::size_t total = 0;
     const Colours colours(image);
@@ -101,7 +101,7 @@ std::string commonColours(const Image& image)
     }
     std::stable_sort(bins.begin(), bins.end(), [](const Bin& a, const Bin& b) { return a.count > b.count; });
     std::string list;
-    for (std::size_t k = 0; k < kMost && bins[k].count > 0; ++k) {
+    for (std::size_t k = 0; k < kMax && bins[k].count > 0; ++k) {
         const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>(bins[k].sum[c] / bins[k].count); };
         list += fmt::format("{}{} ({:.0f} %)", k == 0 ? "" : ", ", text(CssColour{mean(0), mean(1), mean(2)}),
                             100.0 * static_cast<double>(bins[k].count) / static_cast<double>(total));

@@ -19,7 +19,7 @@ namespace {
 
 /// A progressive file may bring every bit of every coefficient in a scan of its own, a few bytes long and each as
 /// dear as a whole image. Encoders write about ten scans; 500 is the bound libjpeg-turbo's own fuzzers use.
-constexpr int kMostScans = 500;
+constexpr int kMaxScans = 500;
 
 /// libjpeg's state. Errors leave by longjmp: see PngReader.
 struct JpegReader {
@@ -68,8 +68,8 @@ boolean onEndOfData(j_decompress_ptr info)
 void onProgress(j_common_ptr info)
 {
     auto& reader = *static_cast<JpegReader*>(info->client_data);
-    if (reader.info.input_scan_number > kMostScans) {
-        std::snprintf(reader.message.data(), reader.message.size(), "it has more than %d scans", kMostScans);
+    if (reader.info.input_scan_number > kMaxScans) {
+        std::snprintf(reader.message.data(), reader.message.size(), "it has more than %d scans", kMaxScans);
         std::longjmp(reader.jump, 1);
     }
 }

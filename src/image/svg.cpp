@@ -38,7 +38,7 @@ namespace droplet {
 namespace {
 
 constexpr std::size_t kLongestText = std::size_t{1} << 26;
-constexpr std::size_t kMostTags = 250'000;
+constexpr std::size_t kMaxTags = 250'000;
 
 [[noreturn]] void throwRefused(const std::string& detail)
 {
@@ -325,8 +325,8 @@ Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options
         throwRefused("of more than " + std::to_string(kLongestText >> 20) + " MiB of text");
     }
     const auto tags = static_cast<std::size_t>(std::count(encoded.begin(), encoded.end(), std::byte{'<'}));
-    if (tags > kMostTags) {
-        throwRefused("of " + std::to_string(tags) + " tags, more than the limit of " + std::to_string(kMostTags));
+    if (tags > kMaxTags) {
+        throwRefused("of " + std::to_string(tags) + " tags, more than the limit of " + std::to_string(kMaxTags));
     }
     return draw(encoded, tags, options);
 }

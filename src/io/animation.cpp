@@ -27,7 +27,7 @@ namespace {
 
 /// Viewers hold morph targets in layers of a texture, of which 256 are guaranteed, and their weights in uniforms, of
 /// which a quarter of that many are always left.
-constexpr std::size_t kMostTargets = 64;
+constexpr std::size_t kMaxTargets = 64;
 
 using Floats = std::vector<float>;
 
@@ -358,7 +358,7 @@ void Animation::add(const Surface& surface, bool continues)
         Run& run = content.runs.back();
         run.targets.push_back({arrayOf(surface.positions, run.base.positions.numbers),
                                arrayOf(surface.normals, run.base.normals.numbers)});
-        if (run.targets.size() == kMostTargets) {
+        if (run.targets.size() == kMaxTargets) {
             content.begin(surface, content.frames);
         }
     } else {

@@ -72,7 +72,7 @@ tinygltf::Value refillExtras(const Refill& refill)
 {
     using tinygltf::Value;
     return Value(Value::Object{{"targetNames", Value(Value::Array{Value(std::string("volume"))})},
-                               {"fill_range", Value(Value::Array{Value(refill.least), Value(refill.most)})}});
+                               {"fill_range", Value(Value::Array{Value(refill.min), Value(refill.max)})}});
 }
 
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)

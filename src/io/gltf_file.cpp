@@ -105,10 +105,10 @@ void checkWhole(Json& object, const char* key, Number kind)
         return;
     }
     constexpr double kExact = 9007199254740992.0;  // 2⁵³: whole doubles up to there are exact
-    const double most = kind == Number::Size ? kExact : std::numeric_limits<int>::max();
+    const double max = kind == Number::Size ? kExact : std::numeric_limits<int>::max();
     const auto check = [&](Json& value) {
         const double number = value.is_number() ? value.get<double>() : -1.0;
-        if (!(number >= 0.0 && number <= most && std::floor(number) == number)) {
+        if (!(number >= 0.0 && number <= max && std::floor(number) == number)) {
             throw Damage(std::string("\"") + key + "\" is no index or count");
         }
         value = static_cast<std::uint64_t>(number);
@@ -220,8 +220,8 @@ Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
             if (mark == std::string::npos) {
                 throw Damage(name + " is embedded, but not as base64");
             }
-            const std::size_t most = length / 3 * 4 + (length % 3 > 0 ? length % 3 + 1 : 0);
-            buffer["uri"] = "data:application/octet-stream;base64," + uri.substr(mark + kMark.size(), most);
+            const std::size_t max = length / 3 * 4 + (length % 3 > 0 ? length % 3 + 1 : 0);
+            buffer["uri"] = "data:application/octet-stream;base64," + uri.substr(mark + kMark.size(), max);
         } else if (uri.empty()) {
             if (index > 0 || chunk.size() < length || length == 0) {
                 throw Damage(name + " holds " + std::to_string(index > 0 ? 0 : chunk.size()) + " bytes of " +

@@ -26,7 +26,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMostTriangles = std::size_t{1} << 26;  // a small file can show one mesh any number of times
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // a small file can show one mesh any number of times
 
 template <typename T>
 const T& entry(const std::vector<T>& list, int index, const char* name)
@@ -309,9 +309,9 @@ private:
         if (triangles.empty()) {
             return;
         }
-        if (triangles.size() > kMostTriangles - mesh_.triangles.size() ||
-            count > 3 * kMostTriangles - mesh_.positions.size()) {
-            throw Damage("it has more than " + std::to_string(kMostTriangles) + " triangles");
+        if (triangles.size() > kMaxTriangles - mesh_.triangles.size() ||
+            count > 3 * kMaxTriangles - mesh_.positions.size()) {
+            throw Damage("it has more than " + std::to_string(kMaxTriangles) + " triangles");
         }
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         for (std::size_t v = 0; v < count; ++v) {

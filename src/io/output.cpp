@@ -40,10 +40,10 @@ constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
     {Format::Stl, "stl"},
 }};
 
-constexpr int kMostLinks = 40;          // as many as Linux itself follows
-constexpr int kMostLeftovers = 10'000;  // temporary names tried; only processes killed mid-way leave one behind
-constexpr mode_t kNewFile = 0666;       // less the umask
-constexpr mode_t kPermissions = 0777;   // what is kept of a replaced file's mode: no set-id bits
+constexpr int kMaxLinks = 40;          // as many as Linux itself follows
+constexpr int kMaxLeftovers = 10'000;  // temporary names tried; only processes killed mid-way leave one behind
+constexpr mode_t kNewFile = 0666;      // less the umask
+constexpr mode_t kPermissions = 0777;  // what is kept of a replaced file's mode: no set-id bits
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 
 // As often the file system is asked to begin with what it has, while more is made: of a file of 28 MB the wait for the
@@ -215,7 +215,7 @@ Target findTarget(const fs::path& path)
     }
     Target target;
     target.path = path;
-    for (int links = 0; links <= kMostLinks; ++links) {
+    for (int links = 0; links <= kMaxLinks; ++links) {
         struct stat status = {};
         if (::lstat(target.path.c_str(), &status) != 0) {
             if (errno != ENOENT) {
@@ -407,7 +407,7 @@ private:
     template <class Create>
     int takeName(const Create& create)
     {
-        for (int i = 0; i < kMostLeftovers; ++i) {
+        for (int i = 0; i < kMaxLeftovers; ++i) {
             const fs::path name =
                 folder_ / (".droplet-shape-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp");
             told_ = tell(name);

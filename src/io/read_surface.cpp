@@ -40,8 +40,8 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMostTriangles = std::size_t{1} << 26;  // as of glTF
-constexpr std::size_t kMostBytes = std::size_t{1} << 34;
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // as of glTF
+constexpr std::size_t kMaxBytes = std::size_t{1} << 34;
 
 // ------------------------------------------------------------------------------------------------------- text
 
@@ -117,8 +117,8 @@ struct Content {
                              " of " + std::to_string(positions.size()));
             }
         }
-        if (triangles.size() == kMostTriangles) {
-            throw Damage("it has more than " + std::to_string(kMostTriangles) + " triangles");
+        if (triangles.size() == kMaxTriangles) {
+            throw Damage("it has more than " + std::to_string(kMaxTriangles) + " triangles");
         }
         triangles.push_back(
             {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
@@ -188,9 +188,9 @@ private:
     static std::uint32_t indexOf(std::string_view word, std::size_t count, const std::string& where)
     {
         const std::optional<long long> value = wholeNumber(word);
-        const auto most = static_cast<long long>(std::min<std::size_t>(count, 0xfffffffeU));
-        const long long index = !value ? -1 : *value < 0 ? most + *value : *value - 1;
-        if (index < 0 || index >= most) {
+        const auto max = static_cast<long long>(std::min<std::size_t>(count, 0xfffffffeU));
+        const long long index = !value ? -1 : *value < 0 ? max + *value : *value - 1;
+        if (index < 0 || index >= max) {
             throw Damage(where + " names \"" + std::string(word.substr(0, 40)) + "\" of " + std::to_string(count));
         }
         return static_cast<std::uint32_t>(index);
@@ -584,7 +584,7 @@ ReadSurface readSurface(const std::filesystem::path& path)
         if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
             throw Damage("it is no regular file");
         }
-        const Bytes bytes = readBytes(path, kMostBytes, [](std::byte) { return true; });
+        const Bytes bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         if (format == Format::Obj) {
             result.surface = surfaceOf(ObjReader().read(text), unitIn(text));

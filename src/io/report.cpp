@@ -174,8 +174,8 @@ Json ontoSection(const ObjectReport& onto)
             {"droplets_left_out", onto.droplets_left_out},
             {"flipped_charts", onto.flipped_charts},
             {"overlapping_charts", onto.overlapping_charts},
-            {"least_scale", onto.least_scale},
-            {"most_scale", onto.most_scale}};
+            {"least_scale", onto.min_scale},
+            {"most_scale", onto.max_scale}};
 }
 
 }  // namespace
@@ -196,7 +196,7 @@ Json fillSection(const Fill& fill, const std::optional<FillRange>& range)
     return {{"by", nameOf(fill.by)},
             {"amount", fill.by == FillBy::ContactAngle ? degrees(fill.amount) : fill.amount},
             {"sharing", fill.sharing == FillSharing::Each ? "each" : "total"},
-            {"range", range ? Json::array({range->least, range->most}) : Json()}};
+            {"range", range ? Json::array({range->min, range->max}) : Json()}};
 }
 
 Json liquidSection(const SolveOptions& physics, const std::optional<Hysteresis>& hysteresis)

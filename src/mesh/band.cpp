@@ -24,7 +24,7 @@ namespace {
 
 /// Square of the smallest angle's tangent: Ruppert's bound, the largest for which refinement provably ends, is
 /// arcsin(1/√8) = arctan(1/√7) = 20.7°.
-constexpr double kLeastTangentSquared = 1.0 / 7.0;
+constexpr double kMinTangentSquared = 1.0 / 7.0;
 
 /// Triangles lower than this share of their longest edge, with angles below 3° or so, are needles.
 constexpr double kNeedle = 0.05;
@@ -215,7 +215,7 @@ private:
             const double sine = cross(u, v);
             const double cosine = dot(u, v);
             const bool is_corner = f->is_constrained(Triangulation::ccw(i)) && f->is_constrained(Triangulation::cw(i));
-            if (cosine > 0.0 && sine * sine < kLeastTangentSquared * cosine * cosine && !is_corner) {
+            if (cosine > 0.0 && sine * sine < kMinTangentSquared * cosine * cosine && !is_corner) {
                 return true;
             }
         }

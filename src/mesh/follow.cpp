@@ -23,14 +23,14 @@ namespace droplet {
 namespace {
 
 /// What is refused, see follow().
-constexpr double kLeastAngle = 15.0 * kDegree;
+constexpr double kMinAngle = 15.0 * kDegree;
 constexpr double kShareOfAngle = 0.75;
-constexpr double kMostStretch = 1.5;
-constexpr double kMostSagitta = 0.2;
+constexpr double kMaxStretch = 1.5;
+constexpr double kMaxSagitta = 0.2;
 
 /// Spacing of the rim's vertices, relative to what it was, beyond which the nearest way is evened out further.
-constexpr double kLeastSpacing = 0.5;
-constexpr double kMostSpacing = 2.0;
+constexpr double kMinSpacing = 0.5;
+constexpr double kMaxSpacing = 2.0;
 
 Vec2 centroid(const std::vector<Vec2>& points)
 {
@@ -111,15 +111,15 @@ Leads leadsOf(const Curve& before, const Curve& after, const Loop& loop, const s
         sampled.push_back(after.nearest(moved[v], 0.0, after.size()) - ratio * before.arc(v));
     }
     double common = 0.0;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const double lead : sampled) {
         double disagreement = 0.0;
         for (const double other : sampled) {
             const double apart = after.wrapped(other - lead);
             disagreement += std::min(apart, after.length() - apart);
         }
-        if (disagreement < least) {
-            least = disagreement;
+        if (disagreement < min) {
+            min = disagreement;
             common = lead;
         }
     }
@@ -148,7 +148,7 @@ bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<dou
     for (std::size_t v = 0; v < places.size(); ++v) {
         const double next = v + 1 < places.size() ? places[v + 1] : places[0] + after.length();
         const double spacing = (next - places[v]) / (ratio * (before.arc(v + 1) - before.arc(v)));
-        if (!(spacing >= kLeastSpacing && spacing <= kMostSpacing)) {
+        if (!(spacing >= kMinSpacing && spacing <= kMaxSpacing)) {
             return false;
         }
     }
@@ -167,12 +167,12 @@ Places placesOf(const Curve& before, const Curve& after, const Loop& loop, const
     const double ratio = after.length() / before.length();
     Leads leads = leadsOf(before, after, loop, moved);
     Places places{std::vector<double>(count), leads.fixed};
-    const std::size_t most_passes = 16 * count;
+    const std::size_t max_passes = 16 * count;
     for (std::size_t done = 0, passes = 1;; passes *= 4) {
         for (std::size_t v = 0; v < count; ++v) {
             places.values[v] = ratio * before.arc(v) + leads.values[v];
         }
-        if (done > most_passes || evenlySpaced(before, after, places.values)) {
+        if (done > max_passes || evenlySpaced(before, after, places.values)) {
             return places;
         }
         for (; done < passes; ++done) {
@@ -198,13 +198,13 @@ bool takeCorners(const Loop& loop, const Curve& after, Places& places)
             continue;
         }
         std::size_t best = 0;
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         double move = 0.0;
         for (std::size_t v = 0; v < count; ++v) {
             const double ahead = after.wrapped(after.arc(i) - places.values[v]);
             const double way = ahead < 0.5 * after.length() ? ahead : ahead - after.length();
-            if (std::abs(way) < least) {
-                least = std::abs(way);
+            if (std::abs(way) < min) {
+                min = std::abs(way);
                 move = way;
                 best = v;
             }
@@ -265,7 +265,7 @@ bool hugs(const Loop& loop, const Curve& after, const std::vector<double>& place
             if (lap + after.arc(i) >= to) {
                 break;
             }
-            if (std::abs(cross(chord, loop.points[i] - points[v])) > kMostSagitta * size * size) {
+            if (std::abs(cross(chord, loop.points[i] - points[v])) > kMaxSagitta * size * size) {
                 return false;
             }
         }
@@ -320,11 +320,11 @@ std::optional<std::vector<const Loop*>> partners(const PlanarMesh& mesh, const F
     for (std::size_t k = 1; k < count; ++k) {
         const Vec2 middle = centroid(loopOf(mesh, k)) + shift;
         std::size_t best = 0;
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (std::size_t h = 0; h < footprint.holes.size(); ++h) {
             const double away = length(centroid(footprint.holes[h].points) - middle);
-            if (away < least) {
-                least = away;
+            if (away < min) {
+                min = away;
                 best = h;
             }
         }
@@ -398,7 +398,7 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     }
     const std::optional<std::vector<const Loop*>> loops = partners(last, footprint);
     const double stretch = std::sqrt(area(footprint) / area(first));
-    if (!loops || !(stretch <= kMostStretch && stretch >= 1.0 / kMostStretch)) {
+    if (!loops || !(stretch <= kMaxStretch && stretch >= 1.0 / kMaxStretch)) {
         return std::nullopt;
     }
     std::vector<Vec2> rim;
@@ -412,7 +412,7 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     PlanarMesh mesh = withRim(first, rim);
     const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                                    [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
-    if (!whole || minAngle(mesh) < std::min(kLeastAngle, kShareOfAngle * minAngle(first))) {
+    if (!whole || minAngle(mesh) < std::min(kMinAngle, kShareOfAngle * minAngle(first))) {
         return std::nullopt;
     }
     return mesh;

@@ -20,13 +20,13 @@
 namespace droplet {
 namespace {
 
-constexpr double kFitting = 0.05;      // of an edge, between an old rim vertex and the new rim
-constexpr double kMostSagitta = 0.06;  // of an edge, between it and the new rim; a third more than a fresh one's
-constexpr double kMostDetour = 1.3;    // of the rim between two vertices, to their distance
-constexpr double kFar = 2.5;           // edges from where the rim changed
-constexpr double kMostOffset = 0.02;   // of an edge, between the whole rim and the new one in the mean
-constexpr double kFinest = 0.07;       // of the loops' own detail, as triangulate() has it
-constexpr std::size_t kFewest = 8;     // triangles that stay together, or they go
+constexpr double kFitting = 0.05;     // of an edge, between an old rim vertex and the new rim
+constexpr double kMaxSagitta = 0.06;  // of an edge, between it and the new rim; a third more than a fresh one's
+constexpr double kMaxDetour = 1.3;    // of the rim between two vertices, to their distance
+constexpr double kFar = 2.5;          // edges from where the rim changed
+constexpr double kMaxOffset = 0.02;   // of an edge, between the whole rim and the new one in the mean
+constexpr double kFinest = 0.07;      // of the loops' own detail, as triangulate() has it
+constexpr std::size_t kFewest = 8;    // triangles that stay together, or they go
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t keyOf(std::uint32_t a, std::uint32_t b)
@@ -107,7 +107,7 @@ public:
     [[nodiscard]] const Curve& curve(std::size_t k) const { return curves_[k]; }
 
     /// The nearest place no farther than a distance, which is at most half an edge.
-    [[nodiscard]] std::optional<Place> nearest(Vec2 p, double most) const
+    [[nodiscard]] std::optional<Place> nearest(Vec2 p, double max) const
     {
         std::optional<Place> found;
         cells_.around(p, [&](const std::pair<std::size_t, std::size_t>& piece) {
@@ -116,8 +116,8 @@ public:
             const Vec2 along = end(k, i) - from;
             const double t = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
             const double away = length(p - (from + t * along));
-            if (away <= most) {
-                most = away;
+            if (away <= max) {
+                max = away;
                 found = Place{k, curves_[k].arc(i) + t * length(along)};
             }
             return false;
@@ -132,7 +132,7 @@ public:
         const double size = length(chord);
         const Curve& along = curves_[from.loop];
         const double way = along.wrapped(to.arc - from.arc);
-        if (from.loop != to.loop || way > kMostDetour * size || way * kMostDetour < size) {
+        if (from.loop != to.loop || way > kMaxDetour * size || way * kMaxDetour < size) {
             return false;
         }
         for (std::size_t i = along.pieceAt(from.arc), n = 0; n < along.size(); ++n) {
@@ -142,7 +142,7 @@ public:
             }
             const Vec2 p = loops_[from.loop]->points[i];
             const bool at_end = std::min(length(p - a), length(p - b)) < kFitting * size;
-            if (std::abs(cross(chord, p - a)) > kMostSagitta * size * size ||
+            if (std::abs(cross(chord, p - a)) > kMaxSagitta * size * size ||
                 (loops_[from.loop]->corner[i] != 0 && !at_end)) {
                 return false;
             }
@@ -572,7 +572,7 @@ private:
         }
         const double covered = area(mesh);
         if (std::abs(covered - enclosed) > 1e-9 * covered ||
-            std::abs(covered - footprint_area_) > kMostOffset * edge_ * rimLength(mesh)) {
+            std::abs(covered - footprint_area_) > kMaxOffset * edge_ * rimLength(mesh)) {
             return std::nullopt;
         }
         return patched;

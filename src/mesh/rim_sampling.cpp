@@ -357,8 +357,8 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
             edges.push_back(edges.back() + (sampling.arc[at + 1] - sampling.arc[at]) / mean);
         }
         // Six vertices or more where fewer than three corners make the loop's shape.
-        const std::size_t least = stops.size() < 3 ? 6 / stops.size() : 1;
-        const auto count = std::max(least, static_cast<std::size_t>(std::lround(edges.back())));
+        const std::size_t min = stops.size() < 3 ? 6 / stops.size() : 1;
+        const auto count = std::max(min, static_cast<std::size_t>(std::lround(edges.back())));
         sampling.marks.push_back({begin, 0.0, false});
         std::size_t i = 0;
         for (std::size_t j = 1; j < count; ++j) {
@@ -470,8 +470,8 @@ RimPolygon keepArea(const Sampling& sampling)
             continue;
         }
         // More than this would be no correction of a chord but a change of shape.
-        const double most = kTurnPerEdge / 8.0 * shorter;
-        const double shift = std::clamp((missing[before] + missing[i]) / both, -most, most);
+        const double max = kTurnPerEdge / 8.0 * shorter;
+        const double shift = std::clamp((missing[before] + missing[i]) / both, -max, max);
         result[i] = polygon[i] + (shift / length(along)) * Vec2{along.y, -along.x};
     }
     return result;

@@ -35,13 +35,13 @@ constexpr double kFinest = 0.07;
 constexpr double kRoot3 = std::numbers::sqrt3;
 
 /// Beyond this vertices have no index.
-constexpr double kMostTriangles = 4e9;
+constexpr double kMaxTriangles = 4e9;
 
 /// Beyond these, nor beyond what was asked for, an outline may force none: refinement doubles or trebles them, and
 /// three million triangles take half a minute and a gigabyte.
-constexpr double kMostForced = 1 << 20;
+constexpr double kMaxForced = 1 << 20;
 
-constexpr int kMostGrading = 64;
+constexpr int kMaxGrading = 64;
 
 PlanarMesh meshFootprint(const RimSampler& sampler, double edge, int grading)
 {
@@ -95,11 +95,11 @@ double predictTriangles(const std::vector<RimSampler>& samplers, double edge, in
 /// @param wanted  triangles that the footprint's area takes at this edge length
 void checkDetail(double predicted, double wanted)
 {
-    const double most = std::max(kMostForced, wanted);
-    if (predicted > most) {
+    const double max = std::max(kMaxForced, wanted);
+    if (predicted > max) {
         throw Error(ErrorCode::InvalidInput,
                     "the footprint's detail takes " + numberText(std::round(predicted), 9) +
-                        " triangles or more, over the limit of " + numberText(std::floor(most), 9) +
+                        " triangles or more, over the limit of " + numberText(std::floor(max), 9) +
                         "; make the picture smaller, smooth it, or ask for as many --triangles");
     }
 }
@@ -124,7 +124,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     // Where narrow parts alone want more triangles than that, longer edges change nothing.
     const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
     // Cheap guesses first: most of the way without triangulating.
-    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMostForced, target); ++k) {
+    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxForced, target); ++k) {
         const double count = predictTriangles(samplers, edge, options.grading);
         if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
             checkDetail(count, target);
@@ -172,7 +172,7 @@ void TriangulateOptions::validate() const
     if (edge && !(*edge > 0.0 && std::isfinite(*edge))) {
         throw Error(ErrorCode::InvalidArgument, "edge " + numberText(*edge) + " m must be positive");
     }
-    if (grading < 1 || grading > kMostGrading || !std::has_single_bit(static_cast<unsigned>(grading))) {
+    if (grading < 1 || grading > kMaxGrading || !std::has_single_bit(static_cast<unsigned>(grading))) {
         throw Error(ErrorCode::InvalidArgument,
                     "grading " + std::to_string(grading) + " must be a power of two from 1 to 64");
     }
@@ -185,7 +185,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     for (const Footprint& footprint : domain.droplets) {
         total_area += area(footprint);
     }
-    if (options.edge && total_area / (kRoot3 / 4.0 * *options.edge * *options.edge) > kMostTriangles) {
+    if (options.edge && total_area / (kRoot3 / 4.0 * *options.edge * *options.edge) > kMaxTriangles) {
         throw Error(ErrorCode::InvalidArgument,
                     "edge " + numberText(*options.edge) + " m must be longer: it would take more than 4e9 triangles");
     }
@@ -209,7 +209,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
             points += hole.points.size();
         }
     }
-    if (4.0 * static_cast<double>(points) > kMostForced) {
+    if (4.0 * static_cast<double>(points) > kMaxForced) {
         // Triangles at a rim may be half as high as others.
         checkDetail(predictTriangles(samplers, *options.edge, options.grading),
                     2.0 * total_area / (kRoot3 / 4.0 * *options.edge * *options.edge));
@@ -226,7 +226,7 @@ PlanarMesh cover(const PlanarMesh& mesh)
     }
     // Four times as long as edges along the rim at once: nobody looks at the ground from below.
     const double edge = 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
-    const std::vector<Vec2> points = gradedPoints(polygons, edge, kMostGrading);
+    const std::vector<Vec2> points = gradedPoints(polygons, edge, kMaxGrading);
     PlanarMesh result;
     result.triangles = triangulateAsIs(polygons, points);
     result.loop_starts = mesh.loop_starts;

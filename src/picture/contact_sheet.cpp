@@ -15,7 +15,7 @@
 namespace droplet {
 namespace {
 
-constexpr int kLeastTile = 16;  // [px]
+constexpr int kMinTile = 16;  // [px]
 constexpr std::array<std::uint8_t, 3> kPaper = {244, 243, 240};
 
 struct Grid {
@@ -45,21 +45,21 @@ Grid gridOf(std::size_t tiles, const ContactSheetOptions& options)
     };
     // More columns than these, and the sheet is wider than 4 : 3.
     int columns = 1;
-    const int most = static_cast<int>(std::min<std::size_t>(tiles, 4096));
-    while (!options.columns && columns < most &&
+    const int max = static_cast<int>(std::min<std::size_t>(tiles, 4096));
+    while (!options.columns && columns < max &&
            3 * scaled(columns + 1, 1.0).width() <= 4 * scaled(columns, 1.0).height()) {
         ++columns;
     }
     double scale = 1.0;
-    Grid grid = scaled(options.columns ? std::min(*options.columns, most) : columns, scale);
-    while (std::max(grid.width(), grid.height()) > options.most_side) {
+    Grid grid = scaled(options.columns ? std::min(*options.columns, max) : columns, scale);
+    while (std::max(grid.width(), grid.height()) > options.max_side) {
         scale *= 0.97;
         grid = scaled(grid.columns, scale);
-        if (std::min(grid.tile_width, grid.tile_height) < kLeastTile) {
+        if (std::min(grid.tile_width, grid.tile_height) < kMinTile) {
             throw Error(ErrorCode::InvalidArgument,
                         std::to_string(tiles) +
-                            " tiles do not fit on a sheet of options.most_side = " + std::to_string(options.most_side) +
-                            " pixels: they would be smaller than " + std::to_string(kLeastTile));
+                            " tiles do not fit on a sheet of options.max_side = " + std::to_string(options.max_side) +
+                            " pixels: they would be smaller than " + std::to_string(kMinTile));
         }
     }
     return grid;
@@ -132,16 +132,16 @@ void put(Picture& sheet, const Picture& picture, int left, int top)
 
 void ContactSheetOptions::validate() const
 {
-    constexpr int kMostColumns = 4096;
-    constexpr int kMostTile = 4096;
-    constexpr int kMostSheet = 16384;
-    constexpr int kLeastSheet = 256;
+    constexpr int kMaxColumns = 4096;
+    constexpr int kMaxTile = 4096;
+    constexpr int kMaxSheet = 16384;
+    constexpr int kMinSheet = 256;
     if (columns) {
-        requireWithin("options.columns", *columns, 1, kMostColumns);
+        requireWithin("options.columns", *columns, 1, kMaxColumns);
     }
-    requireWithin("options.tile_width", tile_width, kLeastTile, kMostTile);
-    requireWithin("options.tile_height", tile_height, kLeastTile, kMostTile);
-    requireWithin("options.most_side", most_side, kLeastSheet, kMostSheet);
+    requireWithin("options.tile_width", tile_width, kMinTile, kMaxTile);
+    requireWithin("options.tile_height", tile_height, kMinTile, kMaxTile);
+    requireWithin("options.max_side", max_side, kMinSheet, kMaxSheet);
 }
 
 TileSize tileSize(std::size_t tiles, const ContactSheetOptions& options)

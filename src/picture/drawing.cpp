@@ -158,10 +158,10 @@ Picture pictureOf(const Drawing& drawing, double scale)
     const double width = std::round(scale * drawing.width);
     const double height = std::round(scale * drawing.height);
     if (!(width >= 1.0 && height >= 1.0 && std::max(width, height) <= kLongestCanvas &&
-          width * height <= static_cast<double>(kMostPicturePixels))) {
+          width * height <= static_cast<double>(kMaxPicturePixels))) {
         throw Error(ErrorCode::InvalidArgument,
                     fmt::format("a drawing of {} x {} pixels must have from 1 to {}, and up to {} a side",
-                                numberText(width), numberText(height), kMostPicturePixels, kLongestCanvas));
+                                numberText(width), numberText(height), kMaxPicturePixels, kLongestCanvas));
     }
     Picture picture{static_cast<int>(width), static_cast<int>(height), {}};
     picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 255);

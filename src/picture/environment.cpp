@@ -21,16 +21,16 @@ void Environment::validate() const
                                                     " pixels, must be width " + std::to_string(width) + " * height " +
                                                     std::to_string(height) + ", both at least 1");
     }
-    float most = 0.0F;
+    float max = 0.0F;
     for (const std::array<float, 3>& pixel : radiance) {
         for (const float light : pixel) {
             if (!(light >= 0.0F && std::isfinite(light))) {
                 throw Error(ErrorCode::InvalidArgument, "environment's light must be finite and at least 0");
             }
-            most = std::max(most, light);
+            max = std::max(max, light);
         }
     }
-    if (most == 0.0F) {
+    if (max == 0.0F) {
         throw Error(ErrorCode::InvalidArgument, "environment must not be black all over");
     }
 }

@@ -109,9 +109,9 @@ Vec3f paintAt(const Paint& paint, const Triangle& triangle, const PaintPoint& po
 
 int legendWidth(const Paint& paint, int width, int height)
 {
-    constexpr int kLeastWidth = 320;
-    constexpr int kLeastHeight = 240;
-    if (width < kLeastWidth || height < kLeastHeight) {
+    constexpr int kMinWidth = 320;
+    constexpr int kMinHeight = 240;
+    if (width < kMinWidth || height < kMinHeight) {
         return 0;
     }
     return static_cast<int>(std::ceil(Legend(paint, height).inside + 4.0 * letterSize(height)));

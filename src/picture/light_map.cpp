@@ -38,7 +38,7 @@ public:
     void bend(const RayF& ray, const Meeting& meeting, float light)
     {
         if (medium_.clear) {
-            meetLiquid(ray, meeting, {grey(light), kLeast * light, false, 0});
+            meetLiquid(ray, meeting, {grey(light), kMin * light, false, 0});
         }
     }
 
@@ -86,12 +86,12 @@ public:
     }
 
 private:
-    static constexpr int kMostMeetings = 6;
-    static constexpr float kLeast = 1e-3F;  // of a ray's light that is still followed, times its share
+    static constexpr int kMaxMeetings = 6;
+    static constexpr float kMin = 1e-3F;  // of a ray's light that is still followed, times its share
 
     struct Way {
         Vec3f light;
-        float least;  // less is not followed
+        float min;  // less is not followed
         bool inside;
         int meetings;
     };
@@ -99,7 +99,7 @@ private:
     void follow(const RayF& ray, Way way)
     {
         // Light that goes up again through the air is lost.
-        if (way.meetings > kMostMeetings || largest(way.light) < way.least ||
+        if (way.meetings > kMaxMeetings || largest(way.light) < way.min ||
             (!way.inside && scene_.onPlane() && ray.direction.z >= 0.0F)) {
             return;
         }
@@ -122,7 +122,7 @@ private:
         const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
         const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
         const auto onward = [&](float share, bool inside) {
-            return Way{share * way.light, way.least, inside, way.meetings + 1};
+            return Way{share * way.light, way.min, inside, way.meetings + 1};
         };
         follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
         if (there.reflected < 1.0F) {
@@ -332,13 +332,13 @@ LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light&
     straight.finish(0.0F);
     blurMap(map, kGrain);
     blurMap(dry, kGrain);
-    float most = 0.0F;
+    float max = 0.0F;
     for (const Vec3f& value : dry.values) {
-        most = std::max(most, value.x);
+        max = std::max(max, value.x);
     }
     for (std::size_t i = 0; i < map.values.size(); ++i) {
         // Where light hardly falls its share is noise.
-        const float there = dry.values[i].x + 0.02F * most;
+        const float there = dry.values[i].x + 0.02F * max;
         const Vec3f gain = grey(1.0F) + (1.0F / std::max(there, 1e-12F)) * map.values[i];
         map.values[i] = {std::clamp(gain.x, 0.0F, 4.0F), std::clamp(gain.y, 0.0F, 4.0F),
                          std::clamp(gain.z, 0.0F, 4.0F)};

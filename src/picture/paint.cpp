@@ -207,8 +207,8 @@ Paint differencePaint(const Surface& surface, const Surface& other)
 {
     Paint paint;
     paint.values = signedDistances(surface, other);
-    constexpr double kLeast = 1e-9;  // what a picture shows of surfaces that are the same
-    double largest = kLeast;
+    constexpr double kMin = 1e-9;  // what a picture shows of surfaces that are the same
+    double largest = kMin;
     for (const double value : paint.values) {
         largest = std::max(largest, std::abs(value));
     }

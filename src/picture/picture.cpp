@@ -246,8 +246,8 @@ Picture over(const Layer& layer, const Picture& below)
 Picture covering(const Picture& picture, int width, int height)
 {
     picture.validate();
-    constexpr int kMostSide = 8192;
-    if (width < 1 || height < 1 || width > kMostSide || height > kMostSide) {
+    constexpr int kMaxSide = 8192;
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
         throw Error(ErrorCode::InvalidArgument, "frame of " + std::to_string(width) + " by " + std::to_string(height) +
                                                     " pixels must be 1 to 8192 each way");
     }

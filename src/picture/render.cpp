@@ -27,21 +27,21 @@
 namespace droplet {
 namespace {
 
-constexpr int kMostPixels = 8192;
-constexpr int kLeastSamples = 4;
-constexpr int kMostSamples = 256;
+constexpr int kMaxPixels = 8192;
+constexpr int kMinSamples = 4;
+constexpr int kMaxSamples = 256;
 constexpr float kWhite = 0.85F;  // how white ground in the open comes out, before the filmic curve
 constexpr float kPi = 3.14159265F;
 
 // Beyond these a ray ends in the room's light.
-constexpr int kMostMeetings = 7;
-constexpr float kLeastWeight = 0.004F;  // a level of 255
+constexpr int kMaxMeetings = 7;
+constexpr float kMinWeight = 0.004F;  // a level of 255
 
 // Cells of the light on the plane, along its longer side, for a pixel along the picture's.
 constexpr double kLightCells = 0.36;
 constexpr double kStandCells = 0.45;  // of the light on a stand, along its texture
-constexpr int kLeastLightCells = 64;
-constexpr int kMostLightCells = 1024;
+constexpr int kMinLightCells = 64;
+constexpr int kMaxLightCells = 1024;
 
 [[noreturn]] void refuse(const std::string& text)
 {
@@ -99,13 +99,13 @@ public:
         if (scene_.onPlane() && !studio_.uniform()) {
             light_ = lightOnPlane(scene_, medium_, studio_.lights(),
                                   std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
-                                             kLeastLightCells, kMostLightCells));
+                                             kMinLightCells, kMaxLightCells));
         }
         if (!scene_.onPlane() && options.stand && !studio_.uniform()) {
             key_gain_ =
                 lightGainOnStand(scene_, medium_, studio_.lights().front(),
                                  std::clamp(static_cast<int>(kStandCells * std::max(options.width, options.height)),
-                                            kLeastLightCells, kMostLightCells));
+                                            kMinLightCells, kMaxLightCells));
             for (const Beam& beam : studio_.lights().front().beams) {
                 key_ = key_ + beam.share * beam.toward;
             }
@@ -189,7 +189,7 @@ private:
         if (side < 1e-3F) {
             direction = unit(direction + (inside ? side - 1e-3F : 1e-3F - side) * meeting.facet);
         }
-        if (next.meetings > kMostMeetings || next.weight < kLeastWeight) {
+        if (next.meetings > kMaxMeetings || next.weight < kMinWeight) {
             return roomLight(direction, way.part);
         }
         return trace({meeting.place, direction}, next);
@@ -416,7 +416,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options, Part part)
             Pixel& pixel = pixels[y * width + x];
             Vec3f low = grey(2.0F);
             Vec3f high = grey(-1.0F);
-            for (std::size_t s = 0; s < kLeastSamples; ++s) {
+            for (std::size_t s = 0; s < kMinSamples; ++s) {
                 const Vec3f light = sample(x, y, s);
                 pixel.sum = pixel.sum + light;
                 low = {std::min(low.x, light.x), std::min(low.y, light.y), std::min(low.z, light.z)};
@@ -428,7 +428,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options, Part part)
     std::vector<Vec3f> seen(pixels.size());
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
-            seen[y * width + x] = onScreen((1.0F / kLeastSamples) * pixels[y * width + x].sum);
+            seen[y * width + x] = onScreen((1.0F / kMinSamples) * pixels[y * width + x].sum);
         }
     });
     Picture picture{options.width, options.height, std::vector<std::uint8_t>(3 * width * height)};
@@ -442,7 +442,7 @@ Picture trace(const Tracer& tracer, const RenderOptions& options, Part part)
             if (pixels[at].spread > kVisible || apart(x > 0, at - 1) || apart(x + 1 < width, at + 1) ||
                 apart(y > 0, at - width) || apart(y + 1 < height, at + width)) {
                 Vec3f sum = pixels[at].sum;
-                for (std::size_t s = kLeastSamples; s < samples.size(); ++s) {
+                for (std::size_t s = kMinSamples; s < samples.size(); ++s) {
                     sum = sum + sample(x, y, s);
                 }
                 shown = onScreen((1.0F / static_cast<float>(samples.size())) * sum);
@@ -477,9 +477,9 @@ View viewNamed(std::string_view name)
 
 void RenderOptions::validate() const
 {
-    requireWithin("options.width", width, 1, kMostPixels);
-    requireWithin("options.height", height, 1, kMostPixels);
-    requireWithin("options.samples", samples, kLeastSamples, kMostSamples);
+    requireWithin("options.width", width, 1, kMaxPixels);
+    requireWithin("options.height", height, 1, kMaxPixels);
+    requireWithin("options.samples", samples, kMinSamples, kMaxSamples);
     require(std::isfinite(azimuth), "options.azimuth", azimuth, "finite");
     if (camera) {
         require(std::isfinite(camera->azimuth), "options.camera.azimuth", camera->azimuth, "finite");
@@ -557,11 +557,11 @@ Layer renderCutOut(const Surface& surface, const RenderOptions& options)
         const std::uint8_t* const mirrored = own.rgb.data() + 3 * i;
         const std::uint8_t* const passed = through.rgb.data() + 3 * i;
         // Over white every colour is the sum, over black what is mirrored and tinted.
-        const int least = std::min({passed[0], passed[1], passed[2]});
+        const int min = std::min({passed[0], passed[1], passed[2]});
         std::array<int, 3> over_black{};
-        int alpha = 255 - least;
+        int alpha = 255 - min;
         for (std::size_t c = 0; c < 3; ++c) {
-            over_black[c] = std::min(mirrored[c] + passed[c] - least, 255);
+            over_black[c] = std::min(mirrored[c] + passed[c] - min, 255);
             alpha = std::max(alpha, over_black[c]);
         }
         std::uint8_t* const to = layer.rgba.data() + 4 * i;

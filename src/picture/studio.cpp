@@ -182,7 +182,7 @@ void Studio::addRoom(CameraTurn turn)
 void Studio::addSky(CameraTurn turn)
 {
     // What is far brighter than the rest throws shadows with detail, from few places; the rest is soft.
-    constexpr std::size_t kMostBeams = 16;
+    constexpr std::size_t kMaxBeams = 16;
     constexpr float kBright = 4.0F;  // times the mean
     std::vector<Sky::Cell> cells = sky_->cells();
     std::stable_sort(cells.begin(), cells.end(),
@@ -204,7 +204,7 @@ void Studio::addSky(CameraTurn turn)
         if (toward.z < kLowest) {
             continue;
         }
-        const bool is_key = cell.radiance.y > kBright * mean && key.beams.size() < kMostBeams;
+        const bool is_key = cell.radiance.y > kBright * mean && key.beams.size() < kMaxBeams;
         Light& light = is_key ? key : rest;
         const Vec3f irradiance = cell.angle * toward.z * cell.radiance;
         light.beams.push_back({toward, irradiance.y});

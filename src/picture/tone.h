@@ -26,9 +26,9 @@ inline const std::array<float, 256>& displayLevels()
 }
 
 /// The nearest whole number from 0 to most, without a call or a branch, which std::clamp may be.
-inline int nearest(float value, std::size_t most)
+inline int nearest(float value, std::size_t max)
 {
-    const float half_up = std::min(std::max(value, 0.0F), static_cast<float>(most)) + 0.5F;
+    const float half_up = std::min(std::max(value, 0.0F), static_cast<float>(max)) + 0.5F;
     return static_cast<int>(half_up);
 }
 

@@ -154,7 +154,7 @@ NearestTriangles::Found NearestTriangles::nearest(Vec3 p, std::uint32_t guess) c
     return found;
 }
 
-std::optional<NearestTriangles::Found> NearestTriangles::nearestFacing(Vec3 p, Vec3 direction, double most) const
+std::optional<NearestTriangles::Found> NearestTriangles::nearestFacing(Vec3 p, Vec3 direction, double max) const
 {
     std::optional<Found> found;
     auto visitor = [&](std::uint32_t triangle) {
@@ -162,31 +162,31 @@ std::optional<NearestTriangles::Found> NearestTriangles::nearestFacing(Vec3 p, V
             const Vec3 point = nearestPoint(p, triangles_[triangle]);
             const double away = length(p - point);
             if (found ? away < found->distance || (away == found->distance && triangle < found->triangle)
-                      : away <= most) {
+                      : away <= max) {
                 found = {away, triangle, point};
             }
         }
-        return found ? found->distance : most;
+        return found ? found->distance : max;
     };
-    visit(p, most, visitor);
+    visit(p, max, visitor);
     return found;
 }
 
-std::vector<std::uint32_t> NearestTriangles::within(Vec3 p, double most) const
+std::vector<std::uint32_t> NearestTriangles::within(Vec3 p, double max) const
 {
     std::vector<std::uint32_t> found;
     auto visitor = [&](std::uint32_t triangle) {
-        if (distance(p, triangles_[triangle]) <= most) {
+        if (distance(p, triangles_[triangle]) <= max) {
             found.push_back(triangle);
         }
-        return most;
+        return max;
     };
-    visit(p, most, visitor);
+    visit(p, max, visitor);
     std::sort(found.begin(), found.end());
     return found;
 }
 
-std::optional<std::vector<std::uint32_t>> NearestTriangles::boxesWithin(Vec3 p, double most, std::size_t limit) const
+std::optional<std::vector<std::uint32_t>> NearestTriangles::boxesWithin(Vec3 p, double max, std::size_t limit) const
 {
     std::vector<std::uint32_t> found;
     auto visitor = [&](std::uint32_t triangle) {
@@ -195,12 +195,12 @@ std::optional<std::vector<std::uint32_t>> NearestTriangles::boxesWithin(Vec3 p, 
             return std::max({0.0, std::min({u, v, w}) - x, x - std::max({u, v, w})});
         };
         const Vec3 away{gap(p.x, a.x, b.x, c.x), gap(p.y, a.y, b.y, c.y), gap(p.z, a.z, b.z, c.z)};
-        if (found.size() <= limit && dot(away, away) <= most * most) {
+        if (found.size() <= limit && dot(away, away) <= max * max) {
             found.push_back(triangle);
         }
-        return found.size() <= limit ? most : 0.0;
+        return found.size() <= limit ? max : 0.0;
     };
-    visit(p, most, visitor);
+    visit(p, max, visitor);
     if (found.size() > limit) {
         return std::nullopt;
     }

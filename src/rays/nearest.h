@@ -47,15 +47,15 @@ public:
     /// @param guess  a triangle that may be near, which saves time and changes nothing
     [[nodiscard]] Found nearest(Vec3 p, std::uint32_t guess = 0) const;
 
-    /// The nearest among the triangles that face a direction and are no farther than `most`.
-    [[nodiscard]] std::optional<Found> nearestFacing(Vec3 p, Vec3 direction, double most) const;
+    /// The nearest among the triangles that face a direction and are no farther than `max`.
+    [[nodiscard]] std::optional<Found> nearestFacing(Vec3 p, Vec3 direction, double max) const;
 
-    /// Triangles no farther from p than `most`, in rising order.
-    [[nodiscard]] std::vector<std::uint32_t> within(Vec3 p, double most) const;
+    /// Triangles no farther from p than `max`, in rising order.
+    [[nodiscard]] std::vector<std::uint32_t> within(Vec3 p, double max) const;
 
-    /// Triangles whose boxes are no farther from p than `most`, in rising order: all that `within` finds, and more.
+    /// Triangles whose boxes are no farther from p than `max`, in rising order: all that `within` finds, and more.
     /// Nothing where there are over `limit` of them.
-    [[nodiscard]] std::optional<std::vector<std::uint32_t>> boxesWithin(Vec3 p, double most, std::size_t limit) const;
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> boxesWithin(Vec3 p, double max, std::size_t limit) const;
 
 private:
     struct Tree;

@@ -68,16 +68,16 @@ struct Link {
 std::vector<Link> linksOf(const Domain& before, const Domain& after, double row)
 {
     const std::vector<Overlap> all = overlaps(before, after, row);
-    std::vector<double> most_before(before.droplets.size(), 0.0);
-    std::vector<double> most_after(after.droplets.size(), 0.0);
+    std::vector<double> max_before(before.droplets.size(), 0.0);
+    std::vector<double> max_after(after.droplets.size(), 0.0);
     for (const Overlap& overlap : all) {
-        most_before[overlap.first] = std::max(most_before[overlap.first], overlap.area);
-        most_after[overlap.second] = std::max(most_after[overlap.second], overlap.area);
+        max_before[overlap.first] = std::max(max_before[overlap.first], overlap.area);
+        max_after[overlap.second] = std::max(max_after[overlap.second], overlap.area);
     }
     std::vector<Link> links;
     for (const Overlap& overlap : all) {
         const double smaller = std::min(area(before.droplets[overlap.first]), area(after.droplets[overlap.second]));
-        const bool nearest = overlap.area == most_before[overlap.first] && overlap.area == most_after[overlap.second];
+        const bool nearest = overlap.area == max_before[overlap.first] && overlap.area == max_after[overlap.second];
         if (overlap.area >= kJoins * smaller || nearest) {
             links.push_back({overlap.first, overlap.second, overlap.area});
         }
@@ -187,14 +187,14 @@ std::size_t nameDroplets(const Frame& before, const std::vector<Group>& groups, 
         }
         // The id goes to what covers most of the heir's ground.
         std::size_t keeper = frame.droplets.size();
-        double most = -1.0;
+        double max = -1.0;
         for (const std::size_t k : group.after) {
             double common = 0.0;
             for (const Link& link : links) {
                 common += link.before == heir && link.after == k && !group.before.empty() ? link.area : 0.0;
             }
-            if (common > most) {
-                most = common;
+            if (common > max) {
+                max = common;
                 keeper = k;
             }
         }
@@ -344,11 +344,10 @@ FrameLineage meshAnew(const Domain& domain, const DropletOptions& options, std::
 /// Whether angles are as those of meshes that are moved, or of one made anew.
 bool anglesWillDo(const PlanarMesh& mesh, const Footprint& footprint, double edge)
 {
-    constexpr double kLeastAngle = 15.0 * kDegree;
+    constexpr double kMinAngle = 15.0 * kDegree;
     constexpr double kShareOfAngle = 0.75;
-    const double least = minAngle(mesh);
-    return least >= kLeastAngle ||
-           least >= kShareOfAngle * minAngle(triangulate({{footprint}, {}}, {.edge = edge}).front());
+    const double min = minAngle(mesh);
+    return min >= kMinAngle || min >= kShareOfAngle * minAngle(triangulate({{footprint}, {}}, {.edge = edge}).front());
 }
 
 /// Meshes a frame so that it keeps what it can: droplets that only move are moved, others keep what is far from where

@@ -30,7 +30,7 @@ using Ldlt = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
 /// Steps of refinement, and the residual at which a second or third is not needed.
-constexpr int kMostRefinements = 3;
+constexpr int kMaxRefinements = 3;
 constexpr double kGoodResidual = 1e-11;
 
 /// Stands for a pair that has no entry, because one of its vertices lies on the rim.
@@ -212,7 +212,7 @@ public:
             const double weight = std::abs(mass_weight_) * load_.cwiseProduct(x).norm();
             const double scale = std::max({right.norm(), pull.norm(), weight});
             solution.residual = scale > 0.0 ? residual.norm() / scale : 0.0;
-            if (step == kMostRefinements || (step > 0 && solution.residual < kGoodResidual)) {
+            if (step == kMaxRefinements || (step > 0 && solution.residual < kGoodResidual)) {
                 break;
             }
             refine(residual);

@@ -398,7 +398,7 @@ struct Advance {
     bool converged = true;
     bool stable = true;
     std::size_t iterations = 0;
-    double work = 0.0;  ///< as in SolveOptions::most_work
+    double work = 0.0;  ///< as in SolveOptions::max_work
     double residual = 0.0;
 };
 
@@ -593,10 +593,10 @@ Trial goodPart(const std::vector<Member>& members, const Advance& advance,
                const std::vector<std::vector<double>>& gradients)
 {
     constexpr double kEnough = 0.5;
-    constexpr int kMostCuts = 12;
+    constexpr int kMaxCuts = 12;
     const double first = slopeAlong(members, advance, gradients);
     Trial trial = trialAt(members, advance, 1.0);
-    for (int k = 0; k < kMostCuts; ++k) {
+    for (int k = 0; k < kMaxCuts; ++k) {
         const double slope = slopeAlong(members, advance, trial.gradients);
         if (slope <= kEnough * std::abs(first)) {
             break;
@@ -642,8 +642,8 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     // Which vertices are held can hang on the last digits of a step: rough ones go round in circles.
     const double roughly = exact && !keepsAbove(members) ? kRoughly : kExactly;
     StepOptions step{options.fill, exact ? roughly : options.linear_tolerance};
-    double least_residual = std::numeric_limits<double>::infinity();
-    while (settled.newton_steps < options.most_steps && settled.work < options.most_work) {
+    double min_residual = std::numeric_limits<double>::infinity();
+    while (settled.newton_steps < options.max_steps && settled.work < options.max_work) {
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
         settled.work += next.work;
@@ -677,8 +677,8 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
         const bool filled =
             isVolumeOfOne(members, options.fill) ? whole || !keepsAbove(members) : whole && missed < options.tolerance;
         // Needles of triangles leave more to round-off; what no longer gets better is as good as it gets.
-        const bool stuck = settled.residual < kStuckResidual && settled.residual > 0.5 * least_residual;
-        least_residual = std::min(least_residual, settled.residual);
+        const bool stuck = settled.residual < kStuckResidual && settled.residual > 0.5 * min_residual;
+        min_residual = std::min(min_residual, settled.residual);
         if ((settled.residual <= options.tolerance || stuck) && filled) {
             settled.converged = true;
             for (std::size_t k = 0; k < members.size(); ++k) {

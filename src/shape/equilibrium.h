@@ -37,8 +37,8 @@ struct SettleOptions {
     Fill fill;                        ///< of all members together, at one pressure
     double tolerance = 1e-9;          ///< of the exact model's residual, relative to pressure and size
     double linear_tolerance = 1e-10;  ///< of the linear model's systems
-    std::size_t most_steps = 40;
-    double most_work = std::numeric_limits<double>::infinity();  ///< after which no step is begun
+    std::size_t max_steps = 40;
+    double max_work = std::numeric_limits<double>::infinity();  ///< after which no step is begun
 };
 
 /// How it went.
@@ -47,7 +47,7 @@ struct Settled {
     bool stable = true;  ///< with one reservoir under a ceiling: whether it stays one
     std::size_t newton_steps = 0;
     std::size_t iterations = 0;  ///< most of any linear system
-    double work = 0.0;           ///< as in SolveOptions::most_work
+    double work = 0.0;           ///< as in SolveOptions::max_work
     double residual = 0.0;
 };
 

@@ -134,9 +134,9 @@ public:
         outcome_.iterations = 0;
         use(Model::Exact);
         // Half of the work is for the way up, where this leads nowhere.
-        most_work_ = 0.5 * mostWork();
+        max_work_ = 0.5 * maxWork();
         const bool settled = settleExact(options_->fill) && steepest() < kReliable;
-        most_work_ = mostWork();
+        max_work_ = maxWork();
         if (settled || climb()) {
             outcome_.termination = Termination::Converged;
         } else if (isSpent()) {
@@ -150,10 +150,10 @@ private:
     /// Of the exact model's.
     [[nodiscard]] std::size_t stepsLeft() const
     {
-        return options_->most_newton_steps - std::min(outcome_.newton_steps, options_->most_newton_steps);
+        return options_->max_newton_steps - std::min(outcome_.newton_steps, options_->max_newton_steps);
     }
 
-    [[nodiscard]] double mostWork() const
+    [[nodiscard]] double maxWork() const
     {
         // Half a minute for some ten thousand unknowns.
         constexpr double kAlways = 6e7;
@@ -163,10 +163,10 @@ private:
                 const PlanarMesh& mesh = member.energy->mesh();
                 return sum + static_cast<double>(mesh.vertices.size() - mesh.rimVertexCount());
             });
-        return options_->most_work.value_or(kAlways + kForUnknown * unknowns);
+        return options_->max_work.value_or(kAlways + kForUnknown * unknowns);
     }
 
-    [[nodiscard]] bool isSpent() const { return stepsLeft() == 0 || work_ >= most_work_; }
+    [[nodiscard]] bool isSpent() const { return stepsLeft() == 0 || work_ >= max_work_; }
 
     void use(Model model) const
     {
@@ -203,8 +203,8 @@ private:
     bool settleExact(const Fill& fill)
     {
         SettleOptions options{.fill = fill};
-        options.most_steps = std::min(options.most_steps, stepsLeft());
-        options.most_work = most_work_ - work_;
+        options.max_steps = std::min(options.max_steps, stepsLeft());
+        options.max_work = max_work_ - work_;
         const Settled settled = settle(*members_, options);
         outcome_.residual = settled.residual;
         outcome_.newton_steps += settled.newton_steps;
@@ -294,7 +294,7 @@ private:
         if (!settleLittle()) {
             return false;
         }
-        constexpr int kMostTries = 80;
+        constexpr int kMaxTries = 80;
         constexpr double kCloseEnough = 1e-2;  // of the last waypoint; the rest is extrapolated
         const Fill& wanted = options_->fill;
         const bool by_volume = wanted.by == FillBy::Volume;
@@ -303,7 +303,7 @@ private:
         std::vector<Sheet> good = sheets();
         std::optional<double> too_much;
         bool upright = false;
-        for (int k = 0; k < kMostTries && !isSpent(); ++k) {
+        for (int k = 0; k < kMaxTries && !isSpent(); ++k) {
             reached_ = here;
             if (by_volume && here >= wanted.amount) {
                 return true;
@@ -342,7 +342,7 @@ private:
     /// in the manner of Illinois, which needs no derivative.
     bool meet(double low, double high)
     {
-        constexpr int kMostTries = 60;
+        constexpr int kMaxTries = 60;
         constexpr double kAccuracy = 1e-9;
         const Fill& wanted = options_->fill;
         const auto excess = [&](double volume) -> std::optional<double> {
@@ -353,7 +353,7 @@ private:
         };
         std::optional<double> at_high = excess(high);
         std::optional<double> at_low = excess(low);
-        for (int k = 0; k < kMostTries && at_low && at_high; ++k) {
+        for (int k = 0; k < kMaxTries && at_low && at_high; ++k) {
             const double middle = low + (high - low) * *at_low / (*at_low - *at_high);
             const std::optional<double> here = excess(middle);
             if (!here) {
@@ -395,9 +395,9 @@ private:
     const std::vector<Member>* members_;
     const SolveOptions* options_;
     Outcome outcome_;
-    double work_ = 0.0;       ///< done by the exact model
-    double most_work_ = 0.0;  ///< that it may have done by now
-    double reached_ = 0.0;    ///< volume of the largest sheet on the way up [m³]
+    double work_ = 0.0;      ///< done by the exact model
+    double max_work_ = 0.0;  ///< that it may have done by now
+    double reached_ = 0.0;   ///< volume of the largest sheet on the way up [m³]
 };
 
 }  // namespace

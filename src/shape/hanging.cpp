@@ -33,7 +33,7 @@ std::vector<double> massTimes(const PlanarMesh& mesh, const std::vector<double>&
 
 double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolver& solver)
 {
-    constexpr int kMostIterations = 300;
+    constexpr int kMaxIterations = 300;
     constexpr double kTolerance = 1e-9;  // of the eigenvalue: its error is of the square of the vector's
     const PlanarMesh& mesh = energy.mesh();
     Operator stiffness = op;
@@ -48,7 +48,7 @@ double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolve
         x[i] = op.held.empty() || op.held[i] == 0 ? x[i] : 0.0;
     }
     double eigenvalue = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kMostIterations; ++k) {
+    for (int k = 0; k < kMaxIterations; ++k) {
         ConstrainedProblem problem;
         problem.right = massTimes(mesh, x);
         ConstrainedSolution solution = solver.solve(problem);

@@ -34,7 +34,7 @@ constexpr double kEnoughInside = 1.9;
 constexpr Index kCoarsest = 400;
 
 /// A coarser level that has not even this many times fewer unknowns would only cost.
-constexpr double kLeastCoarsening = 1.5;
+constexpr double kMinCoarsening = 1.5;
 
 /// Which rows are what, and where they are, while a level is being built.
 struct Plan {
@@ -711,7 +711,7 @@ Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& whole)
         Level coarse;
         coarse.stencil = regularStencil(edge, op);
         planCoarser(plan, candidates, outside, coarse_plan, coarse);
-        if (static_cast<double>(level.unknowns) < kLeastCoarsening * static_cast<double>(coarse.unknowns) ||
+        if (static_cast<double>(level.unknowns) < kMinCoarsening * static_cast<double>(coarse.unknowns) ||
             coarse.unknowns == 0) {
             level.inside.clear();
             break;

@@ -33,7 +33,7 @@ namespace {
 using Index = std::uint32_t;
 
 /// Lattices need 8 to 15 iterations, or where the liquid is steep up to 70; other meshes some dozens.
-constexpr std::size_t kMostIterations = 200;
+constexpr std::size_t kMaxIterations = 200;
 
 /// Residual down to which the probe for negative directions goes.
 constexpr double kProbed = 1e-8;
@@ -540,7 +540,7 @@ Unit solveUnit(const Hierarchy& hierarchy, const Cycle& cycle, double tolerance)
     std::vector<double> q(size, 0.0);
     double last_rz = 0.0;
     double norm = target;
-    while (norm > tolerance * target && unit.iterations < kMostIterations) {
+    while (norm > tolerance * target && unit.iterations < kMaxIterations) {
         std::vector<float>& right = workspace.right();
         forBlocks(size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -669,7 +669,7 @@ public:
         };
         measure();
         double last_rz = 0.0;
-        while (norm > tolerance * scale && result.iterations < kMostIterations) {
+        while (norm > tolerance * scale && result.iterations < kMaxIterations) {
             precondition(r);
             const std::vector<float>& z = workspace_.result();
             const double shift = dotOf(z, load) / unit_volume_;

@@ -59,10 +59,10 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
 
 void FillRange::validate() const
 {
-    if (!(least >= 0.0 && least <= 1.0 && most >= 1.0 && least < most && std::isfinite(most))) {
+    if (!(min >= 0.0 && min <= 1.0 && max >= 1.0 && min < max && std::isfinite(max))) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("fill_range {} to {} must be from 0 … 1 to 1 or more, and not empty", numberText(least),
-                                numberText(most)));
+                    fmt::format("fill_range {} to {} must be from 0 … 1 to 1 or more, and not empty", numberText(min),
+                                numberText(max)));
     }
 }
 

@@ -254,11 +254,11 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
             report.critical_bond_number = outcome.critical_bond_number;
         }
     }
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         report.unknowns += unknownsOf(meshes[k]);
-        if (unknownsOf(meshes[k]) > most) {
-            most = unknownsOf(meshes[k]);
+        if (unknownsOf(meshes[k]) > max) {
+            max = unknownsOf(meshes[k]);
             report.method = solvers[k]->method();
         }
     }

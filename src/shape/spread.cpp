@@ -48,7 +48,7 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
     // direction of ∇u, by t²(1 − r²) / (1 + t²r²). Of u's size and the footprint's that is made independent so that the
     // spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ wherever the slope is the rim's mean.
     const double scale = 2.0 * highest / meanSquaredSlope(mesh, field);
-    const double most = 2.0 * squared / (1.0 + squared);
+    const double max = 2.0 * squared / (1.0 + squared);
     const std::vector<Vec2> gradients = recoveredGradients(mesh, u);
     std::vector<Vec2> moves(u.size());
     for (std::size_t v = mesh.rimVertexCount(); v < u.size(); ++v) {
@@ -59,7 +59,7 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
         }
         const double wanted = scale * squared * share / (1.0 + squared * (1.0 - share)) * slope;
         // u / |∇u| is about the distance to the rim.
-        moves[v] = (-std::min(wanted, most * u[v] / slope) / slope) * gradients[v];
+        moves[v] = (-std::min(wanted, max * u[v] / slope) / slope) * gradients[v];
     }
     return moves;
 }
@@ -68,17 +68,17 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
 void move(PlanarMesh& mesh, const std::vector<Vec2>& moves, double angle)
 {
     constexpr double kShrink = 0.7;
-    constexpr int kMostShrinks = 40;
+    constexpr int kMaxShrinks = 40;
     // A triangle at a cap's rim keeps cos θ of its area, and some are less lucky.
-    const double least = 0.25 * std::cos(angle);
+    const double min = 0.25 * std::cos(angle);
     PlanarMesh moved = mesh;
     double part = 1.0;
-    for (int k = 0; k < kMostShrinks; ++k, part *= kShrink) {
+    for (int k = 0; k < kMaxShrinks; ++k, part *= kShrink) {
         for (std::size_t v = 0; v < moves.size(); ++v) {
             moved.vertices[v] = mesh.vertices[v] + part * moves[v];
         }
         const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-            return doubleArea(moved, t) >= least * doubleArea(mesh, t);
+            return doubleArea(moved, t) >= min * doubleArea(mesh, t);
         });
         if (whole) {
             moved.lattice = {};

@@ -50,11 +50,11 @@ bool namesPlaceTwice(const Triangle& t)
 
 HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles)
 {
-    constexpr std::size_t kMost = std::size_t{1} << 28;  // half-edges are numbered by int, six a triangle at most
-    if (triangles.size() > kMost || places.size() > kMost) {
+    constexpr std::size_t kMax = std::size_t{1} << 28;  // half-edges are numbered by int, six a triangle at most
+    if (triangles.size() > kMax || places.size() > kMax) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(triangles.size()) + " triangles and " +
                                                     std::to_string(places.size()) + " vertices; up to " +
-                                                    std::to_string(kMost) + " can be examined");
+                                                    std::to_string(kMax) + " can be examined");
     }
     const Silence silence;
     HalfEdges result;

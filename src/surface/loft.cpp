@@ -307,7 +307,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     if (options.refill) {
         const FillRange& range = options.refill->range;
         surface.refill =
-            Refill{range.least, range.most, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)};
+            Refill{range.min, range.max, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)};
     }
     std::vector<Extent> extents(pieces.size());
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {

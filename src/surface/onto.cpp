@@ -44,8 +44,8 @@ void addWarnings(OntoReport& report)
                                   " of the object's uv overlap others with droplets; the first in the file has them");
     }
     constexpr double kNoticeable = 1.5;
-    if (report.most_scale > kNoticeable || report.least_scale < 1.0 / kNoticeable) {
-        report.warnings.push_back("the object is " + rounded(report.least_scale) + " to " + rounded(report.most_scale) +
+    if (report.max_scale > kNoticeable || report.min_scale < 1.0 / kNoticeable) {
+        report.warnings.push_back("the object is " + rounded(report.min_scale) + " to " + rounded(report.max_scale) +
                                   " times as large as the picture; gravity acted at the picture's size");
     }
 }
@@ -172,7 +172,7 @@ OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const On
     Surface& surface = result.surface;
     std::vector<std::uint32_t> renamed(count, DropletNumbers::kNone);
     std::vector<bool> kept(count, false);
-    report.least_scale = std::numeric_limits<double>::infinity();
+    report.min_scale = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < count; ++v) {
         if (!is_laid(v)) {
             continue;
@@ -187,8 +187,8 @@ OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const On
             const double angle = std::acos(std::clamp(dot(laid[v].normal, laid[v].ground_normal), -1.0, 1.0));
             surface.contact_angle.push_back(droplets.contact_angle[v] > 0.0F ? static_cast<float>(angle) : 0.0F);
         }
-        report.least_scale = std::min(report.least_scale, laid[v].scale);
-        report.most_scale = std::max(report.most_scale, laid[v].scale);
+        report.min_scale = std::min(report.min_scale, laid[v].scale);
+        report.max_scale = std::max(report.max_scale, laid[v].scale);
     }
     for (const auto& [a, b, c] : droplets.triangles) {
         if (kept[a]) {

@@ -263,10 +263,10 @@ void checkRefill(const Surface& surface)
                         std::to_string(refill.positions.size()) + " positions and " +
                         std::to_string(refill.normals.size()) + " normals; there must be equally many");
     }
-    if (!(refill.least >= 0.0 && refill.least <= 1.0 && refill.most >= 1.0 && refill.least < refill.most &&
-          std::isfinite(refill.most))) {
-        throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.least) + " to " +
-                                                    numberText(refill.most) + " must be a range around 1, from 0");
+    if (!(refill.min >= 0.0 && refill.min <= 1.0 && refill.max >= 1.0 && refill.min < refill.max &&
+          std::isfinite(refill.max))) {
+        throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.min) + " to " +
+                                                    numberText(refill.max) + " must be a range around 1, from 0");
     }
     const std::size_t i = firstOf(count, [&](std::size_t v) {
         return !finite(refill.positions[v]) || !finite(refill.normals[v]) ||
@@ -340,10 +340,10 @@ Surface refilled(const Surface& surface, double fill)
     if (!surface.refill) {
         throw Error(ErrorCode::InvalidArgument, "surface.refill is empty; there must be one");
     }
-    if (!(fill >= surface.refill->least && fill <= surface.refill->most)) {
+    if (!(fill >= surface.refill->min && fill <= surface.refill->max)) {
         throw Error(ErrorCode::InvalidArgument, "fill " + numberText(fill) + " must be from " +
-                                                    numberText(surface.refill->least) + " to " +
-                                                    numberText(surface.refill->most));
+                                                    numberText(surface.refill->min) + " to " +
+                                                    numberText(surface.refill->max));
     }
     const double weight = fill - 1.0;
     Surface result = surface;

@@ -184,7 +184,7 @@ Paths unitedWithCare(Paths contours)
     contours.erase(std::remove_if(contours.begin(), contours.end(), [](const Path& path) { return path.empty(); }),
                    contours.end());
     const double area = areaInside(contours);
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     Paths best;
     for (int quarters = 0; quarters < 4; ++quarters) {
         Paths result = united(contours);
@@ -192,8 +192,8 @@ Paths unitedWithCare(Paths contours)
         for (int back = quarters; back % 4 != 0; ++back) {
             result = turned(std::move(result));
         }
-        if (off < 0.999 * least) {
-            least = off;
+        if (off < 0.999 * min) {
+            min = off;
             best = std::move(result);
         }
         contours = turned(std::move(contours));

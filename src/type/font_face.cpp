@@ -52,8 +52,8 @@ std::string rangesOf(const std::vector<FontAxis>& axes)
 {
     std::string text;
     for (const FontAxis& axis : axes) {
-        text += fmt::format("{}{} from {} to {}", text.empty() ? "" : ", ", axis.tag, numberText(axis.least),
-                            numberText(axis.most));
+        text += fmt::format("{}{} from {} to {}", text.empty() ? "" : ", ", axis.tag, numberText(axis.min),
+                            numberText(axis.max));
     }
     return text;
 }
@@ -83,12 +83,12 @@ bool isNear(std::initializer_list<Vec2> points)
 template <typename Add>
 int follow(void* user, std::initializer_list<const FT_Vector*> places, const Add& add)
 {
-    constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // of a glyph; broken data ask for more
+    constexpr std::size_t kMaxPoints = std::size_t{1} << 20;  // of a glyph; broken data ask for more
     auto& drawing = *static_cast<Drawing*>(user);
     const bool near =
         std::all_of(places.begin(), places.end(), [&drawing](const FT_Vector* p) { return isNear({drawing.at(p)}); });
     const std::size_t last = drawing.contours.empty() ? 0 : drawing.contours.back().size();
-    if (!near || drawing.points + last > kMostPoints) {
+    if (!near || drawing.points + last > kMaxPoints) {
         return 1;
     }
     try {
@@ -204,12 +204,12 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
     const double em = face_->units_per_EM;
     unit_ = 1.0 / (64.0 * em);
     lines_ = {face_->ascender / em, face_->descender / em, face_->height / em};
-    constexpr double kLeastLine = 0.1;
-    if (!(lines_.ascender - lines_.descender > kLeastLine && isNear({{lines_.ascender, lines_.descender}}))) {
+    constexpr double kMinLine = 0.1;
+    if (!(lines_.ascender - lines_.descender > kMinLine && isNear({{lines_.ascender, lines_.descender}}))) {
         lines_ = {0.8, -0.2, 1.2};
     }
     lines_.pitch =
-        lines_.pitch > kLeastLine && lines_.pitch < kFarthest ? lines_.pitch : lines_.ascender - lines_.descender;
+        lines_.pitch > kMinLine && lines_.pitch < kFarthest ? lines_.pitch : lines_.ascender - lines_.descender;
 
     FT_UInt glyph = 0;
     // Broken tables may go on for ever beyond the last character there is.
@@ -250,7 +250,7 @@ void FontFace::setAxes(const std::vector<AxisSetting>& settings)
             throw Error(ErrorCode::InvalidArgument,
                         "axis '" + setting.tag + "': the font has no such axis, it has " + rangesOf(axes_));
         }
-        if (!(setting.value >= axis->least && setting.value <= axis->most)) {
+        if (!(setting.value >= axis->min && setting.value <= axis->max)) {
             throw Error(ErrorCode::InvalidArgument,
                         fmt::format("axis '{}': {} is out of range, the font has {}", setting.tag,
                                     numberText(setting.value), rangesOf(axes_)));

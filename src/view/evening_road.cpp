@@ -189,8 +189,8 @@ private:
         const float far = std::max(lamp.depth - 0.5F * way, 1.0F);
         const float shift = way / (far * far) * std::hypot(lamp.across, lamp.height + kEye);
         constexpr float kApart = 2.0F;  // [px]
-        constexpr float kMost = 32.0F;
-        const float moments = std::clamp(std::ceil(shift / (kApart * pixel_)), 1.0F, kMost);
+        constexpr float kMax = 32.0F;
+        const float moments = std::clamp(std::ceil(shift / (kApart * pixel_)), 1.0F, kMax);
         for (int k = 0; k < static_cast<int>(moments); ++k) {
             Lamp there = lamp;
             there.depth = std::max(lamp.depth + way * ((static_cast<float>(k) + 0.5F) / moments - 0.5F), 1.0F);

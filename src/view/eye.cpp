@@ -32,9 +32,9 @@ public:
     void draw(const Glass& glass)
     {
         constexpr double kApart = 4e-3;
-        constexpr int kMost = 2048;
-        const int across = std::clamp(static_cast<int>(std::ceil(glass.width() / kApart)), 1, kMost);
-        const int upward = std::clamp(static_cast<int>(std::ceil(glass.height() / kApart)), 1, kMost);
+        constexpr int kMax = 2048;
+        const int across = std::clamp(static_cast<int>(std::ceil(glass.width() / kApart)), 1, kMax);
+        const int upward = std::clamp(static_cast<int>(std::ceil(glass.height() / kApart)), 1, kMax);
         std::vector<std::optional<Vec3f>> knots(static_cast<std::size_t>(across + 1) *
                                                 static_cast<std::size_t>(upward + 1));
         const auto position = [&](int i, int j) {

@@ -98,8 +98,8 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
                    static_cast<float>(shape.centre_height)};
     one.wide = static_cast<float>(shape.silhouette());
     const double reach = shape.half_length + shape.silhouette();
-    float left_most = 1e9F;
-    float right_most = -1e9F;
+    float leftmost = 1e9F;
+    float rightmost = -1e9F;
     float top = 1e9F;
     float bottom = -1e9F;
     for (const double x : {-reach, reach}) {
@@ -112,8 +112,8 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
                 static_cast<float>(corner.x / corner.y) / tangent + 0.5F * static_cast<float>(options.width);
             const auto py =
                 0.5F * static_cast<float>(options.height) - static_cast<float>(corner.z / corner.y) / tangent;
-            left_most = std::min(left_most, px);
-            right_most = std::max(right_most, px);
+            leftmost = std::min(leftmost, px);
+            rightmost = std::max(rightmost, px);
             top = std::min(top, py);
             bottom = std::max(bottom, py);
         }
@@ -121,16 +121,16 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     constexpr float kRim = 2.0F;  // [px] of soft edge, and of the glass's bend
     const auto w = static_cast<float>(options.width);
     const auto h = static_cast<float>(options.height);
-    if (right_most < -kRim || left_most > w + kRim || bottom < -kRim || top > h + kRim) {
+    if (rightmost < -kRim || leftmost > w + kRim || bottom < -kRim || top > h + kRim) {
         return one;
     }
-    one.left = static_cast<int>(std::max(left_most - kRim, 0.0F));
-    one.right = static_cast<int>(std::min(right_most + kRim, w - 1.0F));
+    one.left = static_cast<int>(std::max(leftmost - kRim, 0.0F));
+    one.right = static_cast<int>(std::min(rightmost + kRim, w - 1.0F));
     one.top = static_cast<int>(std::max(top - kRim, 0.0F));
     one.bottom = static_cast<int>(std::min(bottom + kRim, h - 1.0F));
     const Tiles& tiles = sight_.tiles;
     const ViewTile& tile = tiles[tiles.number((one.left + one.right) / 2 / kTile, (one.top + one.bottom) / 2 / kTile)];
-    const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : right_most - left_most;
+    const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : rightmost - leftmost;
     one.level = sight_.levelFor(diameter);
     one.calm_level = sight_.levelFor(diameter / static_cast<float>(options.samples));
     return one;

@@ -58,10 +58,10 @@ struct Sight {
             return 1;
         }
         constexpr double kApart = 1.25;  // [px]
-        constexpr double kMost = 64.0;
+        constexpr double kMax = 64.0;
         const double pixel = static_cast<double>(eye.tangent()) * std::max(eye.seen(*place).point.y, 1e-3);
         const double moments = std::ceil(speed * options.open_time / (kApart * pixel));
-        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(moments, 1.0, kMost))));
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(moments, 1.0, kMax))));
     }
 
     /// When one of the moments is, from the state's time [s].

@@ -60,9 +60,9 @@ StillMap::Box StillMap::boxOf(const StillCells& still, std::size_t cell) const
     const std::size_t whole_rows = cell / still.columns;
     const auto row = static_cast<double>(whole_rows);
     // A texel is the cell's in which its middle lies.
-    const auto edge = [&](double at, std::int64_t first, int most) {
+    const auto edge = [&](double at, std::int64_t first, int max) {
         const auto texel = static_cast<std::int64_t>(std::ceil(at / texel_ - 0.5)) - first;
-        return static_cast<int>(std::clamp<std::int64_t>(texel, 0, most));
+        return static_cast<int>(std::clamp<std::int64_t>(texel, 0, max));
     };
     return {edge(column * still.cell, first_column_, columns_),
             edge((column + 1.0) * still.cell, first_column_, columns_), edge(row * still.cell, first_row_, rows_),
@@ -159,8 +159,8 @@ std::vector<std::size_t> StillMap::follow(const StillCells& still)
         reaches_.assign(count, 0);
     }
     // Cells in the window, and those next to it.
-    const auto cell_at = [&](double at, std::uint32_t most) {
-        return static_cast<std::int64_t>(std::clamp(std::floor(at / still.cell), 0.0, static_cast<double>(most) - 1.0));
+    const auto cell_at = [&](double at, std::uint32_t max) {
+        return static_cast<std::int64_t>(std::clamp(std::floor(at / still.cell), 0.0, static_cast<double>(max) - 1.0));
     };
     if (count == 0) {
         return {};

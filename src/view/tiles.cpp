@@ -95,10 +95,10 @@ Tiles::Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options)
                     "eye_distance " + numberText(options.eye_distance) + ": nothing of the glass is seen from there");
     }
     // A texel for each ray; but no more than 128 MiB of them, and none finer than droplets have detail.
-    constexpr double kMostTexels = 16e6;
+    constexpr double kMaxTexels = 16e6;
     constexpr double kFinest = 2e-5;
     const double area = (window_.high.x - window_.low.x) * (window_.high.y - window_.low.y);
-    window_.texel = std::max({static_cast<double>(finest) / options.samples, std::sqrt(area / kMostTexels), kFinest});
+    window_.texel = std::max({static_cast<double>(finest) / options.samples, std::sqrt(area / kMaxTexels), kFinest});
 }
 
 }  // namespace droplet

@@ -78,8 +78,8 @@ struct Straight {
         return {};
     }
     // What is brighter than white keeps its hue.
-    const float most = std::max(std::max(light[0], light[1]), std::max(light[2], light[3]));
-    const Four straight = four(1.0F / most) * light;
+    const float max = std::max(std::max(light[0], light[1]), std::max(light[2], light[3]));
+    const Four straight = four(1.0F / max) * light;
     return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
 }
 

@@ -18,8 +18,8 @@ double rootBetween(double a, double b, const Function& function)
     double c = a;
     double fc = fa;
     double share = 0.5;
-    constexpr int kMost = 200;  // bisections alone would need fewer
-    for (int i = 0; i < kMost && fa != 0.0 && fb != 0.0; ++i) {
+    constexpr int kMax = 200;  // bisections alone would need fewer
+    for (int i = 0; i < kMax && fa != 0.0 && fb != 0.0; ++i) {
         const double x = a + share * (b - a);
         const double fx = function(x);
         if ((fx > 0.0) == (fa > 0.0)) {
@@ -35,8 +35,8 @@ double rootBetween(double a, double b, const Function& function)
         fa = fx;
         const double best = std::abs(fa) < std::abs(fb) ? a : b;
         const double tolerance = 2.0 * std::numeric_limits<double>::epsilon() * std::abs(best);
-        const double least = tolerance / std::abs(b - a);
-        if (!(least < 0.5)) {
+        const double min = tolerance / std::abs(b - a);
+        if (!(min < 0.5)) {
             break;
         }
         // Inverse quadratic interpolation where it is known to be monotone, bisection elsewhere.
@@ -45,7 +45,7 @@ double rootBetween(double a, double b, const Function& function)
         share = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi
                     ? fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
                     : 0.5;
-        share = std::clamp(share, least, 1.0 - least);
+        share = std::clamp(share, min, 1.0 - min);
     }
     return std::abs(fa) < std::abs(fb) ? a : b;
 }

@@ -201,9 +201,9 @@ private:
             const double allowed = options_->tolerance * fastest_;
             constexpr double kSafety = 0.9;
             const double growth = error > 0.0 ? kSafety * std::pow(allowed / error, 0.2) : 4.0;
-            const double least = 1e-12 * wind_->period;
-            if (error > allowed && step > least) {
-                next_step_ = std::max(least, step * std::clamp(growth, 0.1, 0.9));
+            const double min = 1e-12 * wind_->period;
+            if (error > allowed && step > min) {
+                next_step_ = std::max(min, step * std::clamp(growth, 0.1, 0.9));
                 ++trace_.rejected;
                 return;
             }
@@ -277,7 +277,7 @@ void MotionOptions::validate() const
 {
     require(isPositive(duration), "duration", duration, "finite and more than 0 s");
     require(isPositive(interval), "interval", interval, "finite and more than 0 s");
-    require(duration / interval <= static_cast<double>(kMostMotionPoints), "interval", interval,
+    require(duration / interval <= static_cast<double>(kMaxMotionPoints), "interval", interval,
             "at least a ten-millionth of the duration");
     require(std::isfinite(velocity), "velocity", velocity, "finite");
     require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "more than 0 and less than 1");
@@ -295,7 +295,7 @@ Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, 
     require(wind.amplitude >= 0.0 && std::isfinite(wind.amplitude), "wind.amplitude", wind.amplitude,
             "finite and at least 0 m/s");
     require(isPositive(wind.period), "wind.period", wind.period, "finite and more than 0 s");
-    require(wind.amplitude == 0.0 || options.duration / wind.period <= kMostGusts, "wind.period", wind.period,
+    require(wind.amplitude == 0.0 || options.duration / wind.period <= kMaxGusts, "wind.period", wind.period,
             "at least a 100000th of the duration");
     return Tracer(forces, slope, wind, options).run();
 }

@@ -188,9 +188,9 @@ void TunnelSweep::validate() const
     for (const auto* values : {&volumes, &winds, &slopes}) {
         rows *= static_cast<double>(values->size());
     }
-    if (rows > static_cast<double>(kMostTunnelRows)) {
+    if (rows > static_cast<double>(kMaxTunnelRows)) {
         throw Error(ErrorCode::InvalidArgument, "a sweep of " + std::to_string(static_cast<long long>(rows)) +
-                                                    " rows is over the limit of " + std::to_string(kMostTunnelRows));
+                                                    " rows is over the limit of " + std::to_string(kMaxTunnelRows));
     }
 }
 

@@ -114,8 +114,8 @@ Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const 
     const std::vector<Panel> panels = panelsOf(swept, tunnel, drawing);
     title(drawing, swept, options);
     const WindBand winds = windsOf(swept);
-    double low = std::min(-1.0, options.least);
-    double high = std::max(1.0, options.most);
+    double low = std::min(-1.0, options.min);
+    double high = std::max(1.0, options.max);
     for (const TunnelCase& of : tunnel.cases) {
         for (const double wind : {winds.from, winds.to}) {
             const double rate = acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0);

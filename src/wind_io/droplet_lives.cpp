@@ -17,15 +17,15 @@ std::array<double, 4> quaternion(Vec3 x, Vec3 y, Vec3 z)
     const double trace = x.x + y.y + z.z;
     const std::array<double, 4> squares{1.0 + 2.0 * x.x - trace, 1.0 + 2.0 * y.y - trace, 1.0 + 2.0 * z.z - trace,
                                         1.0 + trace};
-    const auto most = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
-    const double s = 0.5 / std::sqrt(squares[most]);
+    const auto max = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
+    const double s = 0.5 / std::sqrt(squares[max]);
     const double xy = x.y + y.x;
     const double yz = y.z + z.y;
     const double zx = z.x + x.z;
     const double wx = y.z - z.y;
     const double wy = z.x - x.z;
     const double wz = x.y - y.x;
-    switch (most) {
+    switch (max) {
         case 0:
             return {s * squares[0], s * xy, s * zx, s * wx};
         case 1:
@@ -129,7 +129,7 @@ void DropletLives::add(const WindshieldState& state)
         }
         life.end = frames_ + 1;
     }
-    most_ = std::max(most_, there);
+    max_ = std::max(max_, there);
     ++frames_;
 }
 

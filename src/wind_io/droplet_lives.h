@@ -64,7 +64,7 @@ public:
     void add(const WindshieldState& state);
 
     [[nodiscard]] std::uint32_t frames() const { return frames_; }
-    [[nodiscard]] std::size_t most() const { return most_; }        ///< droplets at once
+    [[nodiscard]] std::size_t max() const { return max_; }          ///< droplets at once
     [[nodiscard]] std::size_t samples() const { return samples_; }  ///< of all lives
     /// All lives in the order of their beginnings, as long as this lives unchanged.
     [[nodiscard]] std::vector<const DropletLife*> all() const;
@@ -78,7 +78,7 @@ private:
     std::map<std::uint64_t, DropletLife> lives_;  ///< by id
     std::vector<DropletLife> earlier_;            ///< of droplets that came back
     std::uint32_t frames_ = 0;
-    std::size_t most_ = 0;
+    std::size_t max_ = 0;
     std::size_t samples_ = 0;
 };
 

@@ -18,18 +18,18 @@ struct DropletScene::Content {
     void checkSize() const
     {
         if (options.animation == SceneAnimation::Texture) {
-            checkTexture(lives.most(), lives.frames());
+            checkTexture(lives.max(), lives.frames());
             return;
         }
         // JSON of a joint, and numbers of the keys; while a file is made, its JSON takes some fifteen times the memory.
         constexpr std::uint64_t kJoint = 800;
         constexpr std::uint64_t kSample = 10;
-        constexpr std::uint64_t kMost = std::uint64_t{1} << 27;
-        const std::uint64_t bytes = kSample * lives.samples() + kJoint * lives.most();
-        if (bytes >= kMost) {
+        constexpr std::uint64_t kMax = std::uint64_t{1} << 27;
+        const std::uint64_t bytes = kSample * lives.samples() + kJoint * lives.max();
+        if (bytes >= kMax) {
             throw Error(
                 ErrorCode::InvalidArgument,
-                std::to_string(lives.frames()) + " frames of up to " + std::to_string(lives.most()) +
+                std::to_string(lives.frames()) + " frames of up to " + std::to_string(lives.max()) +
                     " droplets would make a glTF file of about " + std::to_string(bytes) +
                     " bytes; it must stay below 128 MiB: ask for less time, fewer frames a second or less rain");
         }

@@ -48,10 +48,10 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
 {
     const std::size_t volumes = swept.volumes.size();
     const std::size_t count = tunnel.cases.size() / volumes;
-    if (count > kMostPanels) {
+    if (count > kMaxPanels) {
         throw Error(
             ErrorCode::InvalidArgument,
-            fmt::format("a chart of {} slopes and hystereses is over the limit of {} panels", count, kMostPanels));
+            fmt::format("a chart of {} slopes and hystereses is over the limit of {} panels", count, kMaxPanels));
     }
     // Of many slopes and many hystereses each slope has a row of its own.
     const std::size_t slopes = swept.slopes.size();
@@ -87,9 +87,9 @@ std::string captionOf(const TunnelSweep& swept, const TunnelCase& of)
 
 WindBand windsOf(const TunnelSweep& swept)
 {
-    const auto [least, most] = std::minmax_element(swept.winds.begin(), swept.winds.end());
+    const auto [min, max] = std::minmax_element(swept.winds.begin(), swept.winds.end());
     // One wind alone makes no axis.
-    return *most - *least > 1e-3 ? WindBand{*least, *most} : WindBand{0.0, std::max(16.0, 1.25 * *most)};
+    return *max - *min > 1e-3 ? WindBand{*min, *max} : WindBand{0.0, std::max(16.0, 1.25 * *max)};
 }
 
 void title(Drawing& drawing, const TunnelSweep& swept, const ChartOptions& options)

@@ -56,7 +56,7 @@ struct Panel {
 
 /// A panel for every slope and hysteresis, in a grid, of several of both a row for each slope, on a drawing that
 /// becomes as large as they need.
-/// @throws Error  InvalidArgument: over kMostPanels
+/// @throws Error  InvalidArgument: over kMaxPanels
 std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Drawing& drawing);
 
 /// A panel's slope and hysteresis in words.

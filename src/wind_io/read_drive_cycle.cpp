@@ -16,7 +16,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28U;  // years at 10 Hz
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28U;  // years at 10 Hz
 
 /// From so many rows on, even intervals are a sampling, of which one can be missing.
 constexpr std::size_t kSampling = 10;
@@ -219,7 +219,7 @@ DriveCycle parseDriveCycle(std::string_view text, const std::string& name)
 DriveCycle readDriveCycle(const std::filesystem::path& path)
 {
     Bytes bytes;
-    readFile(path, [&] { bytes = readBytes(path, kMostBytes, [](std::byte) { return true; }); });
+    readFile(path, [&] { bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; }); });
     return parseDriveCycle({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 

@@ -138,7 +138,7 @@ bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     }
     const double middle = heights[heights.size() / 2];
     std::optional<Vec2> best;
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const Level& level : levels) {
         const double first = region.from(level) + half_word;
         const double last = region.to(level) - half_word;
@@ -152,8 +152,8 @@ bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
                                              (x - half_word > region.from(other) && x + half_word < region.to(other));
                                   });
             const double off = std::hypot(x - 0.5 * (region.from(level) + region.to(level)), level.y - middle);
-            if (fits && is_clear && off < least) {
-                least = off;
+            if (fits && is_clear && off < min) {
+                min = off;
                 best = Vec2{x, level.y};
             }
         }
@@ -187,9 +187,9 @@ void drawEdge(Plot& plot, const std::vector<Level>& levels, double Level::*edge,
 VolumeRange volumesOf(const TunnelSweep& swept, const TunnelCase& of)
 {
     // To twice the largest, and down to droplets too small to run, over two decades at least and four at most.
-    const auto [least, most] = std::minmax_element(swept.volumes.begin(), swept.volumes.end());
-    const double high = 2.0 * *most;
-    double low = std::min(0.5 * *least, 1e-2 * high);
+    const auto [min, max] = std::minmax_element(swept.volumes.begin(), swept.volumes.end());
+    const double high = 2.0 * *max;
+    double low = std::min(0.5 * *min, 1e-2 * high);
     if (of.critical_volume) {
         low = std::min(low, std::max(0.3 * *of.critical_volume, 1e-4 * high));
     }

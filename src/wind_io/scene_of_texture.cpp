@@ -21,11 +21,11 @@ namespace {
 /// What viewers' graphics processors take, across and down.
 constexpr std::size_t kLargestSide = 8192;
 constexpr std::size_t kTexels = 4;  ///< of a droplet in a frame
-constexpr std::size_t kMostColumns = kLargestSide / kTexels;
+constexpr std::size_t kMaxColumns = kLargestSide / kTexels;
 
 std::size_t blocksOf(std::size_t slots)
 {
-    return std::max<std::size_t>((slots + kMostColumns - 1) / kMostColumns, 1);
+    return std::max<std::size_t>((slots + kMaxColumns - 1) / kMaxColumns, 1);
 }
 
 /// Of numbers that become integers.

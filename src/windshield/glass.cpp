@@ -152,8 +152,8 @@ struct Glass::Meshed final : Glass::Shape {
                 const auto low = [](double v, double step) {
                     return static_cast<std::size_t>(std::max(0.0, v / step - 1e-6));
                 };
-                const auto high = [](double v, double step, std::size_t most) {
-                    return std::min(most - 1, static_cast<std::size_t>(v / step + 1e-6));
+                const auto high = [](double v, double step, std::size_t max) {
+                    return std::min(max - 1, static_cast<std::size_t>(v / step + 1e-6));
                 };
                 const std::size_t right = high(std::max({a.x, b.x, c.x}), cell.x, columns);
                 const std::size_t top = high(std::max({a.y, b.y, c.y}), cell.y, rows);
@@ -245,8 +245,8 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
             high = {std::max(high.x, p.x), std::max(high.y, p.y)};
         }
     }
-    least_stretch_ = std::numeric_limits<double>::infinity();
-    most_stretch_ = 0.0;
+    min_stretch_ = std::numeric_limits<double>::infinity();
+    max_stretch_ = 0.0;
     for (Meshed::Facet& f : mesh->facets) {
         for (Vec2& p : f.flat) {
             p = p - low;
@@ -269,8 +269,8 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
         f.handed = dot(cross(xx, xy), outward) < 0.0 ? 1.0 : -1.0;
         const double mean = 0.5 * (gxx + gyy);
         const double spread = std::sqrt(0.25 * (gxx - gyy) * (gxx - gyy) + gxy * gxy);
-        most_stretch_ = std::max(most_stretch_, std::sqrt(mean + spread));
-        least_stretch_ = std::min(least_stretch_, d / std::sqrt(mean + spread));
+        max_stretch_ = std::max(max_stretch_, std::sqrt(mean + spread));
+        min_stretch_ = std::min(min_stretch_, d / std::sqrt(mean + spread));
     }
     mesh->size = high - low;
     width_ = mesh->size.x;

@@ -9,7 +9,7 @@ namespace droplet {
 namespace {
 
 /// Still droplets take 213 bytes for every 16 mm²: at most 1.33 GB.
-constexpr double kMostArea = 100.0;  // [m²]
+constexpr double kMaxArea = 100.0;  // [m²]
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void Streaks::validate() const
 void WindshieldParameters::validate() const
 {
     const double area = glass.width() * glass.height();
-    require(area <= kMostArea, "the glass's area", area, "at most 100 m2");
+    require(area <= kMaxArea, "the glass's area", area, "at most 100 m2");
     forces.validate();
     vehicle.validate();
     require(rainfall >= 0.0 && rainfall <= 1000.0 * kMillimetrePerHour, "rainfall", rainfall / kMillimetrePerHour,

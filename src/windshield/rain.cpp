@@ -70,9 +70,9 @@ double RaindropSizes::waterContent() const
     return slope > 0.0 ? std::numbers::pi * intercept / std::pow(slope, 4.0) : 0.0;
 }
 
-double RaindropSizes::waterShare(double least, double greatest) const
+double RaindropSizes::waterShare(double min, double max) const
 {
-    return slope > 0.0 ? waterOver(slope * least) - waterOver(slope * greatest) : 0.0;
+    return slope > 0.0 ? waterOver(slope * min) - waterOver(slope * max) : 0.0;
 }
 
 RaindropSizes raindropSizes(double rainfall)
@@ -95,9 +95,9 @@ double terminalSpeed(double diameter)
 
 void RaindropRange::validate() const
 {
-    if (!(least > 0.0 && greatest > least && std::isfinite(greatest))) {
-        throw Error(ErrorCode::InvalidArgument, "raindrops.least and greatest are " + numberText(least / kMillimetre) +
-                                                    " and " + numberText(greatest / kMillimetre) +
+    if (!(min > 0.0 && max > min && std::isfinite(max))) {
+        throw Error(ErrorCode::InvalidArgument, "raindrops.least and greatest are " + numberText(min / kMillimetre) +
+                                                    " and " + numberText(max / kMillimetre) +
                                                     " mm; they must be above 0 and rise");
     }
 }
@@ -109,17 +109,17 @@ Exposure Exposure::ofSlope(double slope)
 
 double RainImpacts::density(double diameter, const Exposure& exposure) const
 {
-    if (diameter < range.least || diameter > range.greatest) {
+    if (diameter < range.min || diameter > range.max) {
         return 0.0;
     }
     return sizes.density(diameter) *
            std::max(0.0, terminalSpeed(diameter) * exposure.upward + speed * exposure.forward);
 }
 
-double RainImpacts::rate(double least, const Exposure& exposure) const
+double RainImpacts::rate(double min, const Exposure& exposure) const
 {
-    double from = std::max(least, range.least);
-    double to = range.greatest;
+    double from = std::max(min, range.min);
+    double to = range.max;
     const double wall = speed * exposure.forward;
     // One of the two may turn the surface's back to the rain: raindrops of one speed then run along it.
     if (exposure.upward > 0.0 && wall < 0.0) {
@@ -134,27 +134,27 @@ double RainImpacts::rate(double least, const Exposure& exposure) const
 
 double RainImpacts::bound() const
 {
-    return fallen(sizes, range.least, range.greatest) + speed * met(sizes, range.least, range.greatest);
+    return fallen(sizes, range.min, range.max) + speed * met(sizes, range.min, range.max);
 }
 
 RaindropSampler::RaindropSampler(const RainImpacts& impacts)
     : impacts_(impacts),
-      floor_share_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest) / impacts.bound()),
-      fallen_(fallen(impacts.sizes, impacts.range.least, impacts.range.greatest)),
-      met_(-std::expm1(-impacts.sizes.slope * (impacts.range.greatest - impacts.range.least)))
+      floor_share_(fallen(impacts.sizes, impacts.range.min, impacts.range.max) / impacts.bound()),
+      fallen_(fallen(impacts.sizes, impacts.range.min, impacts.range.max)),
+      met_(-std::expm1(-impacts.sizes.slope * (impacts.range.max - impacts.range.min)))
 {
 }
 
 double RaindropSampler::diameter(double which, double u) const
 {
     const RaindropSizes& sizes = impacts_.sizes;
-    const auto [least, greatest] = impacts_.range;
+    const auto [min, max] = impacts_.range;
     if (which >= floor_share_) {
-        return std::min(least - std::log1p(-u * met_) / sizes.slope, greatest);
+        return std::min(min - std::log1p(-u * met_) / sizes.slope, max);
     }
     // Newton's method on the share that has fallen, kept between bounds that close in.
-    double low = std::max(least, diameterAt(0.0));
-    double high = greatest;
+    double low = std::max(min, diameterAt(0.0));
+    double high = max;
     const double from = low;
     double diameter = std::min(from + 1.0 / sizes.slope, 0.5 * (low + high));
     for (int tries = 0; tries < 60; ++tries) {

@@ -175,19 +175,19 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     std::uint64_t rows = 0;
     StillCells& still = StillCells::of(state.still);
     in.all(still.cell, columns, rows);
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
-    in.require(still.cell > 0.0 && columns <= kMost && rows <= kMost && columns * rows <= bytes.size() / 8);
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
+    in.require(still.cell > 0.0 && columns <= kMax && rows <= kMax && columns * rows <= bytes.size() / 8);
     still.columns = static_cast<std::uint32_t>(columns);
     still.rows = static_cast<std::uint32_t>(rows);
     const auto cells = static_cast<std::size_t>(columns * rows);
     still.counts.resize(cells);
     still.revisions.resize(cells);
-    still.slots.resize(cells * StillCells::kMost);
+    still.slots.resize(cells * StillCells::kMax);
     still.places.resize(still.slots.size());
     for (std::size_t cell = 0; cell < cells; ++cell) {
         std::uint64_t both = 0;
         in.get(both);
-        in.require((both & 0xFFU) <= StillCells::kMost && both >> 8U <= kMost);
+        in.require((both & 0xFFU) <= StillCells::kMax && both >> 8U <= kMax);
         for (std::uint64_t k = 0; k < (both & 0xFFU); ++k) {
             StillDroplet d;
             in.all(d.position, d.volume);

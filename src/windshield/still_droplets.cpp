@@ -31,7 +31,7 @@ std::uint16_t placeOf(const StillCells& still, std::size_t cell, Vec2 position)
 /// Closes the gaps that droplets without volume leave in a cell; the others keep their order.
 void closeGaps(StillCells& still, std::size_t cell)
 {
-    const std::size_t begin = cell * StillCells::kMost;
+    const std::size_t begin = cell * StillCells::kMax;
     const std::size_t end = begin + still.counts[cell];
     std::size_t kept = begin;
     for (std::size_t slot = begin; slot < end; ++slot) {
@@ -50,7 +50,7 @@ void closeGaps(StillCells& still, std::size_t cell)
 
 StillDroplet removed(StillCells& still, StillSlot place)
 {
-    const StillDroplet gone = std::exchange(still.slots[place.cell * StillCells::kMost + place.slot], {});
+    const StillDroplet gone = std::exchange(still.slots[place.cell * StillCells::kMax + place.slot], {});
     closeGaps(still, place.cell);
     return gone;
 }
@@ -58,10 +58,10 @@ StillDroplet removed(StillCells& still, StillSlot place)
 std::optional<StillSlot> nearestTouched(const StillCells& still, const StillDroplet& droplet, const StillRules& rules)
 {
     const double reach = rules.reachOf(droplet.volume);
-    const double most = reach + rules.greatestReach();
-    double nearest = most * most;
+    const double max = reach + rules.maxReach();
+    double nearest = max * max;
     std::optional<StillSlot> found;
-    visitNear(still, droplet.position, droplet.position, most, [&](StillSlot slot) {
+    visitNear(still, droplet.position, droplet.position, max, [&](StillSlot slot) {
         const StillDroplet& other = at(still, slot);
         const Vec2 apart = other.position - droplet.position;
         const double squared = dot(apart, apart);
@@ -90,7 +90,7 @@ StillSlot nearestIn(const StillCells& still, std::size_t cell, Vec2 p)
 
 void StillCells::put(std::size_t number, const StillDroplet& droplet)
 {
-    const std::size_t slot = number * kMost + counts[number]++;
+    const std::size_t slot = number * kMax + counts[number]++;
     slots[slot] = droplet;
     places[slot] = placeOf(*this, number, droplet.position);
     ++revisions[number];
@@ -103,7 +103,7 @@ StillCells StillCells::over(Vec2 size)
     still.cell = cells.width;
     still.columns = cells.columns;
     still.rows = cells.rows;
-    still.slots.resize(cells.count() * kMost);
+    still.slots.resize(cells.count() * kMax);
     still.places.resize(still.slots.size());
     still.counts.resize(cells.count());
     still.revisions.resize(cells.count());
@@ -172,7 +172,7 @@ std::optional<StillDroplet> settle(StillCells& still, const StillDroplet& drople
     std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
     if (!other) {
         const std::size_t cell = still.grid().number(droplet.position);
-        if (still.counts[cell] < StillCells::kMost) {
+        if (still.counts[cell] < StillCells::kMax) {
             still.put(cell, droplet);
             return std::nullopt;
         }

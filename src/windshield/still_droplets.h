@@ -19,14 +19,14 @@ namespace droplet {
 inline constexpr double kStillCell = 4e-3;
 
 /// How StillDroplets are kept: in square cells of the rolled out glass. Cell (column, row) is number row · columns +
-/// column and holds at most kMost of them, in an order that is a matter of history.
+/// column and holds at most kMax of them, in an order that is a matter of history.
 struct StillCells {
-    static constexpr std::size_t kMost = 8;  ///< what lands in a full cell joins the nearest there
+    static constexpr std::size_t kMax = 8;  ///< what lands in a full cell joins the nearest there
 
     double cell = 0.0;  ///< their width [m]
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::vector<StillDroplet> slots;       ///< kMost for each cell, those in use first
+    std::vector<StillDroplet> slots;       ///< kMax for each cell, those in use first
     std::vector<std::uint16_t> places;     ///< for each slot in use: where in its cell, in 256ths: column + 256 · row
     std::vector<std::uint8_t> counts;      ///< of those in use, for each cell
     std::vector<std::uint32_t> revisions;  ///< for each cell: raised with everything that changes in it
@@ -39,7 +39,7 @@ struct StillCells {
     [[nodiscard]] Cells grid() const { return {cell, columns, rows}; }
     [[nodiscard]] std::span<const StillDroplet> droplets(std::size_t number) const
     {
-        return {slots.data() + number * kMost, counts[number]};
+        return {slots.data() + number * kMax, counts[number]};
     }
     /// Puts one into a cell that has room and holds its position.
     void put(std::size_t number, const StillDroplet& droplet);
@@ -49,12 +49,12 @@ struct StillCells {
 
 /// When still droplets touch and what becomes of them.
 struct StillRules {
-    double reach = 0.0;     ///< half the width of a droplet of 1 m³, seen from above [m]
-    double greatest = 0.0;  ///< from this volume on a droplet runs [m³]
+    double reach = 0.0;  ///< half the width of a droplet of 1 m³, seen from above [m]
+    double max = 0.0;    ///< from this volume on a droplet runs [m³]
 
     [[nodiscard]] double reachOf(double volume) const;
     /// Of the largest one.
-    [[nodiscard]] double greatestReach() const { return reachOf(greatest); }
+    [[nodiscard]] double maxReach() const { return reachOf(max); }
 };
 
 /// Puts a droplet on the glass, or joins it with the nearest one that it touches, at the centre of their masses; in a
@@ -70,7 +70,7 @@ struct StillSlot {
 
 inline const StillDroplet& at(const StillCells& still, StillSlot place)
 {
-    return still.slots[place.cell * StillCells::kMost + place.slot];
+    return still.slots[place.cell * StillCells::kMax + place.slot];
 }
 
 /// Parts of a cell, across and up, that StillCells::places tells apart.
@@ -91,7 +91,7 @@ void visitNear(const StillCells& still, Vec2 a, Vec2 b, double radius, const Vis
         const double up = kPlaces * static_cast<double>(row) + 0.5;
         for (std::size_t cell = first; cell <= last; ++cell) {
             const double across = kPlaces * static_cast<double>(cell - row * still.columns) + 0.5;
-            const std::uint16_t* places = still.places.data() + cell * StillCells::kMost;
+            const std::uint16_t* places = still.places.data() + cell * StillCells::kMax;
             for (std::uint8_t k = 0; k < still.counts[cell]; ++k) {
                 const std::uint32_t part_across = places[k] % kPlaces;
                 const std::uint32_t part_up = places[k] / kPlaces;
@@ -111,7 +111,7 @@ public:
     /// @return  its volume; 0 if it is gone already
     double take(StillSlot place)
     {
-        double& volume = still_->slots[place.cell * StillCells::kMost + place.slot].volume;
+        double& volume = still_->slots[place.cell * StillCells::kMax + place.slot].volume;
         if (volume > 0.0) {
             touched_.push_back(place.cell);
         }

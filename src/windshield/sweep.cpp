@@ -86,8 +86,8 @@ bool Sweep::meets(Vec2 a, Vec2 b) const
 
 std::vector<Vec2> Sweep::hull() const
 {
-    constexpr double kMostTurn = kPi / 18.0;
-    const int parts = static_cast<int>(std::ceil((high_ - low_) / kMostTurn));
+    constexpr double kMaxTurn = kPi / 18.0;
+    const int parts = static_cast<int>(std::ceil((high_ - low_) / kMaxTurn));
     const double turn = (high_ - low_) / parts;
     const auto at = [this](double radius, double angle) {
         return pivot_ + radius * Vec2{std::cos(angle), std::sin(angle)};

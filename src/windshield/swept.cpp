@@ -24,9 +24,9 @@ std::vector<SweptDroplet> find(std::span<const SweptPiece> pieces, const StillCe
     // time.
     std::vector<Candidate> candidates;
     candidates.reserve(4 * pieces.size());
-    const double most_still_reach = rules.greatestReach();
+    const double max_still_reach = rules.maxReach();
     for (const SweptPiece& piece : pieces) {
-        visitNear(still, piece.from, piece.to, piece.reach + most_still_reach, [&](StillSlot slot) {
+        visitNear(still, piece.from, piece.to, piece.reach + max_still_reach, [&](StillSlot slot) {
             __builtin_prefetch(&at(still, slot));
             candidates.push_back({&piece, slot});
         });

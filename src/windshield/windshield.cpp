@@ -62,7 +62,7 @@ public:
         rain();
         move();
         // Raindrops that land beside a track touch it, too.
-        const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.greatestReach());
+        const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.maxReach());
         drizzle(cells);
         merge(cells);
         sweep();
@@ -102,7 +102,7 @@ private:
             const double volume = sphere(diameter);
             s_.rained.add(volume);
             ++s_.counts.raindrops;
-            if (volume >= rules_.greatest) {
+            if (volume >= rules_.max) {
                 s_.droplets.push_back({s_.next_id++, position, {}, volume, 0.0, 0});
             } else {
                 drizzle_.push_back({position, volume});
@@ -159,7 +159,7 @@ private:
     {
         for (StillDroplet drop : drizzle_) {
             bool stands = false;
-            while (!stands && drop.volume < rules_.greatest) {
+            while (!stands && drop.volume < rules_.max) {
                 if (const std::optional<std::uint32_t> track =
                         cells.touchedBy(drop.position, rules_.reachOf(drop.volume))) {
                     take(*track, drop.volume);
@@ -367,7 +367,7 @@ private:
         // Its height goes with the square of the wind, so the volume with the sixth power.
         const double squared = dot(wind_[i], wind_[i]);
         const double whole = s_.droplets[i].volume;
-        return std::min(std::ceil(whole * squared * squared * squared / untorn_), std::floor(whole / rules_.greatest));
+        return std::min(std::ceil(whole * squared * squared * squared / untorn_), std::floor(whole / rules_.max));
     }
 
     /// @param cells  of the droplets before any was torn
@@ -417,16 +417,16 @@ private:
             at += spacing;
             ++d.beads;
             // Never so much that the bead itself would run, nor that the droplet would no longer.
-            const double bead = std::min(p_.streaks.film * 2.0 * tracks_.reach[i] * spacing, 0.5 * rules_.greatest);
+            const double bead = std::min(p_.streaks.film * 2.0 * tracks_.reach[i] * spacing, 0.5 * rules_.max);
             const double behind = 1.05 * (tracks_.reach[i] + rules_.reachOf(bead));  // where it is not touched at once
             const Vec2 place = tracks_.from[i] + (at - behind) * direction;
-            if (d.volume - bead >= rules_.greatest && p_.glass.holds(place)) {
+            if (d.volume - bead >= rules_.max && p_.glass.holds(place)) {
                 d.volume -= bead;
                 s_.shed.add(bead);
                 StillDroplet laid{place, bead};
-                while (laid.volume < rules_.greatest && joinsStill(laid)) {
+                while (laid.volume < rules_.max && joinsStill(laid)) {
                 }
-                if (laid.volume >= rules_.greatest) {
+                if (laid.volume >= rules_.max) {
                     grow(laid);
                 }
             }

@@ -117,8 +117,8 @@ TEST_F(CompareCommand, PictureOfFacetsHasItsColours)
         const Picture picture = readPicture(scratch_.path() / "difference.png");
         std::size_t count = 0;
         for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
-            const auto [least, most] = std::minmax({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
-            count += most - least > 40 ? 1 : 0;
+            const auto [min, max] = std::minmax({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
+            count += max - min > 40 ? 1 : 0;
         }
         return count;
     };

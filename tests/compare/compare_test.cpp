@@ -258,13 +258,13 @@ TEST(Compare, SpheresOfTwoSizesAndResolutions)
     EXPECT_LE(found.from_a.upper - found.from_a.lower, 1e-4 * found.from_a.upper);
     EXPECT_LE(found.from_b.upper - found.from_b.lower, 1e-4 * found.from_b.upper);
     // The farthest points of b are its vertices over the middles of a's facets; no point of b has a larger radius.
-    double least_radius = 1.0;
+    double min_radius = 1.0;
     for (const auto& [p, q, r] : sphereFacets(1.0, 6)) {
-        least_radius = std::min(least_radius, std::abs(dot(p, cross(q - p, r - p))) / length(cross(q - p, r - p)));
+        min_radius = std::min(min_radius, std::abs(dot(p, cross(q - p, r - p))) / length(cross(q - p, r - p)));
     }
-    EXPECT_LE(found.from_b.lower, 1.25 - least_radius);
+    EXPECT_LE(found.from_b.lower, 1.25 - min_radius);
     EXPECT_GE(found.from_b.upper, 0.25);
-    EXPECT_GT(found.from_b.lower, 0.25 + 0.25 * (1.0 - least_radius));
+    EXPECT_GT(found.from_b.lower, 0.25 + 0.25 * (1.0 - min_radius));
     EXPECT_EQ(found.a.topology.euler, 2);
     EXPECT_TRUE(found.same_topology);
 }
@@ -295,12 +295,12 @@ TEST(Compare, BoundsHoldWhatManySamplesFind)
                 y = 1.0 - y;
             }
             const Vec3 at = p + x * u + y * v;
-            double least = std::numeric_limits<double>::infinity();
+            double min = std::numeric_limits<double>::infinity();
             for (const auto& [l, m, n] : b.triangles) {
-                least = std::min(least, testing::distance(at, b.positions[l], b.positions[m], b.positions[n]));
+                min = std::min(min, testing::distance(at, b.positions[l], b.positions[m], b.positions[n]));
             }
-            largest = std::max(largest, least);
-            mean += least / kSamples;
+            largest = std::max(largest, min);
+            mean += min / kSamples;
         }
         const double size = 0.5 * length(cross(u, v));
         sum += size * mean;
@@ -490,7 +490,7 @@ TEST(Compare, BoundsStayBoundsWhereTheWorkIsLimited)
     CompareOptions options;
     options.share = 1e-9;
     const Comparison exact = compare(a, b, options);
-    options.most_pieces = 1;
+    options.max_pieces = 1;
     const Comparison coarse = compare(a, b, options);
     for (const auto& [wide, narrow] : {std::pair(coarse.from_a, exact.from_a), {coarse.from_b, exact.from_b}}) {
         EXPECT_LE(wide.lower, narrow.upper);
@@ -595,8 +595,8 @@ TEST(Compare, ContactAnglesAreWeighedByLength)
     const Surface with = testing::withContactAngles(plain);  // 0.31, 0.32 … along edges of one length
     const Comparison found = compare(with, plain);
     ASSERT_TRUE(found.a.contact_angle);
-    EXPECT_NEAR(found.a.contact_angle->least, 0.31, 1e-6);
-    EXPECT_NEAR(found.a.contact_angle->most, 0.42, 1e-6);
+    EXPECT_NEAR(found.a.contact_angle->min, 0.31, 1e-6);
+    EXPECT_NEAR(found.a.contact_angle->max, 0.42, 1e-6);
     EXPECT_NEAR(found.a.contact_angle->mean, 0.365, 1e-6);
     EXPECT_FALSE(found.b.contact_angle);
 }

@@ -35,11 +35,11 @@ SlotLoop turned(SlotLoop loop, std::size_t by)
 
 double farthestApart(const SlotLoop& a, const SlotLoop& b)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        most = std::max(most, std::abs(a[i].t - b[i].t));
+        max = std::max(max, std::abs(a[i].t - b[i].t));
     }
-    return most;
+    return max;
 }
 
 double totalStrain(const SlotLoop& loop, const FairingOptions& options)

@@ -14,11 +14,11 @@ namespace {
 /// First byte: width; second: how levels, edges and threshold are taken; the rest: pixels, row by row.
 Mask maskFrom(std::span<const std::byte> bytes, bool hard)
 {
-    constexpr int kMostPixels = 40;  // a side: larger masks find nothing that two smaller ones do not
+    constexpr int kMaxPixels = 40;  // a side: larger masks find nothing that two smaller ones do not
     Mask mask;
-    mask.width = 1 + std::to_integer<int>(bytes[0]) % kMostPixels;
+    mask.width = 1 + std::to_integer<int>(bytes[0]) % kMaxPixels;
     const std::size_t pixels =
-        std::min<std::size_t>(bytes.size() - 2, static_cast<std::size_t>(mask.width) * kMostPixels);
+        std::min<std::size_t>(bytes.size() - 2, static_cast<std::size_t>(mask.width) * kMaxPixels);
     mask.height =
         static_cast<int>((pixels + static_cast<std::size_t>(mask.width) - 1) / static_cast<std::size_t>(mask.width));
     for (std::size_t i = 0; i < static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height); ++i) {

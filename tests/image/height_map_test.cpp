@@ -22,7 +22,7 @@ using namespace encoded;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string complaintOf(const Bytes& file, std::size_t max_pixels = kMostHeightMapPixels)
+std::string complaintOf(const Bytes& file, std::size_t max_pixels = kMaxHeightMapPixels)
 {
     return messageOf([&] { (void)decodeHeightMap(file, max_pixels); });
 }

@@ -47,8 +47,8 @@ TEST(ByteStream, RefusesWhatIsNoFloat)
 {
     std::ostringstream out;
     ByteStream bytes(out);
-    const double most = std::numeric_limits<float>::max();
-    bytes.f32(most, -most, 1e-300);
+    const double max = std::numeric_limits<float>::max();
+    bytes.f32(max, -max, 1e-300);
     for (const double wrong :
          {1e39, -1e39, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW(bytes.f32(wrong), Error);

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(BinaryOrNot, Gltf, ::testing::Bool(),
 TEST_P(Gltf, HoldsTheRefillAsAMorphTargetThatShowsEveryFill)
 {
     Surface surface = testing::withRefill(withContactAngles(roundDroplet({.inner = 1e-3})));
-    surface.refill->least = 0.25;
+    surface.refill->min = 0.25;
     const tinygltf::Model model = parsed(written(surface, {.binary = GetParam()}), GetParam());
     const tinygltf::Mesh& mesh = model.meshes.at(0);
     EXPECT_EQ(mesh.weights, std::vector<double>{0.0});

@@ -296,11 +296,11 @@ TEST(MeshFiles, KnowTheirUnit)
     const testing::ScratchDirectory scratch;
     const Surface surface = roundDroplet();
     const auto width = [](const Surface& of) {
-        double most = 0.0;
+        double max = 0.0;
         for (const Vec3& p : of.positions) {
-            most = std::max(most, p.x);
+            max = std::max(max, p.x);
         }
-        return most;
+        return max;
     };
     for (const auto& [unit, metres] :
          {std::pair{LengthUnit::Millimetre, 1e-3}, {LengthUnit::Centimetre, 1e-2}, {LengthUnit::Metre, 1.0}}) {
@@ -309,12 +309,12 @@ TEST(MeshFiles, KnowTheirUnit)
             std::ostringstream out;
             writeSurface(surface, out, format, {.unit = unit});
             if (format == Format::Obj) {
-                double most = 0.0;
+                double max = 0.0;
                 auto lines = linesOf(out.str());
                 for (const std::string& line : lines["v"]) {
-                    most = std::max(most, std::stod(line));
+                    max = std::max(max, std::stod(line));
                 }
-                EXPECT_NEAR(most * metres / width(surface), 1.0, 1e-6);
+                EXPECT_NEAR(max * metres / width(surface), 1.0, 1e-6);
             }
             testing::writeFile(path, out.str());
             EXPECT_NEAR(width(readSurface(path).surface) / width(surface), 1.0, 1e-6) << path << " " << metres;

@@ -107,9 +107,9 @@ TEST_F(ReadSurfaceTest, ContactAnglesAreReadWhereFilesHaveThem)
         const Surface found = read(std::string("angles.") + name(format), written(surface, format));
         const Comparison between = compare(surface, found);
         ASSERT_TRUE(between.b.contact_angle) << name(format);
-        EXPECT_NEAR(between.b.contact_angle->least, between.a.contact_angle->least, 1e-6);
+        EXPECT_NEAR(between.b.contact_angle->min, between.a.contact_angle->min, 1e-6);
         EXPECT_NEAR(between.b.contact_angle->mean, between.a.contact_angle->mean, 1e-6);
-        EXPECT_NEAR(between.b.contact_angle->most, between.a.contact_angle->most, 1e-6);
+        EXPECT_NEAR(between.b.contact_angle->max, between.a.contact_angle->max, 1e-6);
     }
     EXPECT_TRUE(read("angles.obj", written(surface, Format::Obj)).contact_angle.empty());
     EXPECT_TRUE(read("none.glb", written(roundDroplet(), Format::Glb)).contact_angle.empty());

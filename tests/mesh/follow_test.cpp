@@ -61,11 +61,11 @@ PlanarMesh meshOf(const Footprint& footprint, std::size_t triangles = 1500)
 
 double largestMove(const PlanarMesh& a, const PlanarMesh& b, Vec2 by)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (std::size_t v = 0; v < a.vertices.size(); ++v) {
-        most = std::max(most, length(b.vertices[v] - a.vertices[v] - by));
+        max = std::max(max, length(b.vertices[v] - a.vertices[v] - by));
     }
-    return most;
+    return max;
 }
 
 std::vector<Footprint> simpleOnes()

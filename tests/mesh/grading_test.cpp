@@ -120,9 +120,9 @@ TEST(Grading, WhereThereIsNoRoomItChangesNothing)
     // A ring four edges wide: nothing is two layers away from the rim.
     const Domain ring = domainOf(ellipseLoop(1, 1), {testing::reversed(ellipseLoop(0.8, 0.8))});
     const PlanarMesh two = triangulate(ring, {.edge = 0.05, .grading = 2})[0];
-    const PlanarMesh most = triangulate(ring, {.edge = 0.05, .grading = 64})[0];
-    EXPECT_EQ(two.vertices, most.vertices);
-    EXPECT_EQ(two.triangles, most.triangles);
+    const PlanarMesh max = triangulate(ring, {.edge = 0.05, .grading = 64})[0];
+    EXPECT_EQ(two.vertices, max.vertices);
+    EXPECT_EQ(two.triangles, max.triangles);
 }
 
 TEST(Grading, OnlyPowersOfTwoUpTo64AreTaken)

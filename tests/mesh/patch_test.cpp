@@ -49,7 +49,7 @@ std::size_t sharedWith(const std::vector<const PlanarMesh*>& before, const Plana
     return count;
 }
 
-void expectPatch(const std::vector<const PlanarMesh*>& before, const Footprint& footprint, double least_kept)
+void expectPatch(const std::vector<const PlanarMesh*>& before, const Footprint& footprint, double min_kept)
 {
     const std::optional<PatchedMesh> patched = patch(before, footprint, kEdge);
     ASSERT_TRUE(patched);
@@ -58,7 +58,7 @@ void expectPatch(const std::vector<const PlanarMesh*>& before, const Footprint& 
     EXPECT_EQ(mesh.loopCount(), 1 + footprint.holes.size());
     EXPECT_GE(minAngle(mesh), 15.0 * kDegree);
     EXPECT_NEAR(area(mesh) / area(footprint), 1.0, 5e-4);
-    EXPECT_GE(static_cast<double>(patched->kept), least_kept * static_cast<double>(mesh.vertices.size()));
+    EXPECT_GE(static_cast<double>(patched->kept), min_kept * static_cast<double>(mesh.vertices.size()));
     const std::size_t shared = sharedWith(before, mesh);
     EXPECT_GE(shared, patched->kept);
     EXPECT_LE(shared, patched->kept + patched->kept / 20) << "lattice points may come back where they were";

@@ -47,11 +47,11 @@ TEST(ContactSheet, ShowsEveryTileWhole)
 
 TEST(ContactSheet, PicturesOfTheSizeToldAreNotShrunk)
 {
-    for (const int most : {8192, 300}) {
-        const ContactSheetOptions options{.tile_width = 100, .tile_height = 75, .most_side = most};
+    for (const int max : {8192, 300}) {
+        const ContactSheetOptions options{.tile_width = 100, .tile_height = 75, .max_side = max};
         constexpr std::size_t kTiles = 12;
         const TileSize size = tileSize(kTiles, options);
-        EXPECT_EQ(size.width == 100, most == 8192);
+        EXPECT_EQ(size.width == 100, max == 8192);
         const Picture sheet =
             contactSheet(std::vector<Tile>(kTiles, {plain(size.width, size.height, kRed), ""}), options);
         EXPECT_EQ(pixelsOf(sheet, kRed), kTiles * static_cast<std::size_t>(size.width * size.height));
@@ -84,8 +84,8 @@ TEST(ContactSheet, StaysWithinItsSize)
     const Picture sheet = contactSheet(many);
     EXPECT_LE(std::max(sheet.width, sheet.height), 8192);
     EXPECT_NEAR(static_cast<double>(sheet.width) / sheet.height, 4.0 / 3.0, 0.1);
-    EXPECT_THROW(contactSheet(many, {.most_side = 256}), Error);
-    EXPECT_LE(contactSheet({many.begin(), many.begin() + 50}, {.most_side = 300}).height, 300);
+    EXPECT_THROW(contactSheet(many, {.max_side = 256}), Error);
+    EXPECT_LE(contactSheet({many.begin(), many.begin() + 50}, {.max_side = 300}).height, 300);
 }
 
 TEST(ContactSheet, RefusesWhatItCannotLayOut)
@@ -94,7 +94,7 @@ TEST(ContactSheet, RefusesWhatItCannotLayOut)
     EXPECT_THROW(contactSheet({{Picture{}, ""}}), Error);
     const std::vector<Tile> one = {{plain(4, 4, kRed), ""}};
     for (const ContactSheetOptions& wrong :
-         {ContactSheetOptions{.columns = 0}, {.tile_width = 15}, {.tile_height = 5000}, {.most_side = 100}}) {
+         {ContactSheetOptions{.columns = 0}, {.tile_width = 15}, {.tile_height = 5000}, {.max_side = 100}}) {
         EXPECT_THROW(contactSheet(one, wrong), Error);
     }
 }

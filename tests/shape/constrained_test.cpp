@@ -106,13 +106,13 @@ std::vector<ConstrainedProblem> problemsFor(const PlanarMesh& mesh, std::mt19937
 /// By the largest value, against one that is near enough.
 double apart(const ConstrainedSolution& a, const ConstrainedSolution& b)
 {
-    double most = 0.0;
+    double max = 0.0;
     double largest = 0.0;
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-        most = std::max(most, std::abs(a.values[i] - b.values[i]));
+        max = std::max(max, std::abs(a.values[i] - b.values[i]));
         largest = std::max(largest, std::abs(b.values[i]));
     }
-    return most / largest;
+    return max / largest;
 }
 
 TEST(ConstrainedSolver, SolvesOnTheZooAndAgrees)

@@ -391,7 +391,7 @@ TEST(Exact, IsInEquilibriumOnAnyFootprint)
             EXPECT_LT(found.free_force, 1e-8);
             EXPECT_NEAR(found.volume / liquid, 1.0, 1e-10);
             EXPECT_EQ(found.rim_gap, 0.0);
-            EXPECT_GE(found.least_thickness, -1e-12);
+            EXPECT_GE(found.min_thickness, -1e-12);
         }
     }
 }
@@ -653,33 +653,33 @@ TEST(Exact, FindsMinimalSurfaces)
 
 TEST(Exact, StepsAreLimited)
 {
-    const double most = dropletOfAngle(0.0, kPi / 2).volume;
-    SolveOptions options = unitOptions(Model::Exact, 0.0, 3.0 * most);
+    const double max = dropletOfAngle(0.0, kPi / 2).volume;
+    SolveOptions options = unitOptions(Model::Exact, 0.0, 3.0 * max);
     const std::vector<PlanarMesh> meshes = spread(discMeshes(0.1), options);
     const SolveReport whole = solve(meshes, options).report;
     EXPECT_EQ(whole.termination, Termination::NoHeightField);
-    options.most_newton_steps = whole.newton_steps / 2;
+    options.max_newton_steps = whole.newton_steps / 2;
     const Solution cut = solve(meshes, options);
     EXPECT_EQ(cut.report.termination, Termination::OutOfSteps);
-    EXPECT_EQ(cut.report.newton_steps, options.most_newton_steps);
+    EXPECT_EQ(cut.report.newton_steps, options.max_newton_steps);
     EXPECT_GT(cut.report.largest_volume, 0.0);
-    EXPECT_LE(cut.report.largest_volume, 1.01 * most);
+    EXPECT_LE(cut.report.largest_volume, 1.01 * max);
     EXPECT_TRUE(cut.droplets.empty());
 }
 
 TEST(Exact, WorkIsLimited)
 {
-    const double most = dropletOfAngle(0.0, kPi / 2).volume;
-    SolveOptions options = unitOptions(Model::Exact, 0.0, 3.0 * most);
+    const double max = dropletOfAngle(0.0, kPi / 2).volume;
+    SolveOptions options = unitOptions(Model::Exact, 0.0, 3.0 * max);
     const std::vector<PlanarMesh> meshes = spread(discMeshes(0.1), options);
     const SolveReport whole = solve(meshes, options).report;
     // A factorisation counts as one iteration, a step as 16.
-    options.most_work = 0.5 * 17.0 * static_cast<double>(whole.unknowns * whole.newton_steps);
+    options.max_work = 0.5 * 17.0 * static_cast<double>(whole.unknowns * whole.newton_steps);
     const Solution cut = solve(meshes, options);
     EXPECT_EQ(cut.report.termination, Termination::OutOfSteps);
     EXPECT_LT(cut.report.newton_steps, whole.newton_steps);
     EXPECT_GT(cut.report.largest_volume, 0.0);
-    EXPECT_LE(cut.report.largest_volume, 1.01 * most);
+    EXPECT_LE(cut.report.largest_volume, 1.01 * max);
     EXPECT_TRUE(cut.droplets.empty());
 }
 
@@ -691,17 +691,17 @@ TEST(Exact, RefusesMoreThanTheDiscHolds)
         double published;
     };
     for (const Row row : {Row{0.0, 2 * kPi / 3}, Row{1.0, 1.75}, Row{5.0, 1.25}, Row{20.0, 0.79}}) {
-        const double most = dropletOfAngle(row.weight, kPi / 2).volume;
-        EXPECT_NEAR(most, row.published, 5e-3 * most) << row.weight;
-        const std::vector<PlanarMesh> meshes = spread(discMeshes(0.025), unitOptions(Model::Exact, row.weight, most));
-        const Solution below = solve(meshes, unitOptions(Model::Exact, row.weight, 0.9 * most));
+        const double max = dropletOfAngle(row.weight, kPi / 2).volume;
+        EXPECT_NEAR(max, row.published, 5e-3 * max) << row.weight;
+        const std::vector<PlanarMesh> meshes = spread(discMeshes(0.025), unitOptions(Model::Exact, row.weight, max));
+        const Solution below = solve(meshes, unitOptions(Model::Exact, row.weight, 0.9 * max));
         EXPECT_TRUE(below.report.usable()) << row.weight;
         for (const double factor : row.weight > 0.0 ? std::vector<double>{1.05} : std::vector<double>{1.05, 3.0}) {
-            const Solution above = solve(meshes, unitOptions(Model::Exact, row.weight, factor * most));
+            const Solution above = solve(meshes, unitOptions(Model::Exact, row.weight, factor * max));
             EXPECT_EQ(above.report.termination, Termination::NoHeightField) << row.weight << " " << factor;
             EXPECT_FALSE(above.report.usable());
             EXPECT_TRUE(above.droplets.empty());
-            EXPECT_NEAR(above.report.largest_volume / most, 1.0, 0.02) << row.weight << " " << factor;
+            EXPECT_NEAR(above.report.largest_volume / max, 1.0, 0.02) << row.weight << " " << factor;
         }
     }
 }
@@ -721,18 +721,18 @@ TEST(Exact, RefusesMoreThanAnAnnulusHolds)
             testing::simpson(1e-7, std::sqrt(0.6), [&](double t) { return 2.0 * t * ring.fall(ring.inner + t * t); });
         (drop < 0.0 ? low : high) = ring.pressure;
     }
-    const double most = kPi * testing::simpson(1e-7, std::sqrt(0.6), [&](double t) {
-                            const double r = ring.inner + t * t;
-                            return 2.0 * t * (r * r - ring.inner * ring.inner) * ring.fall(r);
-                        });
+    const double max = kPi * testing::simpson(1e-7, std::sqrt(0.6), [&](double t) {
+                           const double r = ring.inner + t * t;
+                           return 2.0 * t * (r * r - ring.inner * ring.inner) * ring.fall(r);
+                       });
     ASSERT_LT(ring.sine(1.0), 1.0);
     const Domain annulus = domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.4, 0.4))});
-    const SolveOptions too_much = unitOptions(Model::Exact, 0.0, 1.2 * most);
+    const SolveOptions too_much = unitOptions(Model::Exact, 0.0, 1.2 * max);
     const std::vector<PlanarMesh> meshes = spread(triangulate(annulus, {.edge = 0.02}), too_much);
     const Solution above = solve(meshes, too_much);
     EXPECT_EQ(above.report.termination, Termination::NoHeightField);
-    EXPECT_NEAR(above.report.largest_volume / most, 1.0, 0.05);
-    EXPECT_TRUE(solve(meshes, unitOptions(Model::Exact, 0.0, 0.9 * most)).report.usable());
+    EXPECT_NEAR(above.report.largest_volume / max, 1.0, 0.05);
+    EXPECT_TRUE(solve(meshes, unitOptions(Model::Exact, 0.0, 0.9 * max)).report.usable());
 }
 
 TEST(Exact, RefusesMoreThanTheDiscHoldsByHeight)
@@ -763,27 +763,27 @@ TEST(Exact, RefusesMoreThanSquareAndLShapeHold)
         EXPECT_TRUE(small.report.usable());
         const Solution large = solve(meshes, unitOptions(Model::Exact, 0.0, c.large));
         ASSERT_EQ(large.report.termination, Termination::NoHeightField);
-        const double most = large.report.largest_volume;
-        EXPECT_GT(most, c.small);
-        EXPECT_LT(most, c.large);
-        const Solution below = solve(meshes, unitOptions(Model::Exact, 0.0, 0.9 * most));
+        const double max = large.report.largest_volume;
+        EXPECT_GT(max, c.small);
+        EXPECT_LT(max, c.large);
+        const Solution below = solve(meshes, unitOptions(Model::Exact, 0.0, 0.9 * max));
         ASSERT_TRUE(below.report.usable());
         EXPECT_LE(below.droplets[0].pressure, c.cheeger);
-        const Solution above = solve(meshes, unitOptions(Model::Exact, 0.0, 1.1 * most));
+        const Solution above = solve(meshes, unitOptions(Model::Exact, 0.0, 1.1 * max));
         ASSERT_EQ(above.report.termination, Termination::NoHeightField);
-        EXPECT_NEAR(above.report.largest_volume / most, 1.0, 0.02);
+        EXPECT_NEAR(above.report.largest_volume / max, 1.0, 0.02);
     }
 }
 
 TEST(Exact, NamesTheDropletThatDoesNotExist)
 {
     const std::vector<PlanarMesh> even = triangulate(twoDiscs(1.0, 0.5), {.triangles = 20'000, .edge = {}});
-    const double most = 2.0 * kPi / 3.0 * 0.125;
-    const SolveOptions too_much = unitOptions(Model::Exact, 0.0, 2.0 * most);
+    const double max = 2.0 * kPi / 3.0 * 0.125;
+    const SolveOptions too_much = unitOptions(Model::Exact, 0.0, 2.0 * max);
     const Solution each = solve(spread(even, too_much), too_much);
     EXPECT_EQ(each.report.termination, Termination::NoHeightField);
     EXPECT_EQ(each.report.failed_droplet, 1U);
-    EXPECT_NEAR(each.report.largest_volume / most, 1.0, 0.03);
+    EXPECT_NEAR(each.report.largest_volume / max, 1.0, 0.03);
 
     // One pressure: the larger disc is upright first, at λ = 2, where the smaller has 30°.
     SolveOptions options = unitOptions(Model::Exact, 0.0, 4.0);

@@ -180,11 +180,11 @@ TEST(Figures, ContactAngleHasPlacesAndAMeanByLength)
     EXPECT_NEAR(angle.mean,
                 integrateRim(mesh, [&](std::uint32_t v, Vec2) { return field.contact_angle[v]; }) / rimLength(mesh),
                 1e-12);
-    const auto [least, most] = std::minmax_element(field.contact_angle.begin(), field.contact_angle.end());
-    EXPECT_EQ(angle.min, *least);
-    EXPECT_EQ(angle.max, *most);
-    EXPECT_EQ(angle.min_at, mesh.vertices[static_cast<std::size_t>(least - field.contact_angle.begin())]);
-    EXPECT_EQ(angle.max_at, mesh.vertices[static_cast<std::size_t>(most - field.contact_angle.begin())]);
+    const auto [min, max] = std::minmax_element(field.contact_angle.begin(), field.contact_angle.end());
+    EXPECT_EQ(angle.min, *min);
+    EXPECT_EQ(angle.max, *max);
+    EXPECT_EQ(angle.min_at, mesh.vertices[static_cast<std::size_t>(min - field.contact_angle.begin())]);
+    EXPECT_EQ(angle.max_at, mesh.vertices[static_cast<std::size_t>(max - field.contact_angle.begin())]);
     EXPECT_NEAR(angle.min_at.x, -1.0, 0.01);
     EXPECT_NEAR(angle.max_at.x, 1.0, 0.01);
 }

@@ -105,7 +105,7 @@ void expectKkt(const PlanarMesh& mesh, const HeightField& field, const SolveOpti
     EXPECT_GE(found.held_force, -1e-8);
     EXPECT_EQ(found.held_gap, 0.0);
     EXPECT_EQ(found.rim_gap, 0.0);
-    EXPECT_GE(found.least_thickness, 0.0);
+    EXPECT_GE(found.min_thickness, 0.0);
     if (options.fill.by == FillBy::Volume && options.fill.sharing == FillSharing::Each) {
         EXPECT_NEAR(found.volume / options.fill.amount, 1.0, 1e-10);
     }

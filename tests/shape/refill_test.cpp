@@ -79,11 +79,11 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Refill, ::testing::ValuesIn(cases()),
 
 double largest(const std::vector<double>& values)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (const double value : values) {
-        most = std::max(most, std::abs(value));
+        max = std::max(max, std::abs(value));
     }
-    return most;
+    return max;
 }
 
 TEST_P(Refill, LeadsToWhatSolvingAgainWould)
@@ -191,7 +191,7 @@ TEST(FillRange, HoldsTheDropletItself)
     const double infinity = std::numeric_limits<double>::infinity();
     for (const FillRange wrong : {FillRange{-0.1, 2.0}, FillRange{1.1, 2.0}, FillRange{0.0, 0.9}, FillRange{1.0, 1.0},
                                   FillRange{0.0, infinity}, FillRange{std::numeric_limits<double>::quiet_NaN(), 2.0}}) {
-        EXPECT_THROW(wrong.validate(), Error) << wrong.least << " to " << wrong.most;
+        EXPECT_THROW(wrong.validate(), Error) << wrong.min << " to " << wrong.max;
     }
 }
 

@@ -341,18 +341,18 @@ TEST_P(SolveWith, IsTheMinimumOfItsEnergy)
         return sum;
     };
     const std::vector<double>& u = solution.droplets[0].height;
-    const double least = energy(u);
+    const double min = energy(u);
     const auto first = mesh.rimVertexCount();
     for (std::uint32_t v = first; v + 1 < mesh.vertices.size(); v += 7) {
         // Move liquid from one vertex to the next at the same volume.
         std::vector<double> other = u;
         other[v] += 1e-3 / loads[v];
         other[v + 1] -= 1e-3 / loads[v + 1];
-        EXPECT_GT(energy(other), least);
+        EXPECT_GT(energy(other), min);
         std::vector<double> back = u;
         back[v] -= 1e-3 / loads[v];
         back[v + 1] += 1e-3 / loads[v + 1];
-        EXPECT_GT(energy(back), least);
+        EXPECT_GT(energy(back), min);
     }
 }
 

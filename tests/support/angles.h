@@ -54,14 +54,14 @@ inline std::vector<std::string> brokenPromises(const PlanarMesh& mesh, const Foo
     }
     std::vector<std::string> broken;
     for (const Triangle& t : mesh.triangles) {
-        double least = std::numbers::pi;
+        double min = std::numbers::pi;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 u = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]];
             const Vec2 v = mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]];
-            least = std::min(least, std::atan2(cross(u, v), dot(u, v)));
+            min = std::min(min, std::atan2(cross(u, v), dot(u, v)));
         }
         double allowed = 20.0 * kDegree;
-        for (std::size_t i = 0; least < allowed && i < sharp.size(); ++i) {
+        for (std::size_t i = 0; min < allowed && i < sharp.size(); ++i) {
             for (const std::uint32_t v : t) {
                 if (length(mesh.vertices[v] - mesh.vertices[sharp[i]]) < reach) {
                     allowed = std::min(allowed, 0.5 * angles[sharp[i]]);
@@ -69,8 +69,8 @@ inline std::vector<std::string> brokenPromises(const PlanarMesh& mesh, const Foo
             }
         }
         // A corner is split by halving the edge across it, which halves the angle but for the sides' unequal lengths.
-        if (least < 0.99 * allowed) {
-            broken.push_back(std::to_string(least / kDegree) + " degrees, not " + std::to_string(allowed / kDegree) +
+        if (min < 0.99 * allowed) {
+            broken.push_back(std::to_string(min / kDegree) + " degrees, not " + std::to_string(allowed / kDegree) +
                              ", at " + std::to_string(mesh.vertices[t[0]].x) + " " +
                              std::to_string(mesh.vertices[t[0]].y));
         }

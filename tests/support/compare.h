@@ -81,16 +81,16 @@ inline Distance strays(const TriangleMesh& from, const TriangleMesh& to)
         balls.push_back({centre, std::max({length(a - centre), length(b - centre), length(c - centre)})});
     }
     const auto nearest = [&](Vec3 p) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < balls.size(); ++k) {
             const Vec3 away = p - balls[k].centre;
-            const double reach = least + balls[k].radius;
+            const double reach = min + balls[k].radius;
             if (dot(away, away) < reach * reach) {
                 const auto [a, b, c] = corners(to, to.triangles[k]);
-                least = std::min(least, distance(p, a, b, c));
+                min = std::min(min, distance(p, a, b, c));
             }
         }
-        return least;
+        return min;
     };
     Distance result;
     const double whole = area(from);

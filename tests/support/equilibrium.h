@@ -101,7 +101,7 @@ struct Equilibrium {
     double held_force = 0.0;  ///< smallest on a held vertex, positive where the ground pushes the liquid's surface up
     double held_gap = 0.0;    ///< largest |u − h| at a held vertex
     double rim_gap = 0.0;     ///< largest |u − h| at a rim vertex
-    double least_thickness = 0.0;  ///< smallest u − h at any vertex
+    double min_thickness = 0.0;  ///< smallest u − h at any vertex
     double volume = 0.0;
 };
 
@@ -136,10 +136,10 @@ inline Equilibrium equilibrium(const PlanarMesh& mesh, const HeightField& field,
     }
     const double largest = *std::max_element(size.begin(), size.end());
     found.held_force = std::numeric_limits<double>::infinity();
-    found.least_thickness = std::numeric_limits<double>::infinity();
+    found.min_thickness = std::numeric_limits<double>::infinity();
     for (std::uint32_t v = 0; v < u.size(); ++v) {
         const double gap = std::abs(field.thicknessAt(v));
-        found.least_thickness = std::min(found.least_thickness, field.thicknessAt(v));
+        found.min_thickness = std::min(found.min_thickness, field.thicknessAt(v));
         if (mesh.onRim(v)) {
             found.rim_gap = std::max(found.rim_gap, gap);
         } else if (!field.dry.empty() && field.dry[v] != 0) {

@@ -43,7 +43,7 @@ inline int windingNumber(const std::vector<Vec2>& polygon, Vec2 p)
 }
 
 /// The least distance between pieces that are not neighbours; 0 where any cross or touch.
-inline double leastGap(const std::vector<std::vector<Vec2>>& loops)
+inline double minGap(const std::vector<std::vector<Vec2>>& loops)
 {
     struct Piece {
         Vec2 a;
@@ -57,7 +57,7 @@ inline double leastGap(const std::vector<std::vector<Vec2>>& loops)
             pieces.push_back({loops[k][i], loops[k][(i + 1) % loops[k].size()], k, i});
         }
     }
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const Piece& p = pieces[i];
@@ -71,11 +71,11 @@ inline double leastGap(const std::vector<std::vector<Vec2>>& loops)
             if (cross_p && cross_q) {
                 return 0.0;
             }
-            least = std::min({least, distanceToPiece(p.a, q.a, q.b), distanceToPiece(p.b, q.a, q.b),
-                              distanceToPiece(q.a, p.a, p.b), distanceToPiece(q.b, p.a, p.b)});
+            min = std::min({min, distanceToPiece(p.a, q.a, q.b), distanceToPiece(p.b, q.a, q.b),
+                            distanceToPiece(q.a, p.a, p.b), distanceToPiece(q.b, p.a, p.b)});
         }
     }
-    return least;
+    return min;
 }
 
 }  // namespace droplet::testing

@@ -90,8 +90,8 @@ TEST(Onto, ThePicturesOwnPlaneChangesNothing)
     EXPECT_EQ(surface.triangles, droplets.triangles);
     EXPECT_EQ(surface.weld, droplets.weld);
     EXPECT_EQ(result.report.laid, 2U);
-    EXPECT_NEAR(result.report.least_scale, 1.0, 1e-12);
-    EXPECT_NEAR(result.report.most_scale, 1.0, 1e-12);
+    EXPECT_NEAR(result.report.min_scale, 1.0, 1e-12);
+    EXPECT_NEAR(result.report.max_scale, 1.0, 1e-12);
     EXPECT_THAT(result.report.warnings, ::testing::IsEmpty());
 }
 
@@ -114,7 +114,7 @@ TEST(Onto, FollowsTheObjectsPlaceTurnAndSize)
         EXPECT_LT(length(result.surface.positions[v] - (shift + kSize * turn(droplet.positions[v]))), 1e-14);
         EXPECT_LT(length(result.surface.normals[v] - turn(droplet.normals[v])), 1e-12);
     }
-    EXPECT_NEAR(result.report.least_scale, kSize, 1e-12);
+    EXPECT_NEAR(result.report.min_scale, kSize, 1e-12);
     EXPECT_NEAR(result.surface.mean_height / (kSize * droplet.mean_height), 1.0, 0.05);  // of a polygon, not a disc
     EXPECT_NEAR(volume(result.surface) / (kSize * kSize * kSize * enclosedVolume(droplet)), 1.0, 1e-12);
     ASSERT_EQ(result.report.warnings.size(), 1U);
@@ -494,7 +494,7 @@ TEST(Onto, MetresPerUvAreTheObjectsOwn)
     // A picture of that aspect and √a times that wide comes out at scale 1.
     const double width = metresPerUv(meshOf(oblong)) * std::sqrt(4.0 / 9.0);
     Surface droplet = roundDroplet();
-    EXPECT_NEAR(layOnto(droplet, meshOf(oblong), {.extent = {width, width * 9.0 / 4.0}}).report.most_scale, 1.0, 1e-12);
+    EXPECT_NEAR(layOnto(droplet, meshOf(oblong), {.extent = {width, width * 9.0 / 4.0}}).report.max_scale, 1.0, 1e-12);
     // A lid of less area, unwrapped small, does not count.
     Sheet lid = plane();
     lid.uv_end = {0.01, 0.01};

@@ -182,7 +182,7 @@ Verdict tryMesh(const Item& item)
         const Surface surface = readSurface(path).surface;
         surface.validate();
         CompareOptions options;
-        options.most_pieces = std::size_t{1} << 14;  // a broken mesh can be far larger than its droplet
+        options.max_pieces = std::size_t{1} << 14;  // a broken mesh can be far larger than its droplet
         compare(surface, surface, options);
     };
     const auto as_object = [&] {

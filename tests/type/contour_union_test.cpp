@@ -14,7 +14,7 @@
 namespace droplet {
 namespace {
 
-using testing::leastGap;
+using testing::minGap;
 using testing::polygonArea;
 using testing::windingNumber;
 
@@ -96,7 +96,7 @@ TEST(ContourUnion, LoopsThatTouchArePartedByALittle)
         SCOPED_TRACE(what);
         const United united = unite(contours, 0.0);
         EXPECT_EQ(united.loops.size(), loops);
-        EXPECT_GT(leastGap(united.loops), 0.5 * kGap);
+        EXPECT_GT(minGap(united.loops), 0.5 * kGap);
         EXPECT_LT(totalArea(united), area);
         EXPECT_GT(totalArea(united), area - 10.001 * kGap) << "half a gap all round, no more";
     }
@@ -147,7 +147,7 @@ TEST(ContourUnion, PointsAreInsideWhereContoursWindAroundThem)
             }
         }
         const United united = unite(contours, 0.0);
-        EXPECT_GT(leastGap(united.loops), 0.0) << trial;
+        EXPECT_GT(minGap(united.loops), 0.0) << trial;
         for (int sample = 0; sample < 300; ++sample) {
             const Vec2 p{1.2 * uniform() - 0.1, 1.2 * uniform() - 0.1};
             int around = 0;

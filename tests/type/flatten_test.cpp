@@ -31,24 +31,24 @@ Vec2 cubicAt(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double t)
 template <typename Curve>
 double farthest(const Contour& pieces, const Curve& curve)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i <= 2000; ++i) {
-        double least = 1e9;
+        double min = 1e9;
         for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
-            least = std::min(least, testing::distanceToPiece(curve(i / 2000.0), pieces[k], pieces[k + 1]));
+            min = std::min(min, testing::distanceToPiece(curve(i / 2000.0), pieces[k], pieces[k + 1]));
         }
-        most = std::max(most, least);
+        max = std::max(max, min);
     }
-    return most;
+    return max;
 }
 
 double longest(const Contour& pieces)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
-        most = std::max(most, length(pieces[k + 1] - pieces[k]));
+        max = std::max(max, length(pieces[k + 1] - pieces[k]));
     }
-    return most;
+    return max;
 }
 
 TEST(Flatten, ConicsStayWithinTheTolerance)

@@ -67,9 +67,9 @@ TEST(Font, AxesHaveTagsAndRanges)
     const auto weight = std::find_if(axes.begin(), axes.end(), [](const FontAxis& a) { return a.tag == "wght"; });
     ASSERT_NE(weight, axes.end());
     EXPECT_EQ(weight->name, "Weight");
-    EXPECT_EQ(weight->least, 100.0);
+    EXPECT_EQ(weight->min, 100.0);
     EXPECT_EQ(weight->standard, 400.0);
-    EXPECT_EQ(weight->most, 900.0);
+    EXPECT_EQ(weight->max, 900.0);
 }
 
 TEST(Font, AxesAreRefusedWithWhatThereIs)

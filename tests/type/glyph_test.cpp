@@ -166,18 +166,18 @@ TEST(Glyph, ToleranceBoundsTheDistance)
         options.tolerance = tolerance;
         const Outline outline = glyphOutline(font, glyph, options);
         EXPECT_LT(outline.loops[0].points.size(), exact.loops[0].points.size());
-        double most = 0.0;
+        double max = 0.0;
         for (std::size_t k = 0; k < outline.loops.size(); ++k) {
             const std::vector<Vec2>& pieces = outline.loops[k].points;
             for (const Vec2 p : exact.loops[k].points) {
-                double least = 1.0;
+                double min = 1.0;
                 for (std::size_t i = 0; i < pieces.size(); ++i) {
-                    least = std::min(least, testing::distanceToPiece(p, pieces[i], pieces[(i + 1) % pieces.size()]));
+                    min = std::min(min, testing::distanceToPiece(p, pieces[i], pieces[(i + 1) % pieces.size()]));
                 }
-                most = std::max(most, least);
+                max = std::max(max, min);
             }
         }
-        EXPECT_LT(most, tolerance + 1e-7);
+        EXPECT_LT(max, tolerance + 1e-7);
     }
 }
 
@@ -505,7 +505,7 @@ TEST(Text, LettersThatOverlapRunIntoOne)
     const Font font = readFont(kSans);
     const Outline struck = textOf(font, "O\u0338");
     EXPECT_EQ(struck.loops.size(), 3U);
-    EXPECT_GT(testing::leastGap([&] {
+    EXPECT_GT(testing::minGap([&] {
                   std::vector<std::vector<Vec2>> loops;
                   for (const Loop& loop : struck.loops) {
                       loops.push_back(loop.points);

@@ -794,10 +794,10 @@ TEST(View, DropletsKeepTheHueOfWhatIsBehind)
         view.show(state);
         const Layer layer = view.layer();
         std::size_t bright = 0;
-        double most = 0.0;
+        double max = 0.0;
         for (std::size_t i = 0; i < layer.rgba.size(); i += 4) {
             const std::uint8_t* const at = &layer.rgba[i];
-            most = std::max(most, light(at[2]));
+            max = std::max(max, light(at[2]));
             if (at[3] > 200 && at[2] > 120) {
                 EXPECT_NEAR(light(at[0]) / light(at[2]), light(sky[0]) / light(sky[2]), 0.02);
                 EXPECT_NEAR(light(at[1]) / light(at[2]), light(sky[1]) / light(sky[2]), 0.02);
@@ -806,7 +806,7 @@ TEST(View, DropletsKeepTheHueOfWhatIsBehind)
         }
         EXPECT_GT(bright, 20U);
         if (!boost) {
-            EXPECT_LE(most, light(sky[2])) << "by day droplets are no brighter than what they show";
+            EXPECT_LE(max, light(sky[2])) << "by day droplets are no brighter than what they show";
         }
     }
 }

@@ -140,11 +140,11 @@ TEST(Trace, InAGustConvergesWithFourthOrder)
     const auto error = [&](double step) {
         MotionOptions options{0.4, 0.1};
         options.fixed_step = step;
-        double most = 0.0;
+        double max = 0.0;
         for (const MotionPoint& point : traceMotion(forces, kSlope, exact.wind, options).points) {
-            most = std::max(most, std::abs(point.velocity - exact.velocity(point.time)));
+            max = std::max(max, std::abs(point.velocity - exact.velocity(point.time)));
         }
-        return most;
+        return max;
     };
     // The quarters of the gust, to which steps are cut, are whole numbers of these steps.
     double coarse = error(0.1 / 4);

@@ -185,7 +185,7 @@ TEST(Thresholds, PartTheRegimes)
 TEST(RegimeChanges, MissNoneOnAnyProfile)
 {
     std::mt19937_64 random(4);
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (int k = 0; k < 300; ++k) {
         ForceModel model;
         model.wetting.contact_angle = between(random, 20.0, 160.0) * kDegree;
@@ -198,7 +198,7 @@ TEST(RegimeChanges, MissNoneOnAnyProfile)
         const TunnelSetting setting{between(random, 5.0, 90.0) * kDegree, anyOf(random, 1.0, 50.0)};
         const VolumeRange range{1e-12, 1e-4};
         const auto changes = regimeChanges(model, setting, range);
-        most = std::max(most, changes.size());
+        max = std::max(max, changes.size());
         const auto at = [&](double volume) {
             const DropletForces forces = forcesOn(model, volume);
             return regimeOf(forces, drivingForce(forces, setting.slope, setting.wind));
@@ -223,7 +223,7 @@ TEST(RegimeChanges, MissNoneOnAnyProfile)
             }
         }
     }
-    EXPECT_GE(most, 3U) << "parameters in which all regimes occur";
+    EXPECT_GE(max, 3U) << "parameters in which all regimes occur";
 }
 
 // Hooshanginejad and Lee (2022): at one wind the tiniest stick, small ones go up, medium ones stay, large ones go down.
@@ -255,15 +255,15 @@ TEST(Regimes, StandInTheirOrderOverTheVolume)
         const double slow = anyOf(random, 3.0, 60.0);
         constexpr VolumeRange kAll{1e-24, 1e12};
         double largest_climbing = 0.0;
-        double least_running = 0.0;
+        double min_running = 0.0;
         for (const double wind : {slow, 1.1 * slow, 1.5 * slow}) {
             const auto changes = regimeChanges(model, {slope, wind}, kAll);
             ASSERT_TRUE(changes.size() == 1 || changes.size() == 3) << changes.size();
             EXPECT_EQ(changes.front().below, Regime::Still) << "the tiniest stick";
             EXPECT_EQ(changes.back().below, Regime::Still);
             EXPECT_EQ(changes.back().above, Regime::RunsDown) << "large ones run down";
-            EXPECT_GT(changes.back().volume, least_running);
-            least_running = changes.back().volume;
+            EXPECT_GT(changes.back().volume, min_running);
+            min_running = changes.back().volume;
             if (changes.size() == 3) {
                 ++with_all;
                 EXPECT_EQ(changes[0].above, Regime::Climbs);

@@ -218,7 +218,7 @@ struct Rain {
     Glass glass{Glass::Cylinder{.width = 0.4, .height = 0.2, .radius = 1.0}};
     std::vector<WindshieldState> states;
     std::set<std::uint64_t> ids;
-    std::size_t most = 0;
+    std::size_t max = 0;
 
     Rain()
     {
@@ -230,7 +230,7 @@ struct Rain {
             state = step(std::move(state), p, 1.0 / 30.0);
             if (frame >= 50) {
                 states.emplace_back().droplets = state.droplets;
-                most = std::max(most, state.droplets.size());
+                max = std::max(max, state.droplets.size());
                 for (const RunningDroplet& d : state.droplets) {
                     ids.insert(d.id);
                 }
@@ -292,8 +292,8 @@ TEST(DropletScene, ShowsTheDropletsOfEveryFrame)
         expectShown(scene.at((static_cast<double>(frame) + 1e-3) / 30.0), rain.states[frame], rain.glass, 1.0);
     }
     // Droplets take each other's joints, and one draw call shows many.
-    EXPECT_GT(rain.ids.size(), rain.most + rain.most / 4);
-    EXPECT_LE(scene.pool(), rain.most + rain.most / 2);
+    EXPECT_GT(rain.ids.size(), rain.max + rain.max / 4);
+    EXPECT_LE(scene.pool(), rain.max + rain.max / 2);
     EXPECT_LE(scene.model().at("skins").size(), scene.pool() / 62 + 2);
     for (const json& skin : scene.model().at("skins")) {
         EXPECT_TRUE(skin.contains("inverseBindMatrices")) << "assimp 5.2 ends where there are none";
@@ -318,7 +318,7 @@ TEST(DropletScene, TextureHoldsTheDropletsOfEveryFrame)
     EXPECT_EQ(about.at("frames_per_second"), 30.0);
     ASSERT_EQ(static_cast<std::size_t>(picture.width), 4 * columns);
     ASSERT_EQ(static_cast<std::size_t>(picture.height), frames * ((slots + columns - 1) / columns));
-    EXPECT_LE(slots, rain.most + rain.most / 10);
+    EXPECT_LE(slots, rain.max + rain.max / 10);
     const auto low = about.at("low_m").get<std::vector<double>>();
     const auto high = about.at("high_m").get<std::vector<double>>();
     const double smallest = about.at("smallest_m");

@@ -166,18 +166,18 @@ struct Misses {
 
 Misses missesOf(const Glass& mesh, const Glass& cylinder)
 {
-    Misses most;
+    Misses max;
     for (double x = 0.011; x < cylinder.width(); x += 0.017) {
         for (double y = 0.013; y < cylinder.height(); y += 0.041) {
             const GlassPlace a = mesh.place({x, y}).value();
             const GlassPlace b = cylinder.place({x, y}).value();
-            most.point = std::max(most.point, length(a.point - b.point));
-            most.normal = std::max(most.normal, length(a.normal - b.normal));
-            most.across = std::max(most.across, length(a.across - b.across));
-            most.up = std::max(most.up, length(a.up - b.up));
+            max.point = std::max(max.point, length(a.point - b.point));
+            max.normal = std::max(max.normal, length(a.normal - b.normal));
+            max.across = std::max(max.across, length(a.across - b.across));
+            max.up = std::max(max.up, length(a.up - b.up));
         }
     }
-    return most;
+    return max;
 }
 
 class MeshedGlass : public ::testing::TestWithParam<bool> {};
@@ -200,8 +200,8 @@ TEST_P(MeshedGlass, TendsToTheCylinderItIsOf)
     EXPECT_LT(b.normal, 1e-4);
     EXPECT_LT(b.across, 1e-3);
     EXPECT_LT(b.up, 1e-3);
-    EXPECT_NEAR(fine.mostStretch(), 1.0, 1e-3);
-    EXPECT_NEAR(fine.leastStretch(), 1.0, 1e-3);
+    EXPECT_NEAR(fine.maxStretch(), 1.0, 1e-3);
+    EXPECT_NEAR(fine.minStretch(), 1.0, 1e-3);
 }
 
 TEST_P(MeshedGlass, HasItsOwnSizeWithoutAScale)
@@ -230,8 +230,8 @@ Sheet leaning(Vec2 drawn_out = {1.0, 1.0})
 TEST(MeshedGlass, TellsHowFarItIsStretched)
 {
     const Glass glass(meshOf(leaning({1.0, 0.5})), {.scale = 1.0});
-    EXPECT_NEAR(glass.mostStretch(), 1.0, 1e-12);
-    EXPECT_NEAR(glass.leastStretch(), 0.5, 1e-12);
+    EXPECT_NEAR(glass.maxStretch(), 1.0, 1e-12);
+    EXPECT_NEAR(glass.minStretch(), 0.5, 1e-12);
     // Directions are those of the nearest isometry, here the axes.
     const GlassPlace place = glass.place({0.3, 0.6}).value();
     EXPECT_NEAR(gravityAlong(place, kGravity).y, -kGravity * std::sqrt(0.5), 1e-12);

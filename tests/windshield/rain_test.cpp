@@ -102,10 +102,10 @@ TEST(Rain, LeavesOutLittleWater)
     const auto lost = [&](double rainfall, double from, double to) {
         return raindropSizes(rainfall * kMillimetrePerHour).waterShare(from, to);
     };
-    EXPECT_NEAR(lost(1.0, 0.0, range.least), 1.2e-3, 0.05e-3);
-    EXPECT_LT(lost(25.0, 0.0, range.least), 0.2e-3);
-    EXPECT_NEAR(lost(25.0, range.greatest, kUnbounded), 0.05e-3, 0.01e-3);
-    EXPECT_NEAR(lost(100.0, range.greatest, kUnbounded), 1.6e-3, 0.05e-3);
+    EXPECT_NEAR(lost(1.0, 0.0, range.min), 1.2e-3, 0.05e-3);
+    EXPECT_LT(lost(25.0, 0.0, range.min), 0.2e-3);
+    EXPECT_NEAR(lost(25.0, range.max, kUnbounded), 0.05e-3, 0.01e-3);
+    EXPECT_NEAR(lost(100.0, range.max, kUnbounded), 1.6e-3, 0.05e-3);
 }
 
 class AnySurface : public ::testing::TestWithParam<Exposure> {};
@@ -116,11 +116,11 @@ TEST_P(AnySurface, IsMetAtTheIntegralOfItsDensity)
     for (const double speed : {0.0, 3.0, 30.0}) {
         for (const double rainfall : {0.5, 25.0}) {
             const RainImpacts impacts{raindropSizes(rainfall * kMillimetrePerHour), {0.05e-3, 7e-3}, speed};
-            for (const double least : {0.0, 0.7e-3}) {
-                const double from = std::max(least, impacts.range.least);
+            for (const double min : {0.0, 0.7e-3}) {
+                const double from = std::max(min, impacts.range.min);
                 const double sum = integralOf([&](double d) { return impacts.density(d, exposure); }, from,
-                                              std::nextafter(impacts.range.greatest, 0.0));
-                EXPECT_NEAR(impacts.rate(least, exposure), sum, 1e-6 * impacts.bound());
+                                              std::nextafter(impacts.range.max, 0.0));
+                EXPECT_NEAR(impacts.rate(min, exposure), sum, 1e-6 * impacts.bound());
             }
             EXPECT_LE(impacts.rate(0.0, exposure), impacts.bound());
         }
@@ -153,8 +153,8 @@ TEST_P(AnySurface, DrawsFromItsDensity)
         for (int k = 0; k < kTries; ++k) {
             const double which = uniform();
             const double diameter = sampler.diameter(which, uniform());
-            ASSERT_GE(diameter, impacts.range.least);
-            ASSERT_LE(diameter, impacts.range.greatest);
+            ASSERT_GE(diameter, impacts.range.min);
+            ASSERT_LE(diameter, impacts.range.max);
             if (uniform() < impacts.kept(diameter, exposure)) {
                 drawn.push_back(diameter);
             }
@@ -192,7 +192,7 @@ TEST(RaindropSampler, InvertsWhatFloorAndWallMeet)
         EXPECT_NEAR(below(sampler.diameter(0.0, u), {1.0, 0.0}), u, 1e-7);
         EXPECT_NEAR(below(sampler.diameter(std::nextafter(1.0, 0.0), u), {0.0, 1.0}), u, 1e-12);
     }
-    EXPECT_LE(sampler.diameter(0.0, std::nextafter(1.0, 0.0)), impacts.range.greatest);
+    EXPECT_LE(sampler.diameter(0.0, std::nextafter(1.0, 0.0)), impacts.range.max);
 }
 
 TEST(Rain, RefusesWhatCannotBe)

@@ -29,7 +29,7 @@ StillCells weathered(std::mt19937_64& bits)
     for (int k = 0; k < 1500; ++k) {
         const Vec2 place{uniform(bits, 0.0, kSize.x), uniform(bits, 0.0, kSize.y)};
         std::optional<StillDroplet> drop = StillDroplet{place, uniform(bits, 1e-12, 1e-11)};
-        while (drop && drop->volume < rules.greatest) {
+        while (drop && drop->volume < rules.max) {
             drop = settle(still, *drop, rules);
         }
         if (k % 20 == 0) {
@@ -53,8 +53,8 @@ TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
     ASSERT_GT(value.count(), 200U);
     const double part = still.cell / kPlaces;
     for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
-        for (std::size_t k = 0; k < StillCells::kMost; ++k) {
-            const std::size_t slot = cell * StillCells::kMost + k;
+        for (std::size_t k = 0; k < StillCells::kMax; ++k) {
+            const std::size_t slot = cell * StillCells::kMax + k;
             const StillDroplet& d = still.slots[slot];
             if (k >= still.counts[cell]) {
                 EXPECT_EQ(d, StillDroplet{});

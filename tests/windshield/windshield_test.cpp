@@ -437,7 +437,7 @@ TEST(Windshield, SweepsStillDropletsAlongTheTrack)
     EXPECT_EQ(track.to, later.droplets[0].position);
     EXPECT_GT(length(track.to - track.from), 0.06);
     const double before = reachOf(p, kVolume) + reachOf(p, kSmall);
-    const double most = reachOf(p, later.droplets[0].volume) + reachOf(p, kSmall);
+    const double max = reachOf(p, later.droplets[0].volume) + reachOf(p, kSmall);
     const auto apart = [&](Vec2 q) {
         const Vec2 way = track.to - track.from;
         const double t = std::clamp(dot(q - track.from, way) / dot(way, way), 0.0, 1.0);
@@ -449,7 +449,7 @@ TEST(Windshield, SweepsStillDropletsAlongTheTrack)
         ++kept;
     });
     std::size_t untouched = 0;
-    visitStill(state, [&](std::size_t, const StillDroplet& d) { untouched += apart(d.position) > most ? 1U : 0U; });
+    visitStill(state, [&](std::size_t, const StillDroplet& d) { untouched += apart(d.position) > max ? 1U : 0U; });
     EXPECT_GE(kept, untouched);  // between the two only what the droplet grew over at its end
     EXPECT_GT(all - kept, 40U);
     EXPECT_EQ(later.counts.swept, all - kept);
@@ -863,7 +863,7 @@ TEST(Windshield, PushesHaveTheirStrength)
     double squares_x = 0.0;
     double squares_y = 0.0;
     double product = 0.0;
-    double most = 0.0;
+    double max = 0.0;
     constexpr int kTimes = 20'000;
     for (int k = 0; k < kTimes; ++k) {
         state = step(std::move(state), p, 0.013);
@@ -872,7 +872,7 @@ TEST(Windshield, PushesHaveTheirStrength)
         squares_x += push.x * push.x;
         squares_y += push.y * push.y;
         product += push.x * push.y;
-        most = std::max({most, std::abs(push.x), std::abs(push.y)});
+        max = std::max({max, std::abs(push.x), std::abs(push.y)});
         state.droplets[0].velocity = {};
         state.droplets[0].position = {0.1, 0.1};
     }
@@ -881,8 +881,8 @@ TEST(Windshield, PushesHaveTheirStrength)
     EXPECT_NEAR(std::sqrt(squares_x / kTimes), 0.7, 0.7 * 0.05);
     EXPECT_NEAR(std::sqrt(squares_y / kTimes), 0.7, 0.7 * 0.05);
     EXPECT_NEAR(product / kTimes, 0.0, 0.49 * 4.0 / 50.0);
-    EXPECT_LT(most, std::sqrt(6.0) * 0.7);
-    EXPECT_GT(most, 0.85 * std::sqrt(6.0) * 0.7);
+    EXPECT_LT(max, std::sqrt(6.0) * 0.7);
+    EXPECT_GT(max, 0.85 * std::sqrt(6.0) * 0.7);
 }
 
 // ---- the same bytes -----------------------------------------------------------------------------------------------
@@ -978,7 +978,7 @@ TEST(Windshield, RefusesWhatCannotBe)
     EXPECT_THAT(refused([&](P& p) { p.fluctuation.acceleration = nan; }), HasSubstr("fluctuation.acceleration"));
     EXPECT_THAT(refused([](P& p) { p.streaks.film = -1e-6; }), HasSubstr("streaks.film"));
     EXPECT_THAT(refused([](P& p) { p.streaks.spacing = 0.0; }), HasSubstr("streaks.spacing"));
-    EXPECT_THAT(refused([](P& p) { p.raindrops.least = 0.0; }), HasSubstr("raindrops"));
+    EXPECT_THAT(refused([](P& p) { p.raindrops.min = 0.0; }), HasSubstr("raindrops"));
     EXPECT_THAT(refused([](P& p) { p.forces.wetting.hysteresis = 3.0; }), HasSubstr("hysteresis"));
     EXPECT_THAT(refused([](P& p) { p.glass = Glass({.width = 20.0, .height = 20.0, .radius = 50.0}); }),
                 HasSubstr("area"));

@@ -18,7 +18,7 @@ struct CompareOptions {
     /// They are narrowed further until it is certain whether the distance is over this [m], ≥ 0.
     std::optional<double> tolerance = {};
     /// Pieces of triangles each search may look at before it leaves its bounds as they are, which are bounds still.
-    std::size_t most_pieces = std::size_t{1} << 22;
+    std::size_t max_pieces = std::size_t{1} << 22;
 };
 
 /// How far the points of one surface lie from the other.
@@ -40,9 +40,9 @@ struct NormalDeviation {
 
 /// Contact angles along a surface's rim.
 struct ContactAngleRange {
-    double least = 0.0;  ///< [rad]
-    double mean = 0.0;   ///< along the rim [rad]
-    double most = 0.0;   ///< [rad]
+    double min = 0.0;   ///< [rad]
+    double mean = 0.0;  ///< along the rim [rad]
+    double max = 0.0;   ///< [rad]
 };
 
 /// What a surface measures by itself.

@@ -27,7 +27,7 @@ struct HeightMap {
 };
 
 /// Largest picture decoded: 16384 × 16384.
-inline constexpr std::size_t kMostHeightMapPixels = std::size_t{1} << 28;
+inline constexpr std::size_t kMaxHeightMapPixels = std::size_t{1} << 28;
 
 /// Reads a height map from an encoded image of any kind a mask is read from, by its luma in front of black; or from a
 /// TIFF, OpenEXR or Radiance HDR of floating-point samples, by their luma. Turned upright if its EXIF data say so.
@@ -37,10 +37,10 @@ inline constexpr std::size_t kMostHeightMapPixels = std::size_t{1} << 28;
 /// @param max_pixels  largest size
 /// @throws Error      InvalidInput: not an image, truncated, larger than max_pixels, or a sample that is not a
 ///                    finite number, with its place
-HeightMap decodeHeightMap(std::span<const std::byte> encoded, std::size_t max_pixels = kMostHeightMapPixels);
+HeightMap decodeHeightMap(std::span<const std::byte> encoded, std::size_t max_pixels = kMaxHeightMapPixels);
 
 /// Reads a height map from a file, as decodeHeightMap does.
 /// @throws Error InvalidInput: missing, unreadable, a directory, empty, or as decodeHeightMap
-HeightMap readHeightMap(const std::filesystem::path& path, std::size_t max_pixels = kMostHeightMapPixels);
+HeightMap readHeightMap(const std::filesystem::path& path, std::size_t max_pixels = kMaxHeightMapPixels);
 
 }  // namespace droplet

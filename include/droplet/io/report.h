@@ -87,8 +87,8 @@ struct ObjectReport {
     std::size_t droplets_left_out = 0;
     std::size_t flipped_charts = 0;
     std::size_t overlapping_charts = 0;
-    double least_scale = 0.0;  ///< of object to picture, in length
-    double most_scale = 0.0;
+    double min_scale = 0.0;  ///< of object to picture, in length
+    double max_scale = 0.0;
 };
 
 /// The footprint's triangulation, all droplets together.

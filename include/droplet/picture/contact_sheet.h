@@ -20,15 +20,15 @@ struct Tile {
 /// How tiles are put on a sheet.
 struct ContactSheetOptions {
     std::optional<int> columns = {};  ///< ≥ 1; empty: as many as make the sheet about 4 : 3
-    int tile_width = 320;   ///< of the pictures, shrunk into it; smaller where most_side asks it [px] 16 … 4096
+    int tile_width = 320;   ///< of the pictures, shrunk into it; smaller where max_side asks it [px] 16 … 4096
     int tile_height = 240;  ///< [px] 16 … 4096
-    int most_side = 8192;   ///< neither side of the sheet is longer [px] 256 … 16384
+    int max_side = 8192;    ///< neither side of the sheet is longer [px] 256 … 16384
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// The size at which that many tiles are shown on a sheet: tile_width and tile_height, or less where most_side asks it.
+/// The size at which that many tiles are shown on a sheet: tile_width and tile_height, or less where max_side asks it.
 /// Pictures drawn at that size are not shrunk.
 struct TileSize {
     int width = 0;   ///< [px]

@@ -60,7 +60,7 @@ void writeSvg(const Drawing& drawing, std::ostream& out);
 
 /// Paints a drawing with Cairo, and with letters of our own, which need no fonts.
 /// @param scale   pixels per unit, > 0
-/// @throws Error  InvalidArgument: no picture, one of over kMostPicturePixels, or of a side over 32767
+/// @throws Error  InvalidArgument: no picture, one of over kMaxPicturePixels, or of a side over 32767
 Picture pictureOf(const Drawing& drawing, double scale);
 
 }  // namespace droplet

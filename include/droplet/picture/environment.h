@@ -26,6 +26,6 @@ struct Environment {
 /// radiance, others sRGB.
 /// @param max_pixels  larger ones are refused by their header
 /// @throws Error      InvalidInput, naming the file: also where nothing in it shines
-Environment readEnvironment(const std::filesystem::path& path, std::size_t max_pixels = kMostPicturePixels);
+Environment readEnvironment(const std::filesystem::path& path, std::size_t max_pixels = kMaxPicturePixels);
 
 }  // namespace droplet

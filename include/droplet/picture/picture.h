@@ -101,17 +101,17 @@ std::uint64_t writeExr(const FloatPicture& picture, std::ostream& out);
 Picture covering(const Picture& picture, int width, int height);
 
 /// The largest picture decoded unless said otherwise: 8192 × 8192 pixels.
-inline constexpr std::size_t kMostPicturePixels = std::size_t{1} << 26;
+inline constexpr std::size_t kMaxPicturePixels = std::size_t{1} << 26;
 
 /// Decodes a picture of any format a mask can have, upright, in 8-bit RGB as stored (no colour profile); what of it is
 /// transparent shows white.
 /// @param encoded     the file's bytes
 /// @param max_pixels  larger ones are refused by their header
 /// @throws Error      InvalidInput
-Picture decodePicture(std::span<const std::byte> encoded, std::size_t max_pixels = kMostPicturePixels);
+Picture decodePicture(std::span<const std::byte> encoded, std::size_t max_pixels = kMaxPicturePixels);
 
 /// Reads a picture from a file, as decodePicture does.
 /// @throws Error InvalidInput, naming the file
-Picture readPicture(const std::filesystem::path& path, std::size_t max_pixels = kMostPicturePixels);
+Picture readPicture(const std::filesystem::path& path, std::size_t max_pixels = kMaxPicturePixels);
 
 }  // namespace droplet

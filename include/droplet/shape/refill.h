@@ -10,8 +10,8 @@ namespace droplet {
 
 /// How a droplet can be filled and drained without solving again, in fills: multiples of the liquid it was solved with.
 struct FillRange {
-    double least = 0.0;
-    double most = 2.0;
+    double min = 0.0;
+    double max = 2.0;
 
     /// @throws Error InvalidArgument unless 0 ≤ least ≤ 1 ≤ most, least < most, both finite
     void validate() const;

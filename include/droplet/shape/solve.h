@@ -91,8 +91,8 @@ struct SolveOptions {
         {};  ///< each droplet's own, in the order of the meshes [m³]; then fill is left aside,
              ///< but for FillSharing::Each, which it must have. Empty: fill says how much
     Solver solver = Solver::Auto;
-    std::size_t most_newton_steps = 400;  ///< of the exact model, for a droplet; to show that there is none takes 100
-    std::optional<double> most_work =
+    std::size_t max_newton_steps = 400;  ///< of the exact model, for a droplet; to show that there is none takes 100
+    std::optional<double> max_work =
         {};  ///< of the exact model, for a droplet: unknowns times iterations of their linear systems, and 16 for every
              ///< step. Empty: 6e7, and 2000 for every unknown
 

@@ -27,8 +27,8 @@ struct OntoReport {
     std::size_t mirrored = 0;            ///< of those laid, on charts that show the picture mirrored
     std::size_t flipped_charts = 0;      ///< such charts with a droplet
     std::size_t overlapping_charts = 0;  ///< charts that claim places of droplets laid on a chart before them
-    double least_scale = 0.0;            ///< of object to picture, in length, over the droplets laid
-    double most_scale = 0.0;
+    double min_scale = 0.0;              ///< of object to picture, in length, over the droplets laid
+    double max_scale = 0.0;
     std::vector<std::string> warnings;  ///< the above in words, a line each; empty when all is well
 };
 

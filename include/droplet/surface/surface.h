@@ -14,8 +14,8 @@ namespace droplet {
 /// How a surface changes with the amount of liquid: at fill f, weight w = f − 1, its positions are
 /// positions + w·change and its normals those of normals + w·change, brought to unit length.
 struct Refill {
-    double least = 0.0;           ///< fill, from 0
-    double most = 2.0;            ///< fill; 1 lies between
+    double min = 0.0;             ///< fill, from 0
+    double max = 2.0;             ///< fill; 1 lies between
     std::vector<Vec3> positions;  ///< change per fill of every vertex [m]; 0 on rim and base
     std::vector<Vec3> normals;    ///< change per fill of the normal, of which the surface has the direction at fill 1
 };
@@ -45,7 +45,7 @@ struct Surface {
 
 /// The surface with that many fills of liquid, as a viewer shows it at weight fill − 1.
 /// @param surface  valid, with a refill
-/// @param fill     from least to most
+/// @param fill     from min to max
 /// @return         without a refill; contact angles are left out, as they are not affine
 /// @throws Error   InvalidArgument
 Surface refilled(const Surface& surface, double fill);

@@ -22,9 +22,9 @@ using GlyphId = std::uint32_t;
 struct FontAxis {
     std::string tag;   ///< four characters, such as `wght`
     std::string name;  ///< as the font calls it
-    double least = 0.0;
+    double min = 0.0;
     double standard = 0.0;  ///< where it stands unless set
-    double most = 0.0;
+    double max = 0.0;
 };
 
 /// Where an axis is to stand.

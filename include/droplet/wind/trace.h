@@ -13,25 +13,25 @@ namespace droplet {
 struct Gust {
     double mean = 0.0;       ///< [m/s]
     double amplitude = 0.0;  ///< [m/s], ≥ 0; 0: a steady wind
-    double period = 1.0;     ///< [s], > 0; at most kMostGusts of them in a series
+    double period = 1.0;     ///< [s], > 0; at most kMaxGusts of them in a series
 
     [[nodiscard]] double at(double time) const;
 };
 
 struct MotionOptions {
-    double duration = 1.0;    ///< [s], > 0
-    double interval = 0.01;   ///< between points of the series [s], > 0; at most kMostMotionPoints of them
-    double velocity = 0.0;    ///< at the start, up the slope [m/s]
-    double tolerance = 1e-9;  ///< of the velocity in one step, as a share of the fastest yet, > 0
+    double duration = 1.0;                  ///< [s], > 0
+    double interval = 0.01;                 ///< between points of the series [s], > 0; at most kMaxMotionPoints of them
+    double velocity = 0.0;                  ///< at the start, up the slope [m/s]
+    double tolerance = 1e-9;                ///< of the velocity in one step, as a share of the fastest yet, > 0
     std::optional<double> fixed_step = {};  ///< [s]: steps of this length, whatever their error
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-inline constexpr std::size_t kMostMotionPoints = 10'000'000;
+inline constexpr std::size_t kMaxMotionPoints = 10'000'000;
 /// Gusts in one series: each takes some fifty steps.
-inline constexpr double kMostGusts = 1e5;
+inline constexpr double kMaxGusts = 1e5;
 
 /// A droplet at a time.
 struct MotionPoint {

@@ -78,12 +78,12 @@ struct TunnelSweep {
     std::vector<double> hystereses;  ///< Δ, from 0 to 2; empty: as the model has it
 
     /// Guarantees: returns only when model and lists are in their documented ranges, lists not empty, and rows at most
-    /// kMostTunnelRows.
+    /// kMaxTunnelRows.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-inline constexpr std::size_t kMostTunnelRows = 10'000'000;
+inline constexpr std::size_t kMaxTunnelRows = 10'000'000;
 
 /// A droplet on a slope, at no wind in particular.
 struct TunnelCase {

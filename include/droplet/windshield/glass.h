@@ -63,8 +63,8 @@ public:
     /// sees x run to the right; its bounding box in uv is the rolled out glass. The frame is turned so that the vehicle
     /// drives towards y; the origin stays where the object has it.
     ///
-    /// Lengths are right where the uv are an isometry up to that scale; how far they are from one, leastStretch() and
-    /// mostStretch() tell. Directions go by the isometry nearest to each triangle's map (polar decomposition), normals
+    /// Lengths are right where the uv are an isometry up to that scale; how far they are from one, minStretch() and
+    /// maxStretch() tell. Directions go by the isometry nearest to each triangle's map (polar decomposition), normals
     /// are interpolated. Where triangles overlap in uv, the first one is the glass; where there is none, there is no
     /// glass: droplets that come there have left it.
     /// @param object  valid; normals outward
@@ -77,8 +77,8 @@ public:
     [[nodiscard]] std::optional<Cylinder> cylinder() const;
     /// Length on the object per length on the rolled out glass, over all its triangles and directions; 1 for a
     /// cylinder.
-    [[nodiscard]] double leastStretch() const { return least_stretch_; }
-    [[nodiscard]] double mostStretch() const { return most_stretch_; }
+    [[nodiscard]] double minStretch() const { return min_stretch_; }
+    [[nodiscard]] double maxStretch() const { return max_stretch_; }
 
     /// @param position  on the rolled out glass [m]
     /// @return          empty where there is no glass
@@ -92,8 +92,8 @@ private:
     std::shared_ptr<const Shape> shape_;  ///< never changes: copies may share it
     double width_ = 0.0;
     double height_ = 0.0;
-    double least_stretch_ = 1.0;
-    double most_stretch_ = 1.0;
+    double min_stretch_ = 1.0;
+    double max_stretch_ = 1.0;
 };
 
 /// Gravity along the glass, (g·across, g·up) [m/s²]; the way down is towards −y in the middle of a cylinder.

@@ -17,8 +17,8 @@ struct RaindropSizes {
     [[nodiscard]] double largerThan(double diameter) const;
     /// Water in a cubic metre of air by its volume: ∫ N π D³/6 dD over all diameters [m³/m³].
     [[nodiscard]] double waterContent() const;
-    /// Share of that in raindrops of diameters from `least` to `greatest`.
-    [[nodiscard]] double waterShare(double least, double greatest) const;
+    /// Share of that in raindrops of diameters from `min` to `max`.
+    [[nodiscard]] double waterShare(double min, double max) const;
 };
 
 /// @param rainfall  R [m/s], ≥ 0, finite: kMillimetrePerHour makes it from mm/h
@@ -33,8 +33,8 @@ double terminalSpeed(double diameter);
 /// The diameters that are simulated. Smaller ones do not fall (terminalSpeed) and hold 1.2 ‰ of the water at 1 mm/h,
 /// less in heavier rain; larger ones break up and hold 0.05 ‰ at 25 mm/h, 1.6 ‰ at 100 mm/h.
 struct RaindropRange {
-    double least = 0.109e-3;  ///< [m], > 0
-    double greatest = 8e-3;   ///< [m], > least
+    double min = 0.109e-3;  ///< [m], > 0
+    double max = 8e-3;      ///< [m], > least
 
     /// @throws Error InvalidArgument
     void validate() const;
@@ -61,8 +61,8 @@ struct RainImpacts {
 
     /// f(D) [m⁻³ s⁻¹], 0 outside of the range.
     [[nodiscard]] double density(double diameter, const Exposure& exposure) const;
-    /// ∫ f dD over diameters from `least`, or the range's least if that is more, to the range's greatest [m⁻² s⁻¹].
-    [[nodiscard]] double rate(double least, const Exposure& exposure) const;
+    /// ∫ f dD over diameters from `min`, or the range's min if that is larger, to the range's max [m⁻² s⁻¹].
+    [[nodiscard]] double rate(double min, const Exposure& exposure) const;
     /// ∫ N (v + U) dD over the range: what floor and wall catch together, which bounds every surface's rate
     /// [m⁻² s⁻¹].
     [[nodiscard]] double bound() const;

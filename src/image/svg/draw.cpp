@@ -40,7 +40,7 @@ namespace droplet {
 namespace {
 
 constexpr std::size_t kStackOfTag = 8 << 10;  // 7 kB were measured (patterns and masks)
-constexpr std::size_t kLeastStack = 8 << 20;
+constexpr std::size_t kMinStack = 8 << 20;
 constexpr double kDotsPerInch = 96.0;  // of CSS
 constexpr double kInch = 25.4 * kMillimetre;
 constexpr int kLongestSide = 32767;  // of Cairo's images
@@ -78,19 +78,19 @@ cairo_scaled_font_t* scaledFont(cairo_font_face_t* face, const cairo_matrix_t& s
 {
     static auto* const create =
         reinterpret_cast<decltype(&cairo_scaled_font_create)>(dlsym(RTLD_NEXT, "cairo_scaled_font_create"));
-    constexpr double kMostPixels = 65535.0;
+    constexpr double kMaxPixels = 65535.0;
     const auto scale = [](const cairo_matrix_t& matrix) {
         return std::sqrt(std::abs(matrix.xx * matrix.yy - matrix.xy * matrix.yx));
     };
     const Fonts::Asked now{scale(size), scale(place)};
-    if (now.size * now.place < kMostPixels) {
+    if (now.size * now.place < kMaxPixels) {
         fonts().asked.push_back(now);
         return create(face, &size, &place, options);
     }
     const auto has_measures_here = [&](const Fonts::Asked& before) {
-        constexpr double kMostOfPango = 1 << 21;  // pixels in its units, 1024 of them
+        constexpr double kMaxPangoSize = 1 << 21;  // pixels in its units, 1024 of them
         constexpr double kRounding = 1e-2;
-        const double twice = std::min(before.size * before.place, kMostOfPango / now.place);
+        const double twice = std::min(before.size * before.place, kMaxPangoSize / now.place);
         return std::abs(before.place / now.place - 1.0) < kRounding && std::abs(twice / now.size - 1.0) < kRounding;
     };
     Fonts& all = fonts();
@@ -242,21 +242,21 @@ Raster rasterOf(const Page& page, const SvgRequest& request)
 {
     // A page as narrow as a hair is drawn larger than asked for rather than as a row of pixels.
     constexpr double kShortSide = 16.0;
-    const double most = static_cast<double>(request.max_pixels);
+    const double max = static_cast<double>(request.max_pixels);
     const double long_side = std::clamp(request.long_side, 1, kLongestSide);
     double scale = std::max(long_side / std::max(page.width, page.height),
                             std::min(kShortSide, long_side) / std::min(page.width, page.height));
     scale =
-        std::min({scale, kLongestSide / std::max(page.width, page.height), std::sqrt(most / page.width / page.height)});
+        std::min({scale, kLongestSide / std::max(page.width, page.height), std::sqrt(max / page.width / page.height)});
     double width = std::max(1.0, std::round(page.width * scale));
     const auto height = [&] {
         constexpr double kRounding = 1e-6;
         return std::max(1.0, std::ceil(page.height / page.width * width - kRounding));
     };
-    while (width > 1.0 && (width * height() > most || height() > kLongestSide)) {
+    while (width > 1.0 && (width * height() > max || height() > kLongestSide)) {
         width -= 1.0;
     }
-    if (!(height() <= kLongestSide && width * height() <= most)) {
+    if (!(height() <= kLongestSide && width * height() <= max)) {
         throw Refusal(SvgOutcome::Refused, "has a page of " + numberText(page.width) + " x " + numberText(page.height) +
                                                ", too narrow to be drawn in " + std::to_string(request.max_pixels) +
                                                " pixels");
@@ -330,7 +330,7 @@ bool drawDeep(Task task)
 {
     constexpr std::size_t kGuard = 1 << 16;
     const std::size_t size =
-        std::min(kLeastStack + task.request.tags * kStackOfTag, task.request.memory / 4 / kGuard * kGuard);
+        std::min(kMinStack + task.request.tags * kStackOfTag, task.request.memory / 4 / kGuard * kGuard);
     void* const stack =
         mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
     if (stack == MAP_FAILED) {
