@@ -22,7 +22,7 @@ const CommandText& commandText()
                                       "Examples:\n"
                                       "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
                                       "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
-                                      "  droplet-shape animate frames/ 'out/%04d.obj'\n"
+                                      "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
                                       "\n"
                                       "Exit codes:\n"
                                       "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"

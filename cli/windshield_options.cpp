@@ -51,7 +51,7 @@ const CommandText& commandText()
                                   "\n"
                                   "Examples:\n"
                                   "  droplet-shape windshield rain.mp4 --rain 25mm/h --speed 50km/h\n"
-                                  "  droplet-shape windshield 'out/%05d.png' --background road.mp4 --layer\n"
+                                  "  droplet-shape windshield 'rain-%05d.png' --background road.mp4 --layer\n"
                                   "  droplet-shape windshield still.png --preset figure-3.12 --time 30s\n"
                                   "\n"
                                   "Exit codes:\n"

@@ -17,6 +17,7 @@
 #include "droplet/surface/loft.h"
 #include "droplet/surface/surface.h"
 
+/// The library's names.
 namespace droplet {
 
 /// Every stage's options on the way from a mask to a surface.
