@@ -98,7 +98,7 @@ void paint(cv::Mat coverage, const Components& components, const std::vector<boo
     }
 }
 
-void fillHoles(cv::Mat coverage, std::uint16_t level, double area_px)
+void fillHoles(cv::Mat& coverage, std::uint16_t level, double area_px)
 {
     const Components dry = componentsOf(coverage, level, false);
     std::vector<bool> chosen(static_cast<std::size_t>(dry.count), false);
@@ -112,7 +112,7 @@ void fillHoles(cv::Mat coverage, std::uint16_t level, double area_px)
     paint(coverage, dry, chosen, kFull);
 }
 
-void keepLargest(cv::Mat coverage, std::uint16_t level, std::size_t count)
+void keepLargest(cv::Mat& coverage, std::uint16_t level, std::size_t count)
 {
     const Components liquid = componentsOf(coverage, level, true);
     std::vector<int> order;
@@ -149,11 +149,12 @@ Mask clean(Mask mask, const CleanOptions& options, double pixel_size, double thr
         if (options.smooth > 0.0) {
             smooth(mask, options.smooth / pixel_size, threshold);
         }
+        cv::Mat coverage = imageOf(mask);
         if (options.fill_holes > 0.0) {
-            fillHoles(imageOf(mask), level, options.fill_holes / (pixel_size * pixel_size));
+            fillHoles(coverage, level, options.fill_holes / (pixel_size * pixel_size));
         }
         if (options.keep) {
-            keepLargest(imageOf(mask), level, *options.keep);
+            keepLargest(coverage, level, *options.keep);
         }
     } catch (const cv::Exception&) {
         throw std::bad_alloc();  // an image of levels has nothing else to be refused for

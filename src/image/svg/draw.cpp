@@ -31,7 +31,7 @@
 #include "image/svg_drawing.h"
 #include "number_text.h"
 
-// NOLINTNEXTLINE(readability-identifier-naming): Cairo's name
+// NOLINTNEXTLINE(readability-identifier-naming,readability-redundant-declaration): Cairo's name
 extern "C" cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cairo_matrix_t* size,
                                                          const cairo_matrix_t* place,
                                                          const cairo_font_options_t* options);
