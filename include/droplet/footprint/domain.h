@@ -21,7 +21,7 @@ struct Domain {
 
 /// Sorts the loops of an outline into droplets and their holes.
 /// @param outline  its loops do not cross
-/// @throws Error   InvalidInput if no loop encloses liquid, or a hole lies in no rim
+/// @throws Error   InvalidInput if no loop encloses liquid, or a hole lies outside of all rims
 Domain split(const Outline& outline);
 
 /// Wetted area of a footprint, without its holes [m²].
