@@ -264,7 +264,7 @@ TEST_P(NoMaskTest, IsToldSoUnlessItIsInsistedOn)
 {
     const Bytes picture = png(painted(GetParam().size, GetParam().colour));
     EXPECT_THAT(messageOf(picture),
-                ::testing::AllOf(HasSubstr("is no picture of a footprint"), HasSubstr("--segment")));
+                ::testing::AllOf(HasSubstr("does not look like a footprint"), HasSubstr("--segment")));
     MaskOptions options;
     options.insist = true;
     EXPECT_LT(decodeMask(picture, options).segment_confidence, 0.3);
@@ -297,7 +297,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Segment, PhotographOfALeafWithRainIsNoMask)
 {
     EXPECT_THAT(messageOf([] { readMask(testing::inSource("data/raindrops.jpg")); }),
-                HasSubstr("is no picture of a footprint"));
+                HasSubstr("does not look like a footprint"));
 }
 
 TEST(Segment, FlatAndTinyPicturesHoldNothing)
@@ -325,7 +325,7 @@ TEST(Segment, WithoutAnEdgeAFrameIsDry)
         const double level = 0.95 - 0.6 * p.x;
         return std::array{level, level, level};
     }));
-    EXPECT_THAT(messageOf(paper), HasSubstr("is no picture of a footprint"));
+    EXPECT_THAT(messageOf(paper), HasSubstr("does not look like a footprint"));
     for (const Segmentation segment : {Segmentation::Auto, Segmentation::Adaptive, Segmentation::GrabCut}) {
         for (const bool invert : {false, true}) {
             MaskOptions options = by(segment);

@@ -33,9 +33,9 @@ struct MaskOptions {
     bool invert = false;                            ///< exchange liquid and dry, after all other decisions
     std::size_t max_pixels = std::size_t{1} << 28;  ///< largest image decoded: 16384 × 16384
     int vector_long_side = 2048;                    ///< longer side at which an SVG is drawn [px], 1 … 32767
-    Segmentation segment = Segmentation::Auto;      ///< segmentation method; Auto means Threshold if the channel is not
-                                                    ///< Auto, or if the image uses its alpha
-    bool insist = false;                            ///< accept a picture that does not look like a mask
+    Segmentation segment = Segmentation::Auto;  ///< segmentation method, ignored if alpha is read; Auto means Threshold
+                                                ///< if channel is not Auto
+    bool insist = false;                        ///< accept a picture that does not look like a mask
     bool may_be_dry = false;  ///< a picture without an edge, or without the colour, is not an error but gives a mask
                               ///< without liquid
     std::optional<CssColour> colour = {};  ///< everything of this colour is liquid; overrides segment and channel
