@@ -19,13 +19,13 @@ PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 /// Moves a mesh to a footprint that moved and changed little, so that vertices keep their identity.
 ///
 /// First, the old and new loops are brought to the same centre and size. Each rim vertex then goes to the nearest place
-/// on the new loop, and the vertices are spaced evenly. Each corner of the new footprint gets a vertex. Finally the rim
-/// is widened or narrowed until its area is that of the footprint. Inner vertices move harmonically from their places
-/// in `first`, so errors do not add up over a run of frames.
+/// on the new loop, and places that are too close or too far apart are evened out. Each corner of the new footprint
+/// gets a vertex. Finally the rim is widened or narrowed until its area is that of the footprint. Inner vertices move
+/// harmonically from their places in `first`, so errors do not add up over a run of frames.
 ///
 /// Guarantees: connections are those of `first`; no triangle is turned over; angles are at least 15°, or three quarters
-/// of the smallest angle of `first`; the mean edge is between 2/3 and 3/2 as long; chords lie off their piece of the
-/// loop by less than a fifth of their length.
+/// of the smallest angle of `first` if that is less; the mean edge is between 2/3 and 3/2 as long; chords lie off their
+/// piece of the loop by less than a fifth of their length.
 /// @param first      mesh with which the run of frames began
 /// @param last       the same mesh at its present place, with the connections of `first`
 /// @param footprint  footprint to move to
