@@ -10,7 +10,7 @@ namespace droplet {
 
 void throwOutOfMemory()
 {
-    throw Error(ErrorCode::InvalidInput, "the image needs more memory than there is");
+    throw Error(ErrorCode::InvalidInput, "the image needs more memory than is available");
 }
 
 std::vector<std::byte> readImageFile(const std::filesystem::path& path)

@@ -281,7 +281,8 @@ TEST(ReadTiff, KindsNotReadAreNamed)
         }
     }
     for (const int channels : {3, 4}) {
-        EXPECT_THAT(refusal(channels, 16, [](TiffKind& kind) { kind.separate = true; }), HasSubstr("plane of its own"));
+        EXPECT_THAT(refusal(channels, 16, [](TiffKind& kind) { kind.separate = true; }),
+                    HasSubstr("separate colour planes"));
     }
     EXPECT_THAT(refusal(1, 16, [](TiffKind& kind) { kind.photometric = PHOTOMETRIC_MINISWHITE; }),
                 HasSubstr("photometric interpretation 0"));
