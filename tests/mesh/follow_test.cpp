@@ -45,7 +45,7 @@ Footprint mapped(Footprint footprint, const std::function<Vec2(Vec2)>& map)
     return footprint;
 }
 
-/// The loop begins elsewhere.
+/// The same loop with another first point.
 Loop rolled(Loop loop, std::size_t by)
 {
     const auto n = static_cast<std::ptrdiff_t>(by);
@@ -86,7 +86,7 @@ TEST(Follow, StaysWhereTheFootprintStays)
     }
 }
 
-TEST(Follow, TranslatesAsTheFootprintDoesWhereverItsLoopBegins)
+TEST(Follow, TranslatesWithTheFootprintWhereverItsLoopBegins)
 {
     for (const Footprint& footprint : simpleOnes()) {
         const PlanarMesh mesh = meshOf(footprint);
@@ -118,7 +118,7 @@ TEST(Follow, CornersGetAVertex)
     EXPECT_NEAR(area(*moved), area(there), 1e-6);
 }
 
-TEST(Follow, AHoleThatShrinksIsFollowedStepByStepWithoutDrift)
+TEST(Follow, FollowsAShrinkingHoleWithoutDrift)
 {
     const auto ring = [](double hole) {
         return domainOf(ellipseLoop(1, 1), {mapped(reversed(ellipseLoop(hole, hole)),
@@ -144,7 +144,7 @@ TEST(Follow, AHoleThatShrinksIsFollowedStepByStepWithoutDrift)
     EXPECT_LT(largestMove(first, last, {}), 0.01);
 }
 
-TEST(Follow, HeightsAreThoseOfAFreshMeshToDiscretisationError)
+TEST(Follow, HeightsMatchThoseOfANewMesh)
 {
     const Footprint disc = domainOf(ellipseLoop(1, 1)).droplets[0];
     const Footprint ellipse = domainOf(ellipseLoop(1.15, 0.9)).droplets[0];
@@ -196,7 +196,7 @@ TEST(Follow, RealOutlinesAreFollowedInSmallSteps)
     }
 }
 
-TEST(Follow, GivesUpWhereAMeshWouldSuffer)
+TEST(Follow, ReturnsNoMeshIfItWouldBeBad)
 {
     const Footprint disc = domainOf(ellipseLoop(1, 1)).droplets[0];
     const PlanarMesh mesh = meshOf(disc);
@@ -212,11 +212,11 @@ TEST(Follow, GivesUpWhereAMeshWouldSuffer)
         }
         return points;
     }());
-    EXPECT_FALSE(follow(mesh, mesh, domainOf(toothed).droplets[0])) << "more detail than the rim can show";
+    EXPECT_FALSE(follow(mesh, mesh, domainOf(toothed).droplets[0])) << "more detail than the rim can follow";
     EXPECT_THROW(follow(mesh, meshOf(disc, 500), disc), Error);
 }
 
-TEST(WithRim, IsAffineWhereTheRimIs)
+TEST(WithRim, MovesAffinelyIfTheRimDoes)
 {
     for (const Footprint& footprint : simpleOnes()) {
         const PlanarMesh mesh = meshOf(footprint);

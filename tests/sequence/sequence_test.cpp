@@ -65,7 +65,7 @@ double volume(const Frame& frame)
                            [](double sum, const Ancestry& droplet) { return sum + droplet.volume; });
 }
 
-/// Nothing comes or goes that is not told, and what is prescribed is there.
+/// Checks that volumes are those prescribed and change only by the reported gains and losses.
 void expectLedger(const std::vector<Frame>& frames)
 {
     for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -84,7 +84,7 @@ void expectLedger(const std::vector<Frame>& frames)
     }
 }
 
-/// A ring whose hole closes from frame to frame; the last is without one.
+/// Ring whose hole closes from frame to frame; the last frame has no hole.
 std::vector<Outline> closingHole()
 {
     std::vector<Outline> outlines;
@@ -124,7 +124,7 @@ TEST(Sequence, TotalKeepsTheVolumeAndOnePressureWhateverTheTopology)
     EXPECT_NEAR(two[0].pressure / two[1].pressure, 1.0, 1e-9);
 }
 
-TEST(Sequence, TotalTakesTheVolumeOfTheFirstFrameWhereNoneIsGiven)
+TEST(Sequence, TotalKeepsTheVolumeOfTheFirstFrameIfNoneIsGiven)
 {
     SequenceOptions options = optionsFor(VolumeMode::Total);
     options.droplet.solve.fill = {FillBy::ContactAngle, 35 * kDegree, FillSharing::Total};
@@ -135,19 +135,19 @@ TEST(Sequence, TotalTakesTheVolumeOfTheFirstFrameWhereNoneIsGiven)
     }
 }
 
-TEST(Sequence, AHoleThatClosesLetsThePressureFallAndTheHeightJump)
+TEST(Sequence, PressureFallsWhileAHoleCloses)
 {
     const std::vector<Frame> frames = play(closingHole(), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_LT(frames[k].droplet.solution.droplets[0].pressure, frames[k - 1].droplet.solution.droplets[0].pressure);
         EXPECT_EQ(frames[k].continues, k + 1 < frames.size()) << k;
     }
-    // A pinhole, however small, holds the surface down: the last step is by far the largest.
+    // Even a tiny hole holds the surface down, so the last step is by far the largest.
     const auto pressure = [&](std::size_t k) { return frames[k].droplet.solution.droplets[0].pressure; };
     EXPECT_GT(pressure(4) / pressure(5), 1.5 * pressure(3) / pressure(4));
 }
 
-TEST(Sequence, ADiscThatMovesByWholePixelsKeepsEverythingButItsPlace)
+TEST(Sequence, DiscMovedByWholePixelsChangesOnlyItsPlace)
 {
     for (const VolumeMode mode : {VolumeMode::Total, VolumeMode::Track}) {
         const std::vector<Frame> frames = play(movingDisc(3.0), optionsFor(mode));
@@ -168,7 +168,7 @@ TEST(Sequence, ADiscThatMovesByWholePixelsKeepsEverythingButItsPlace)
     }
 }
 
-TEST(Sequence, ADiscThatMovesByPartsOfAPixelKeepsItsVertices)
+TEST(Sequence, DiscMovedByPartsOfAPixelKeepsItsVertices)
 {
     const std::vector<Frame> frames = play(movingDisc(1.37), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -178,7 +178,7 @@ TEST(Sequence, ADiscThatMovesByPartsOfAPixelKeepsItsVertices)
     }
 }
 
-TEST(Sequence, EqualFramesAreEqual)
+TEST(Sequence, EqualOutlinesGiveEqualFrames)
 {
     const std::vector<Outline> outlines(
         3, outlineOf([](Vec2 p) {
@@ -194,7 +194,7 @@ TEST(Sequence, EqualFramesAreEqual)
     }
 }
 
-TEST(Sequence, TrackAddsUpVolumesThatMergeAndKeepsTheLargestsName)
+TEST(Sequence, TrackAddsVolumesThatMergeAndKeepsTheLargestOnesId)
 {
     const auto two = [](double gap) {
         return outlineOf([=](Vec2 p) {
@@ -214,7 +214,7 @@ TEST(Sequence, TrackAddsUpVolumesThatMergeAndKeepsTheLargestsName)
     EXPECT_THAT(frames[2].droplets[0].from, UnorderedElementsAre(0U, 1U));
 }
 
-TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
+TEST(Sequence, PartsOfASplitDropletHaveOnePressure)
 {
     const auto dumbbell = [](bool bridge) {
         return outlineOf([=](Vec2 p) {
@@ -230,7 +230,7 @@ TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
     EXPECT_NEAR((parts[0].volume + parts[1].volume) / frames[0].droplets[0].volume, 1.0, 1e-12);
     EXPECT_NEAR(frames[1].droplet.solution.droplets[0].pressure / frames[1].droplet.solution.droplets[1].pressure, 1.0,
                 1e-8);
-    // Without a bridge to speak of, the pressure hardly changes.
+    // The bridge is small, so the pressure hardly changes.
     EXPECT_NEAR(frames[1].droplet.solution.droplets[0].pressure / frames[0].droplet.solution.droplets[0].pressure, 1.0,
                 0.05);
     const std::size_t large = parts[0].volume > parts[1].volume ? 0 : 1;
@@ -243,7 +243,7 @@ TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
     EXPECT_EQ(frames[3].droplets[0].volume, parts[0].volume + parts[1].volume);
 }
 
-TEST(Sequence, ManyToManyConservesTheGroup)
+TEST(Sequence, ManyToManyConservesTheVolumeOfTheGroup)
 {
     const auto blobs = [](const std::vector<Vec2>& centres, double radius) {
         return outlineOf([=](Vec2 p) {
@@ -255,7 +255,7 @@ TEST(Sequence, ManyToManyConservesTheGroup)
             return false;
         });
     };
-    // Two stripes that become two crossing them: everything hangs together.
+    // Two stripes become two that cross them, so all belong to one group.
     const auto stripes = [](bool upright) {
         return outlineOf([=](Vec2 p) {
             const double a = upright ? p.x - 48 : p.y - 32;
@@ -271,7 +271,7 @@ TEST(Sequence, ManyToManyConservesTheGroup)
     for (const Ancestry& droplet : frames[1].droplets) {
         EXPECT_THAT(droplet.from, UnorderedElementsAre(0U, 1U));
     }
-    // Beads that move on into one another's places do not mix.
+    // Beads that move into one another's places do not mix.
     frames = play({blobs({{16, 30}, {44, 30}}, 11), blobs({{26, 30}, {54, 30}}, 11), blobs({{36, 30}, {64, 30}}, 11)},
                   optionsFor(VolumeMode::Track));
     for (const Frame& frame : frames) {
@@ -280,7 +280,7 @@ TEST(Sequence, ManyToManyConservesTheGroup)
     }
 }
 
-TEST(Sequence, WhatComesFromNowhereIsFilledAndWhatGoesIsCounted)
+TEST(Sequence, NewDropletsAreFilledAndLostVolumeIsCounted)
 {
     const Outline one = outlineOf(disc({25, 32}, 15));
     const Outline both = outlineOf([](Vec2 p) { return disc({25, 32}, 15)(p) || disc({70, 20}, 10)(p); });
@@ -303,7 +303,7 @@ Outline dryOutline()
     return outline;
 }
 
-TEST(Sequence, FramesWithoutLiquidAreFrames)
+TEST(Sequence, FramesWithoutLiquidAreValid)
 {
     const Outline dry = dryOutline();
     const Outline wide = outlineOf(disc({25, 32}, 15));
@@ -324,19 +324,20 @@ TEST(Sequence, FramesWithoutLiquidAreFrames)
         EXPECT_EQ(frames[1].volume_gained, volume(frames[1]));
         EXPECT_EQ(frames[3].volume_lost, volume(frames[2]));
         EXPECT_EQ(frames[1].droplets[0].id, 0U);
-        EXPECT_EQ(frames[5].droplets[0].id, 1U) << "ids are never given twice";
+        EXPECT_EQ(frames[5].droplets[0].id, 1U) << "ids are never reused";
         EXPECT_THAT(frames[5].droplets[0].from, IsEmpty());
         if (mode == VolumeMode::Total) {
-            EXPECT_NEAR(volume(frames[5]) / volume(frames[1]), 1.0, 1e-12) << "the reservoir is as it was";
+            EXPECT_NEAR(volume(frames[5]) / volume(frames[1]), 1.0, 1e-12) << "the reservoir is unchanged";
         } else {
-            EXPECT_NEAR(frames[5].droplet.total.contact_angle.mean, 40 * kDegree, 1e-6) << "new, filled as asked";
+            EXPECT_NEAR(frames[5].droplet.total.contact_angle.mean, 40 * kDegree, 1e-6)
+                << "new droplet, filled as requested";
         }
     }
 }
 
-TEST(Sequence, DropletsThatPassInTheOrderOfThePictureKeepTheirPlaces)
+TEST(Sequence, DropletsKeepTheirOrderWhenOutlinesFindThemInAnother)
 {
-    // The lower one rises past the upper one, beside it, so that outlines find it first.
+    // The lower disc rises past the upper one, beside it, so that outlines find it first.
     std::vector<Outline> outlines;
     for (const double y : {40.0, 34.0, 28.0, 22.0, 16.0}) {
         outlines.push_back(outlineOf([=](Vec2 p) { return disc({24, 28}, 14)(p) || disc({68, y}, 12)(p); }));
@@ -351,7 +352,7 @@ TEST(Sequence, DropletsThatPassInTheOrderOfThePictureKeepTheirPlaces)
     }
 }
 
-TEST(Sequence, FollowedSurfacesAgreeWithFreshOnes)
+TEST(Sequence, FollowedSurfacesMatchNewOnes)
 {
     SequenceOptions fresh = optionsFor(VolumeMode::Total);
     fresh.keep_vertices = false;
@@ -406,7 +407,7 @@ TEST(Sequence, IsTheSameAtAnyNumberOfThreads)
     EXPECT_TRUE(positions(1) == positions(2));
 }
 
-TEST(Sequence, RefusesWhatHasNoMeaningThere)
+TEST(Sequence, RejectsOptionsThatDoNotApply)
 {
     const auto refusal = [](SequenceOptions options) -> std::string {
         try {
