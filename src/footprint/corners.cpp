@@ -20,18 +20,18 @@ namespace {
 
 /// Smallest turn between the chords for which a corner is tried. A circle turns by (length + 2 gap)/R between them, so
 /// circles with radii above 6 px are never tried.
-constexpr double kTryTurn = 35.0 * std::numbers::pi / 180.0;
+constexpr double kMinTriedTurn = 35.0 * std::numbers::pi / 180.0;
 
 /// Smallest turn between the extended sides for which a corner is kept. In a hard mask, small discs are octagons, which
 /// turn by up to 53° at their corners; grey levels distinguish the two.
-constexpr double kKeepTurn = 25.0 * std::numbers::pi / 180.0;
-constexpr double kKeepTurnHard = 56.0 * std::numbers::pi / 180.0;
+constexpr double kMinKeptTurn = 25.0 * std::numbers::pi / 180.0;
+constexpr double kMinKeptTurnHard = 56.0 * std::numbers::pi / 180.0;
 
 /// Largest turn at a corner. A tip sharper than 20° is narrower than a pixel over more than the length of a side.
 constexpr double kMaxTurn = 160.0 * std::numbers::pi / 180.0;
 
 /// A side is extended along the line through its last piece of this length [px].
-constexpr double kSide = 3.5;
+constexpr double kSideLength = 3.5;
 
 /// Largest distance of a corner from the ends of its sides [px]. It is the tip of an angle of 30° whose last liquid
 /// pixel centre is as far back as possible, (1/2)/sin 15°, plus a pixel of gap.
@@ -169,7 +169,7 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
         }
         walker.step();
         way += length(walker.point() - points.back());
-        if (way > kSide && points.size() >= 3) {
+        if (way > kSideLength && points.size() >= 3) {
             break;
         }
     }
@@ -203,7 +203,7 @@ double turnBetweenChords(const Path& path, std::size_t gap, const Chord& chord)
     // Most turns are less than half a radian; this is checked without an arc tangent.
     const double ahead = dot(before, after);
     const double aside = std::abs(cross(before, after));
-    static_assert(kTryTurn > 0.5);
+    static_assert(kMinTriedTurn > 0.5);
     return aside < 0.5 * ahead ? 0.0 : std::atan2(aside, ahead);
 }
 
@@ -540,7 +540,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
     }
     std::vector<Turn> turns = known;
     for (std::size_t i = 0; i < n; ++i) {
-        if (sharpness[i] < kTryTurn || taken[i] != 0) {
+        if (sharpness[i] < kMinTriedTurn || taken[i] != 0) {
             continue;
         }
         // Keep the sharpest turn of a neighbourhood; of equal ones, the first.
@@ -605,7 +605,7 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     const Side before = fitSide(loop, breaks, turn.first, false);
     const Side after = fitSide(loop, breaks, turn.last, true);
     const std::optional<Vec2> tip = meet(before.line, after.line);
-    const double min_turn = coverage ? kKeepTurn : kKeepTurnHard;
+    const double min_turn = coverage ? kMinKeptTurn : kMinKeptTurnHard;
     if (!tip) {
         return std::nullopt;
     }

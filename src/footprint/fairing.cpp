@@ -30,7 +30,7 @@ constexpr int kSteps = 20;
 constexpr int kHalvings = 6;
 
 /// Smallest length in a curvature, roughly [px]; crossings next to a pixel centre nearly coincide.
-constexpr double kShortest = 0.05;
+constexpr double kMinLength = 0.05;
 
 /// Half-width of the rows of the normal equations: a variation of curvature spans four vertices.
 constexpr std::size_t kHalfBand = 3;
@@ -40,7 +40,7 @@ constexpr double kNoCoupling = 1e-40;
 
 double smoothLength(Vec2 a)
 {
-    return std::sqrt(dot(a, a) + kShortest * kShortest);
+    return std::sqrt(dot(a, a) + kMinLength * kMinLength);
 }
 
 /// Cost of a slot's place: half the squared deviation in standard deviations. In a hard mask, minus the logarithm of

@@ -182,8 +182,8 @@ void fillGlints(Classification& classified)
 std::optional<Classification> classifyByEdges(const cv::Mat& working)
 {
     constexpr int kReach = 3;
-    constexpr double kFaintest = 0.10;   // smallest contrast of an edge
-    constexpr double kAboveNoise = 6.0;  // standard deviations
+    constexpr double kMinContrast = 0.10;  // smallest contrast of an edge
+    constexpr double kAboveNoise = 6.0;    // standard deviations
     constexpr int kRounds = 3;
     constexpr int kMinArea = 12;  // smallest region [px]
     cv::Mat image;
@@ -197,7 +197,7 @@ std::optional<Classification> classifyByEdges(const cv::Mat& working)
     const LocalRange range = localRange(soft, kReach);
     const cv::Mat step = range.max - range.min;
     const cv::Mat contrast = step / (range.max + range.min + 0.04);
-    cv::Mat clear = contrast > kFaintest;
+    cv::Mat clear = contrast > kMinContrast;
     clear &= step > std::max(0.02, kAboveNoise * std::max(soft_noise, 0.3 * noise));
     const int edge_pixels = cv::countNonZero(clear);
     if (edge_pixels < std::max<int>(8, static_cast<int>(working.total() / 5000))) {

@@ -17,7 +17,7 @@ std::vector<std::byte> readImageFile(const std::filesystem::path& path)
 {
     try {
         return readBytes(path, std::numeric_limits<std::size_t>::max(),
-                         [](const Bytes& begun) { return imageFormat(begun).has_value(); });
+                         [](const Bytes& bytes) { return imageFormat(bytes).has_value(); });
     } catch (const Damage& damage) {
         throw Error(ErrorCode::InvalidInput, "cannot read " + shown(path) + ": " + damage.what());
     } catch (const std::bad_alloc&) {

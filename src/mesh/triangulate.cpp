@@ -39,7 +39,7 @@ constexpr double kMaxTriangles = 4e9;
 
 /// Maximum number of triangles that the detail of an outline may cause beyond the requested number. Refinement doubles
 /// or triples it, and three million triangles take half a minute and a gigabyte.
-constexpr double kMaxForced = 1 << 20;
+constexpr double kMaxDetailTriangles = 1 << 20;
 
 constexpr int kMaxGrading = 64;
 
@@ -95,7 +95,7 @@ double predictTriangles(const std::vector<RimSampler>& samplers, double edge, in
 /// @param wanted  triangles that the footprint's area needs at this edge length
 void checkDetail(double predicted, double wanted)
 {
-    const double max = std::max(kMaxForced, wanted);
+    const double max = std::max(kMaxDetailTriangles, wanted);
     if (predicted > max) {
         throw Error(ErrorCode::InvalidInput,
                     "the footprint's detail takes " + numberText(std::round(predicted), 9) +
@@ -124,7 +124,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     // If narrow parts alone need more triangles, longer edges change nothing.
     const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
     // Cheap predictions come first; they do most of the search without triangulation.
-    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxForced, target); ++k) {
+    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxDetailTriangles, target); ++k) {
         const double count = predictTriangles(samplers, edge, options.grading);
         if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
             checkDetail(count, target);
@@ -210,7 +210,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
             points += hole.points.size();
         }
     }
-    if (4.0 * static_cast<double>(points) > kMaxForced) {
+    if (4.0 * static_cast<double>(points) > kMaxDetailTriangles) {
         // Triangles at a rim may be half as high as others.
         checkDetail(predictTriangles(samplers, *options.edge, options.grading),
                     2.0 * total_area / (kRoot3 / 4.0 * *options.edge * *options.edge));

@@ -214,9 +214,9 @@ double clouds(Vec2 p, double roughness)
         const Vec2 q = static_cast<double>(1 << k) * p;
         const int i = static_cast<int>(std::floor(q.x));
         const int j = static_cast<int>(std::floor(q.y));
-        const auto eased = [](double t) { return t * t * (3.0 - 2.0 * t); };
-        const double u = eased(q.x - i);
-        const double v = eased(q.y - j);
+        const auto smoothstep = [](double t) { return t * t * (3.0 - 2.0 * t); };
+        const double u = smoothstep(q.x - i);
+        const double v = smoothstep(q.y - j);
         sum += share * ((1 - u) * ((1 - v) * corner(i, j, k) + v * corner(i, j + 1, k)) +
                         u * ((1 - v) * corner(i + 1, j, k) + v * corner(i + 1, j + 1, k)));
         weight += share;

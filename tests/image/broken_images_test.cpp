@@ -213,11 +213,11 @@ TEST(ImageMessages, OpenCvsBecomeReasonsAndThoseOfOtherThreadsPass)
     ends = true;
     other.join();
     std::cerr << "own words\n";
-    std::string heard = testing::internal::GetCapturedStderr();
-    for (std::size_t at = 0; at < heard.size(); at += 10) {
-        ASSERT_EQ(heard.substr(at, 10), "own words\n");
+    std::string captured = testing::internal::GetCapturedStderr();
+    for (std::size_t at = 0; at < captured.size(); at += 10) {
+        ASSERT_EQ(captured.substr(at, 10), "own words\n");
     }
-    EXPECT_GT(heard.size(), 0U);
+    EXPECT_GT(captured.size(), 0U);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using namespace encoded;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string complaintOf(const Bytes& file, std::size_t max_pixels = kMaxHeightMapPixels)
+std::string errorOf(const Bytes& file, std::size_t max_pixels = kMaxHeightMapPixels)
 {
     return messageOf([&] { (void)decodeHeightMap(file, max_pixels); });
 }
@@ -252,13 +252,13 @@ TEST(HeightMap, RejectsNonFiniteHeightsWithTheirPlace)
         heights[2 * 13 + 5] = wrong;
         FloatKind kind;
         kind.bits = 64;
-        EXPECT_THAT(complaintOf(floatTiff(heights, kind)), HasSubstr("at pixel (5, 2)"));
+        EXPECT_THAT(errorOf(floatTiff(heights, kind)), HasSubstr("at pixel (5, 2)"));
     }
     FloatKind half;
     half.bits = 16;
-    EXPECT_THAT(complaintOf(floatTiff(someHeights(), half)), HasSubstr("unsupported TIFF image"));
-    EXPECT_THAT(complaintOf(floatTiff(someHeights()), 90), HasSubstr("13 x 7"));
-    EXPECT_THAT(complaintOf(bytesOf("heights")), Not(testing::IsEmpty()));
+    EXPECT_THAT(errorOf(floatTiff(someHeights(), half)), HasSubstr("unsupported TIFF image"));
+    EXPECT_THAT(errorOf(floatTiff(someHeights()), 90), HasSubstr("13 x 7"));
+    EXPECT_THAT(errorOf(bytesOf("heights")), Not(testing::IsEmpty()));
     // A TIFF of floats is still not accepted as a mask.
     EXPECT_THAT(messageOf(floatTiff(someHeights())), HasSubstr("not unsigned integers"));
 }

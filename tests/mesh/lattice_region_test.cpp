@@ -277,7 +277,7 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
         // Flat sides on a lattice row, and a spike thinner than any clearance
         {{{0, 0}, {1, 0}, {1, 0.01}, {2, 0.02}, {1, 0.03}, {1, 1}, {0, 1}}}};
     std::size_t found = 0;
-    std::size_t doubtful = 0;
+    std::size_t undecided = 0;
     for (const Polygons& polygons : shapes) {
         for (const double edge : {3.0, 0.4, 0.11, 0.037}) {
             for (const double clearance : {0.0, 0.3, 0.65, 1.7}) {
@@ -294,7 +294,7 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
                         const double deep = depth(polygons, latticePoint(edge, {r, c}));
                         count += region.contains({r, c}) ? 1 : 0;
                         if (std::abs(deep - clearance * edge) < 1e-12) {
-                            ++doubtful;  // too close to decide
+                            ++undecided;  // too close to decide
                             continue;
                         }
                         ASSERT_EQ(region.contains({r, c}), deep > clearance * edge) << edge << " " << r << " " << c;
@@ -306,7 +306,7 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
         }
     }
     EXPECT_GT(found, 10'000U);
-    EXPECT_LT(doubtful, found / 50);
+    EXPECT_LT(undecided, found / 50);
 }
 
 // Rows and corners lie exactly on the lattice: a hexagon of n edges holds another of n − 1 edges, whose rim is √3/2

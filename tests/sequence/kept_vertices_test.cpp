@@ -33,7 +33,7 @@ SequenceOptions options(std::size_t triangles = 3000)
     return options;
 }
 
-std::vector<Frame> play(const std::vector<Inside>& masks, const SequenceOptions& options)
+std::vector<Frame> framesOf(const std::vector<Inside>& masks, const SequenceOptions& options)
 {
     std::vector<Frame> frames;
     for (const Inside& inside : masks) {
@@ -135,7 +135,7 @@ TEST(KeptVertices, AreMostOfThoseFarFromTheChange)
 {
     for (const Film& film : {Film{"drip", drip()}, Film{"merge", merge()}, Film{"ring", closingRing()}}) {
         SCOPED_TRACE(film.name);
-        const std::vector<Frame> frames = play(film.masks, options());
+        const std::vector<Frame> frames = framesOf(film.masks, options());
         double sum = 0.0;
         std::size_t continued = 0;
         std::size_t changes = 0;
@@ -162,7 +162,7 @@ TEST(KeptVertices, AreMostOfThoseFarFromTheChange)
 
 TEST(KeptVertices, StayInPlaceIfTheLetterRests)
 {
-    const std::vector<Frame> frames = play({letterWithDrip(10.0), letterWithDrip(17.0)}, options());
+    const std::vector<Frame> frames = framesOf({letterWithDrip(10.0), letterWithDrip(17.0)}, options());
     ASSERT_FALSE(frames[1].continues);
     EXPECT_NEAR(sharedPlaces(frames[0], frames[1]), *frames[1].vertices_kept, 0.02);
 }
@@ -172,8 +172,8 @@ TEST(KeptVertices, SurfacesMatchNewOnes)
     SequenceOptions fresh = options();
     fresh.keep_vertices = false;
     const std::vector<Inside> masks{letterWithDrip(4.0), letterWithDrip(9.0), letterWithDrip(14.0)};
-    const std::vector<Frame> kept = play(masks, options());
-    const std::vector<Frame> anew = play(masks, fresh);
+    const std::vector<Frame> kept = framesOf(masks, options());
+    const std::vector<Frame> anew = framesOf(masks, fresh);
     for (std::size_t k = 0; k < kept.size(); ++k) {
         const ShapeFigures& a = kept[k].droplet.total;
         const ShapeFigures& b = anew[k].droplet.total;

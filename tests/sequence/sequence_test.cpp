@@ -47,7 +47,7 @@ SequenceOptions optionsFor(VolumeMode mode)
     return options;
 }
 
-std::vector<Frame> play(const std::vector<Outline>& outlines, const SequenceOptions& options)
+std::vector<Frame> framesOf(const std::vector<Outline>& outlines, const SequenceOptions& options)
 {
     std::vector<Frame> frames;
     for (const Outline& outline : outlines) {
@@ -66,7 +66,7 @@ double volume(const Frame& frame)
 }
 
 /// Checks that volumes are those prescribed and change only by the reported gains and losses.
-void expectLedger(const std::vector<Frame>& frames)
+void expectVolumesAddUp(const std::vector<Frame>& frames)
 {
     for (std::size_t k = 0; k < frames.size(); ++k) {
         SCOPED_TRACE(k);
@@ -112,8 +112,8 @@ TEST(Sequence, TotalKeepsTheVolumeAndOnePressureWhateverTheTopology)
 {
     std::vector<Outline> outlines = closingHole();
     outlines.push_back(outlineOf([](Vec2 p) { return disc({20, 20}, 12)(p) || disc({45, 45}, 15)(p); }, 64, 64));
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Total));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Total));
+    expectVolumesAddUp(frames);
     for (const Frame& frame : frames) {
         EXPECT_NEAR(frame.droplet.total.volume / (2 * kMicrolitre), 1.0, 1e-9);
         EXPECT_EQ(frame.volume_gained, 0.0);
@@ -128,7 +128,7 @@ TEST(Sequence, TotalKeepsTheVolumeOfTheFirstFrameIfNoneIsGiven)
 {
     SequenceOptions options = optionsFor(VolumeMode::Total);
     options.droplet.solve.fill = {FillBy::ContactAngle, 35 * kDegree, FillSharing::Total};
-    const std::vector<Frame> frames = play(closingHole(), options);
+    const std::vector<Frame> frames = framesOf(closingHole(), options);
     EXPECT_NEAR(frames[0].droplet.total.contact_angle.mean, 35 * kDegree, 1e-6);
     for (const Frame& frame : frames) {
         EXPECT_NEAR(frame.droplet.total.volume / frames[0].droplet.total.volume, 1.0, 1e-9);
@@ -137,7 +137,7 @@ TEST(Sequence, TotalKeepsTheVolumeOfTheFirstFrameIfNoneIsGiven)
 
 TEST(Sequence, PressureFallsWhileAHoleCloses)
 {
-    const std::vector<Frame> frames = play(closingHole(), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> frames = framesOf(closingHole(), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_LT(frames[k].droplet.solution.droplets[0].pressure, frames[k - 1].droplet.solution.droplets[0].pressure);
         EXPECT_EQ(frames[k].continues, k + 1 < frames.size()) << k;
@@ -150,7 +150,7 @@ TEST(Sequence, PressureFallsWhileAHoleCloses)
 TEST(Sequence, DiscMovedByWholePixelsChangesOnlyItsPlace)
 {
     for (const VolumeMode mode : {VolumeMode::Total, VolumeMode::Track}) {
-        const std::vector<Frame> frames = play(movingDisc(3.0), optionsFor(mode));
+        const std::vector<Frame> frames = framesOf(movingDisc(3.0), optionsFor(mode));
         const Droplet& first = frames[0].droplet;
         for (std::size_t k = 1; k < frames.size(); ++k) {
             const Droplet& droplet = frames[k].droplet;
@@ -170,7 +170,7 @@ TEST(Sequence, DiscMovedByWholePixelsChangesOnlyItsPlace)
 
 TEST(Sequence, DiscMovedByPartsOfAPixelKeepsItsVertices)
 {
-    const std::vector<Frame> frames = play(movingDisc(1.37), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> frames = framesOf(movingDisc(1.37), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_TRUE(frames[k].continues);
         EXPECT_NEAR(frames[k].droplet.solution.droplets[0].pressure / frames[0].droplet.solution.droplets[0].pressure,
@@ -184,7 +184,7 @@ TEST(Sequence, EqualOutlinesGiveEqualFrames)
         3, outlineOf([](Vec2 p) {
             return (disc({30, 32}, 20)(p) && !disc({27, 30}, 6)(p)) || testing::rectangle({70, 30}, {15, 9}, 0.3)(p);
         }));
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Track));
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Track));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         ASSERT_TRUE(frames[k].continues);
         for (std::size_t v = 0; v < frames[0].droplet.surface.positions.size(); ++v) {
@@ -202,8 +202,8 @@ TEST(Sequence, TrackAddsVolumesThatMergeAndKeepsTheLargestOnesId)
                    (gap < 1 && testing::rectangle({42, 32}, {12, 4}, 0.0)(p));
         });
     };
-    const std::vector<Frame> frames = play({two(4), two(2), two(0.5)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf({two(4), two(2), two(0.5)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     ASSERT_EQ(frames[1].droplets.size(), 2U);
     ASSERT_EQ(frames[2].droplets.size(), 1U);
     EXPECT_TRUE(frames[1].continues);
@@ -223,8 +223,8 @@ TEST(Sequence, PartsOfASplitDropletHaveOnePressure)
         });
     };
     const std::vector<Frame> frames =
-        play({dumbbell(true), dumbbell(false), dumbbell(false), dumbbell(true)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+        framesOf({dumbbell(true), dumbbell(false), dumbbell(false), dumbbell(true)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     const std::vector<Ancestry>& parts = frames[1].droplets;
     ASSERT_EQ(parts.size(), 2U);
     EXPECT_NEAR((parts[0].volume + parts[1].volume) / frames[0].droplets[0].volume, 1.0, 1e-12);
@@ -263,8 +263,8 @@ TEST(Sequence, ManyToManyConservesTheVolumeOfTheGroup)
             return std::abs(b) < 26 && (std::abs(a - 12) < 7 || std::abs(a + 14) < 9);
         });
     };
-    std::vector<Frame> frames = play({stripes(true), stripes(false)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    std::vector<Frame> frames = framesOf({stripes(true), stripes(false)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     ASSERT_EQ(frames[1].droplets.size(), 2U);
     EXPECT_EQ(frames[1].volume_gained, 0.0);
     EXPECT_EQ(frames[1].volume_lost, 0.0);
@@ -272,8 +272,9 @@ TEST(Sequence, ManyToManyConservesTheVolumeOfTheGroup)
         EXPECT_THAT(droplet.from, UnorderedElementsAre(0U, 1U));
     }
     // Beads that move into one another's places do not mix.
-    frames = play({blobs({{16, 30}, {44, 30}}, 11), blobs({{26, 30}, {54, 30}}, 11), blobs({{36, 30}, {64, 30}}, 11)},
-                  optionsFor(VolumeMode::Track));
+    frames =
+        framesOf({blobs({{16, 30}, {44, 30}}, 11), blobs({{26, 30}, {54, 30}}, 11), blobs({{36, 30}, {64, 30}}, 11)},
+                 optionsFor(VolumeMode::Track));
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.droplets[0].volume, frames[0].droplets[0].volume);
         EXPECT_EQ(frame.droplets[0].id, 0U);
@@ -285,8 +286,8 @@ TEST(Sequence, NewDropletsAreFilledAndLostVolumeIsCounted)
     const Outline one = outlineOf(disc({25, 32}, 15));
     const Outline both = outlineOf([](Vec2 p) { return disc({25, 32}, 15)(p) || disc({70, 20}, 10)(p); });
     const Outline other = outlineOf(disc({70, 20}, 10));
-    const std::vector<Frame> frames = play({one, both, other}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf({one, both, other}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     EXPECT_GT(frames[1].volume_gained, 0.0);
     std::size_t fresh = frames[1].droplets[0].from.empty() ? 0 : 1;
     EXPECT_THAT(frames[1].droplets[fresh].from, IsEmpty());
@@ -312,8 +313,8 @@ TEST(Sequence, FramesWithoutLiquidAreValid)
         SequenceOptions options = optionsFor(mode);
         options.droplet.solve.fill.by = FillBy::ContactAngle;
         options.droplet.solve.fill.amount = 40 * kDegree;
-        const std::vector<Frame> frames = play({dry, wide, narrow, dry, dry, narrow, dry}, options);
-        expectLedger(frames);
+        const std::vector<Frame> frames = framesOf({dry, wide, narrow, dry, dry, narrow, dry}, options);
+        expectVolumesAddUp(frames);
         for (const std::size_t k : {0U, 3U, 4U, 6U}) {
             EXPECT_TRUE(frames[k].droplets.empty());
             EXPECT_TRUE(frames[k].droplet.surface.triangles.empty());
@@ -342,7 +343,7 @@ TEST(Sequence, DropletsKeepTheirOrderWhenOutlinesFindThemInAnother)
     for (const double y : {40.0, 34.0, 28.0, 22.0, 16.0}) {
         outlines.push_back(outlineOf([=](Vec2 p) { return disc({24, 28}, 14)(p) || disc({68, y}, 12)(p); }));
     }
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Track));
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Track));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_TRUE(frames[k].continues) << k;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -356,8 +357,8 @@ TEST(Sequence, FollowedSurfacesMatchNewOnes)
 {
     SequenceOptions fresh = optionsFor(VolumeMode::Total);
     fresh.keep_vertices = false;
-    const std::vector<Frame> moved = play(closingHole(), optionsFor(VolumeMode::Total));
-    const std::vector<Frame> anew = play(closingHole(), fresh);
+    const std::vector<Frame> moved = framesOf(closingHole(), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> anew = framesOf(closingHole(), fresh);
     for (std::size_t k = 0; k < moved.size(); ++k) {
         EXPECT_FALSE(anew[k].continues);
         const ShapeFigures& a = moved[k].droplet.total;
@@ -399,7 +400,7 @@ TEST(Sequence, IsTheSameAtAnyNumberOfThreads)
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         std::vector<Vec3> all;
-        for (const Frame& frame : play(closingHole(), optionsFor(VolumeMode::Track))) {
+        for (const Frame& frame : framesOf(closingHole(), optionsFor(VolumeMode::Track))) {
             all.insert(all.end(), frame.droplet.surface.positions.begin(), frame.droplet.surface.positions.end());
         }
         return all;
