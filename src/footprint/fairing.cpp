@@ -98,10 +98,9 @@ PlaceCost placeCost(const Slot& slot)
 /// Every vector wraps around: after its n entries the first few are repeated.
 struct Polygon {
     std::vector<Vec2> points;
-    std::vector<double> edges;  ///< smooth length of the edge to the next vertex
-    std::vector<double>
-        scales;  ///< 2/(product of the sides) of the vertices i, i + 1, i + 2: curvature per cross product
-    std::vector<double> bends;  ///< Menger curvature of these vertices
+    std::vector<double> edges;   ///< smooth length of the edge to the next vertex
+    std::vector<double> scales;  ///< 2/(product of the sides) of vertices i, i + 1, i + 2: curvature per cross product
+    std::vector<double> bends;   ///< Menger curvature of these vertices
 };
 
 template <class Value>

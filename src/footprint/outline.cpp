@@ -85,8 +85,8 @@ private:
     double threshold_;
 };
 
-/// Sum of the differences of coverage from `end` (0 or 1) over the pixels after a pixel, in steps of `out`, until `end`
-/// is reached; none if it is not reached monotonically.
+/// Sum of |coverage − end| over the pixels after a pixel, in steps of `out`, until the coverage reaches `end` (0 or 1);
+/// none if it does not get there monotonically.
 std::optional<double> tail(const Field& field, int x, int y, Step out, double end)
 {
     // Nearly full pixels count, too, down to half a step of 8 bits.

@@ -25,10 +25,10 @@ PlanarMesh triangulatePoints(const std::vector<std::vector<Vec2>>& polygons, con
 
 /// Region to triangulate between a rim and triangles that stay.
 struct Cavity {
-    std::vector<std::vector<Vec2>> polygons;        ///< liquid on the left
-    std::vector<std::vector<std::uint8_t>> on_rim;  ///< whether a vertex is on the rim
-    std::vector<std::vector<std::uint8_t>>
-        at_seam;  ///< whether a vertex belongs to a triangle that stays; an edge between two such vertices is not split
+    std::vector<std::vector<Vec2>> polygons;         ///< liquid on the left
+    std::vector<std::vector<std::uint8_t>> on_rim;   ///< whether a vertex is on the rim
+    std::vector<std::vector<std::uint8_t>> at_seam;  ///< whether a vertex belongs to a triangle that stays; edges
+                                                     ///< between two such vertices are not split
 };
 
 /// Triangles that fill a cavity.

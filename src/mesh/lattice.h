@@ -17,7 +17,7 @@ namespace droplet {
 struct Lattice {
     double edge = 0.0;  ///< distance between neighbouring points [m]
     LatticeGrid grid;   ///< vertices at the points; never empty
-    /// Triangles from this index on join vertices that have only equilateral triangles.
+    /// Triangles from this index on join only vertices whose triangles are all equilateral.
     std::uint32_t first_regular_triangle = 0;
 };
 

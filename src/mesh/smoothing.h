@@ -11,8 +11,7 @@ namespace droplet {
 struct SmoothRange {
     std::size_t first_vertex = 0;
     std::size_t end_vertex = 0;  ///< vertices from here on stay
-    std::size_t triangles =
-        0;  ///< number of triangles, from the first, that include all triangles with a vertex of the range
+    std::size_t triangles = 0;   ///< the first triangles of the mesh, with all that have a vertex of the range
 };
 
 /// Moves vertices toward the area-weighted mean of their triangles' centroids. A move is made only if it makes no angle

@@ -22,13 +22,12 @@ struct Lattice;
 /// and cover the polygon of the loops once. An edge between two rim vertices is an edge of the rim, and no triangle has
 /// three rim vertices; so the surface touches the ground only along the rim.
 struct PlanarMesh {
-    std::vector<Vec2> vertices;       ///< [m]
-    std::vector<Triangle> triangles;  ///< counter-clockwise
-    std::vector<std::uint32_t>
-        loop_starts;  ///< loop k has the vertices [loop_starts[k], loop_starts[k+1]); the outer loop first, liquid on
-                      ///< the left; the last entry is the number of rim vertices
-    std::shared_ptr<const Lattice>
-        lattice;  ///< null if no part is known to be regular; reset it after you move vertices or change triangles
+    std::vector<Vec2> vertices;              ///< [m]
+    std::vector<Triangle> triangles;         ///< counter-clockwise
+    std::vector<std::uint32_t> loop_starts;  ///< loop k: vertices loop_starts[k] … loop_starts[k+1] − 1; outer loop
+                                             ///< first, liquid on the left; last entry: number of rim vertices
+    std::shared_ptr<const Lattice> lattice;  ///< null if no part is known to be regular; reset it when you move
+                                             ///< vertices or change triangles
 
     /// Number of loops.
     [[nodiscard]] std::size_t loopCount() const { return loop_starts.empty() ? 0 : loop_starts.size() - 1; }
