@@ -22,7 +22,7 @@ constexpr std::size_t kLongestBorder = std::size_t{1} << 21;
 constexpr int kEast = 0;
 constexpr int kWest = 2;
 
-/// 255 where the mask is liquid.
+/// Image that is 255 where the mask is liquid.
 cv::Mat thresholded(const Mask& mask, std::uint16_t level)
 {
     if (static_cast<std::int64_t>(mask.width + 2LL) * (mask.height + 2LL) > std::numeric_limits<int>::max()) {
@@ -41,7 +41,7 @@ cv::Mat thresholded(const Mask& mask, std::uint16_t level)
     return image;
 }
 
-/// How many sides of pixels part liquid from dry.
+/// Number of pixel sides between liquid and dry.
 std::size_t borderLength(const cv::Mat& image)
 {
     std::vector<std::size_t> counts(static_cast<std::size_t>(image.rows));
@@ -69,7 +69,7 @@ void checkLength(std::size_t length, std::size_t max, const char* of)
     }
 }
 
-/// The direction of a step to one of eight neighbours in eighths of a turn, counterclockwise from east as one sees it.
+/// Direction of a step to one of eight neighbours, in eighths of a turn, counterclockwise from east as seen on screen.
 int eighths(const cv::Point& from, const cv::Point& to)
 {
     constexpr std::array<int, 9> kEighths{3, 2, 1, 4, 0, 0, 5, 6, 7};
@@ -77,8 +77,8 @@ int eighths(const cv::Point& from, const cv::Point& to)
     return kEighths[static_cast<std::size_t>(place)];
 }
 
-/// The dry neighbours that a chain passes: at each pixel those on the way round, counterclockwise, from where the chain
-/// comes from to where it goes.
+/// Crossings to the dry neighbours along a chain: at each pixel, counterclockwise from the previous pixel of the chain
+/// to the next.
 Border crossingsOf(const Chain& chain)
 {
     Border border;
@@ -96,17 +96,18 @@ Border crossingsOf(const Chain& chain)
     return border;
 }
 
-/// Not with RETR_CCOMP, which says what is a hole: it looks for every hole's component, 23 s in 2048² pixels of noise.
+/// RETR_CCOMP would tell which contours are holes. But it searches the component of every hole, which takes 23 s for
+/// 2048² pixels of noise.
 std::vector<Chain> contoursOf(const Mask& mask, std::uint16_t level)
 {
     const cv::Mat image = thresholded(mask, level);
-    // What follows takes some 300 bytes and 5 µs for every side of a pixel.
+    // The next steps take some 300 bytes and 5 µs per pixel side.
     checkLength(borderLength(image), kLongestBorders, "borders are");
     std::vector<Chain> chains;
     try {
         cv::findContours(image, chains, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
     } catch (const cv::Exception&) {
-        throw std::bad_alloc();  // an image of bytes has nothing else to be refused for
+        throw std::bad_alloc();  // findContours has no other reason to refuse an image of bytes
     }
     return chains;
 }
@@ -118,8 +119,8 @@ std::vector<Border> followBorders(const Mask& mask, std::uint16_t level)
     std::vector<Chain> chains = contoursOf(mask, level);
     std::vector<Border> borders(chains.size());
     tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t k) {
-        // A chain begins at its first pixel: of a component's, nothing before it is liquid; of a hole's, the neighbour
-        // above the hole is.
+        // A chain begins at its first pixel. No pixel before the first pixel of a component is liquid. At a hole, the
+        // neighbour above the hole is.
         const cv::Point first = chains[k].front();
         const bool is_hole = first.y > 0 && first.x + 1 < mask.width && mask.at(first.x + 1, first.y - 1) >= level;
         borders[k] = crossingsOf(chains[k]);
@@ -127,7 +128,7 @@ std::vector<Border> followBorders(const Mask& mask, std::uint16_t level)
         const Crossing start{first.x, first.y, is_hole ? kEast : kWest};
         std::rotate(borders[k].begin(), std::find(borders[k].begin(), borders[k].end(), start), borders[k].end());
     });
-    // One border is faired as a whole, by one core, in twice the memory.
+    // One core fairs a border as a whole, in twice the memory.
     for (const Border& border : borders) {
         checkLength(border.size(), kLongestBorder, "border is");
     }

@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::uint16_t kFull = std::numeric_limits<std::uint16_t>::max();
 
-/// The coverage as an image of OpenCV's, which is no copy.
+/// The coverage as an OpenCV image that shares its memory.
 cv::Mat imageOf(Mask& mask)
 {
     return {mask.height, mask.width, CV_16UC1, mask.coverage.data()};
 }
 
-/// Gaussian of standard deviation `sigma` px; wide ones on a smaller image, so that none costs out of proportion.
+/// Gaussian blur of standard deviation `sigma` px. Wide blurs work on a smaller image, so that their cost stays small.
 cv::Mat blurred(const cv::Mat& image, double sigma)
 {
     constexpr double kWidest = 16.0;
@@ -43,20 +43,20 @@ cv::Mat blurred(const cv::Mat& image, double sigma)
 
 void smooth(Mask& mask, double length_px, double threshold)
 {
-    // A disc keeps its middle if its diameter is at least 2.35 standard deviations.
+    // The centre of a disc stays liquid if its diameter is at least 2.35 standard deviations.
     const double sigma = std::min(0.5 * length_px, static_cast<double>(std::max(mask.width, mask.height)));
     const cv::Mat image = imageOf(mask);
     const cv::Mat soft = blurred(image, sigma);
-    // What was straight gets an edge of one pixel again.
+    // A straight edge becomes one pixel wide again.
     const double gain = std::max(1.0, sigma * std::sqrt(2.0 * std::numbers::pi));
     soft.convertTo(image, CV_16UC1, gain, kFull * threshold * (1.0 - gain));
 }
 
-/// Components of pixels that are, or are not, liquid.
+/// Connected components of liquid pixels, or of dry pixels.
 struct Components {
-    cv::Mat label;  ///< of every pixel; 0 is what is not looked for
+    cv::Mat label;  ///< component of every pixel; 0 for pixels of the other kind
     cv::Mat stats;
-    int count = 0;  ///< with the 0
+    int count = 0;  ///< including component 0
 };
 
 Components componentsOf(const cv::Mat& coverage, std::uint16_t level, bool liquid)
@@ -72,8 +72,8 @@ Components componentsOf(const cv::Mat& coverage, std::uint16_t level, bool liqui
     return found;
 }
 
-/// Gives all of the components chosen one coverage, and the grey fringe on the far side of their rim, too, but for what
-/// touches others like them.
+/// Sets the chosen components to one coverage, and also the grey fringe outside their rims, except where it touches a
+/// component that is not chosen.
 void paint(cv::Mat coverage, const Components& components, const std::vector<bool>& chosen, std::uint16_t value)
 {
     const auto is_chosen = [&](int y, int x) {
@@ -157,7 +157,7 @@ Mask clean(Mask mask, const CleanOptions& options, double pixel_size, double thr
             keepLargest(coverage, level, *options.keep);
         }
     } catch (const cv::Exception&) {
-        throw std::bad_alloc();  // an image of levels has nothing else to be refused for
+        throw std::bad_alloc();  // OpenCV has no other reason to refuse an image of levels
     }
     return mask;
 }

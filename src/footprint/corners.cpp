@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Corners of a traced rim. P. Selinger, "Potrace: a polygon-based tracing algorithm" (2003), section 2.3, decides by
-// how far a corner stands out from the smooth curve; here both sides are extended and the corner is kept if it turns
+// how far a corner stands out from the smooth curve. Here both sides are extended, and the corner is kept if it turns
 // enough and separates the same pixel centres as the mask.
 
 #include "footprint/corners.h"
@@ -18,31 +18,31 @@
 namespace droplet {
 namespace {
 
-/// Least turn between the chords for a corner to be tried. A circle turns by (length + 2 gap)/R between them, so radii
-/// above 6 px are never tried.
-constexpr double kTryTurn = 35.0 * std::numbers::pi / 180.0;
+/// Smallest turn between the chords for which a corner is tried. A circle turns by (length + 2 gap)/R between them, so
+/// circles with radii above 6 px are never tried.
+constexpr double kMinTriedTurn = 35.0 * std::numbers::pi / 180.0;
 
-/// Least turn between the extended sides for a corner to be kept. In a hard mask small discs are octagons, which turn
-/// by up to 53° at their corners; grey levels tell the two apart.
-constexpr double kKeepTurn = 25.0 * std::numbers::pi / 180.0;
-constexpr double kKeepTurnHard = 56.0 * std::numbers::pi / 180.0;
+/// Smallest turn between the extended sides for which a corner is kept. In a hard mask, small discs are octagons, which
+/// turn by up to 53° at their corners; grey levels distinguish the two.
+constexpr double kMinKeptTurn = 25.0 * std::numbers::pi / 180.0;
+constexpr double kMinKeptTurnHard = 56.0 * std::numbers::pi / 180.0;
 
-/// Most turn at a corner: a sharper tip than 20° is narrower than a pixel for longer than a side.
+/// Largest turn at a corner. A tip sharper than 20° is narrower than a pixel over more than the length of a side.
 constexpr double kMaxTurn = 160.0 * std::numbers::pi / 180.0;
 
-/// A side is extended along the line through its last stretch of this length [px].
-constexpr double kSide = 3.5;
+/// A side is extended along the line through its last piece of this length [px].
+constexpr double kSideLength = 3.5;
 
-/// The farthest a corner may stand from the ends of its sides [px]: the tip of an angle of 30° whose last liquid
-/// pixel centre is as far back as it can be, (1/2)/sin 15°, and a pixel of gap.
+/// Largest distance of a corner from the ends of its sides [px]. It is the tip of an angle of 30° whose last liquid
+/// pixel centre is as far back as possible, (1/2)/sin 15°, plus a pixel of gap.
 constexpr double kReach = 3.0;
 
-/// The most a corner may add to what lies between its ends [px²]: a tip that holds no pixel centre has less, be it the
-/// corner of a square (1/4) or of an angle of 30°.
+/// Largest area that a corner may add between its ends [px²]. A tip without a pixel centre has less, at the corner of a
+/// square (1/4) as well as at an angle of 30°.
 constexpr double kMaxAdded = 1.0;
 
-/// The most a side may stray from its line in a hard mask [px]: discs of 3 to 10 px, whose pixels are those of
-/// polygons, bend by more, and the straight sides of squares and bars by 0.05 px at most.
+/// Largest deviation of a side from its line in a hard mask [px]. Discs of 3 to 10 px, whose pixels are those of
+/// polygons, deviate by more; the straight sides of squares and bars deviate by at most 0.05 px.
 constexpr double kMaxBend = 0.12;
 
 /// Walks along the loop from a slot, forward or backward.
@@ -60,7 +60,7 @@ private:
     bool forward_;
 };
 
-/// The points of a loop and the lengths of the pieces between them, measured once.
+/// Points of a loop and lengths of the pieces between them, measured once.
 class Path {
 public:
     explicit Path(const SlotLoop& loop)
@@ -80,12 +80,12 @@ public:
     [[nodiscard]] std::size_t previous(std::size_t i) const { return (i > 0 ? i : points_.size()) - 1; }
     [[nodiscard]] std::size_t step(std::size_t i, bool forward) const { return forward ? next(i) : previous(i); }
 
-    /// Length of the piece that a step from a point takes.
+    /// Length of the piece between a point and the next one in a direction.
     [[nodiscard]] double piece(std::size_t i, bool forward) const { return pieces_[forward ? i : previous(i)]; }
 
     [[nodiscard]] double perimeter() const { return std::accumulate(pieces_.begin(), pieces_.end(), 0.0); }
 
-    /// The point a given way along the path from one of its own.
+    /// Point at a given distance along the path from one of its own points.
     [[nodiscard]] Vec2 along(std::size_t start, bool forward, double way) const
     {
         std::size_t here = start;
@@ -111,13 +111,13 @@ double angleBetween(Vec2 from, Vec2 to)
     return std::atan2(cross(from, to), dot(from, to));
 }
 
-/// A straight line; the direction is a unit vector.
+/// Straight line; the direction is a unit vector.
 struct Line {
     Vec2 through;
     Vec2 direction;
 };
 
-/// The line with least squared distance to some points, directed toward `ahead` from `behind`.
+/// Least-squares line through points, directed from `behind` to `ahead`.
 Line fitLine(const std::vector<Vec2>& points, Vec2 behind, Vec2 ahead)
 {
     Vec2 mean{};
@@ -148,14 +148,14 @@ std::optional<Vec2> meet(const Line& a, const Line& b)
     return a.through + (cross(b.through - a.through, b.direction) / determinant) * a.direction;
 }
 
-/// A side of a corner, as far as it is extended.
+/// Side of a corner.
 struct Side {
-    Vec2 end;           ///< its last vertex before the corner
-    Line line;          ///< through its last stretch, toward the corner
-    double bend = 0.0;  ///< farthest any vertex of that stretch lies from the line [px]
+    Vec2 end;           ///< last vertex before the corner
+    Line line;          ///< line through its last piece, toward the corner
+    double bend = 0.0;  ///< largest distance of a vertex of that piece from the line [px]
 };
 
-/// Fits a line to the last stretch of a side, up to the next break.
+/// Fits a line to the last piece of a side, up to the next break.
 Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std::size_t end, bool forward)
 {
     std::vector<Vec2> points;
@@ -169,7 +169,7 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
         }
         walker.step();
         way += length(walker.point() - points.back());
-        if (way > kSide && points.size() >= 3) {
+        if (way > kSideLength && points.size() >= 3) {
             break;
         }
     }
@@ -181,7 +181,7 @@ Side fitSide(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, std:
     return {points.front(), line, bend};
 }
 
-/// The line through the chord before or after a turn, with what lies between the chord and the turn left out.
+/// Line through the chord before or after a turn; the curve between the chord and the turn is left out.
 Line fitChord(const Path& path, std::size_t start, bool forward, const Chord& chord)
 {
     std::vector<Vec2> points;
@@ -193,21 +193,21 @@ Line fitChord(const Path& path, std::size_t start, bool forward, const Chord& ch
     return fitLine(points, points.back(), points.front());
 }
 
-/// The turn from the chord before a gap to the chord after it; none where it is less than a corner is tried for.
+/// Turn from the chord before a gap to the chord after it; 0 if it is too small for a corner.
 double turnBetweenChords(const Path& path, std::size_t gap, const Chord& chord)
 {
     const double far = chord.gap + chord.length;
     const std::size_t next = path.next(gap);
     const Vec2 before = path.along(gap, false, chord.gap) - path.along(gap, false, far);
     const Vec2 after = path.along(next, true, far) - path.along(next, true, chord.gap);
-    // Most turn by less than half a radian, which is told without an arc tangent.
+    // Most turns are less than half a radian; this is checked without an arc tangent.
     const double ahead = dot(before, after);
     const double aside = std::abs(cross(before, after));
-    static_assert(kTryTurn > 0.5);
+    static_assert(kMinTriedTurn > 0.5);
     return aside < 0.5 * ahead ? 0.0 : std::atan2(aside, ahead);
 }
 
-/// How badly a line fits a slot, at most 1 [px].
+/// Distance of a line from a slot's place, at most 1 [px].
 double misfit(const Slot& slot, const Line& line)
 {
     const double slope = cross(slot.toward, line.direction);
@@ -218,8 +218,8 @@ double misfit(const Slot& slot, const Line& line)
     return std::min(1.0, slot.measured ? std::abs(t - *slot.measured) : std::max({0.0, -t, t - 1.0}));
 }
 
-/// Whether slots between the ends of a turn may give way: all lead into the same dry pixel, or come out of the same
-/// liquid one, which the corner then covers in part.
+/// The pixel that all slots between the ends of a turn share, dry or liquid; the corner then covers a part of it. Empty
+/// if there is none: then the slots may not be dropped.
 std::optional<Vec2> sharedPixel(const SlotLoop& loop, const Turn& turn)
 {
     const std::size_t n = loop.size();
@@ -236,7 +236,7 @@ std::optional<Vec2> sharedPixel(const SlotLoop& loop, const Turn& turn)
     return same_liquid ? std::optional(first.liquid) : std::nullopt;
 }
 
-/// The turn near a gap at which the slots change best from the line before it to the line after it.
+/// Turn near a gap at which the slots change best from the line before it to the line after it.
 Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chord& chord)
 {
     const std::size_t n = loop.size();
@@ -244,11 +244,11 @@ Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chor
     const Line before = fitChord(path, near, false, chord);
     const Line after = fitChord(path, (near + 1) % n, true, chord);
     const std::optional<Vec2> tip = meet(before, after);
-    constexpr std::size_t kSlots = 5;  // 3 to 4 px: further off, the chords themselves lie
+    constexpr std::size_t kSlots = 5;  // 3 to 4 px; the chords themselves are farther off
     if (!tip || n < 4 * kSlots) {
         return fallback;
     }
-    // Costs of the first k slots of the window on the line before, and of the rest on the line after.
+    // Costs of the first k slots of the window, on the line before and on the line after.
     std::array<double, 2 * kSlots + 1> on_before{};
     std::array<double, 2 * kSlots + 1> on_after{};
     const auto slot_at = [&](std::size_t j) { return (near + n + j + 1 - kSlots) % n; };
@@ -258,7 +258,7 @@ Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chor
     }
     Turn best = fallback;
     double best_cost = std::numeric_limits<double>::infinity();
-    // Giving up a slot must be worth more than a poor fit in it.
+    // Dropping a slot must be better than a poor fit in it.
     constexpr double kDropCost = 0.25;
     constexpr std::size_t kMaxDropped = 2;
     for (std::size_t first = 0; first + 1 < 2 * kSlots; ++first) {
@@ -268,7 +268,7 @@ Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chor
                 continue;
             }
             const Vec2 middle = 0.5 * (loop[turn.first].point() + loop[turn.last].point());
-            // Among equals, the turn nearest to where the lines meet.
+            // Of equal turns, take the nearest to where the lines meet.
             const double cost = on_before[first + 1] + on_after[2 * kSlots] - on_after[first + dropped + 1] +
                                 kDropCost * static_cast<double>(dropped) + 0.05 * length(middle - *tip);
             if (cost < best_cost) {
@@ -280,14 +280,14 @@ Turn locate(const SlotLoop& loop, const Path& path, std::size_t near, const Chor
     return best;
 }
 
-/// The part of a convex polygon to the left of a line through two points, y down.
+/// Part of a convex polygon to the left of a line through two points, y down.
 std::vector<Vec2> clip(const std::vector<Vec2>& polygon, Vec2 from, Vec2 to)
 {
     std::vector<Vec2> result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec2 a = polygon[i];
         const Vec2 b = polygon[(i + 1) % polygon.size()];
-        // Liquid lies on the left with y up, which is a negative cross product with y down.
+        // Liquid lies on the left with y up; with y down, that is a negative cross product.
         const double u = -cross(to - from, a - from);
         const double v = -cross(to - from, b - from);
         if (u >= 0) {
@@ -309,8 +309,7 @@ double polygonArea(const std::vector<Vec2>& polygon)
     return 0.5 * std::abs(sum);
 }
 
-/// Whether the grey levels around a corner are nearer to what they would be with it than to what they would be if the
-/// rim went straight from one end to the other.
+/// Whether the grey levels around a corner fit the corner better than a straight rim from one end to the other.
 bool levelsAgree(const Side& before, const Side& after, Vec2 tip, const Coverage& coverage)
 {
     const bool convex = cross(before.line.direction, after.line.direction) > 0;
@@ -326,7 +325,7 @@ bool levelsAgree(const Side& before, const Side& after, Vec2 tip, const Coverage
             const double fx = x;
             const double fy = y;
             const std::vector<Vec2> pixel{{fx, fy}, {fx + 1, fy}, {fx + 1, fy + 1}, {fx, fy + 1}};
-            // Of a convex corner the liquid, of a concave one the dry: a wedge, and the same without its tip.
+            // The wedge is liquid at a convex corner, dry at a concave one; blunt is the wedge without its tip.
             std::vector<Vec2> wedge;
             std::vector<Vec2> blunt;
             if (convex) {
@@ -352,7 +351,7 @@ bool contains(Vec2 a, Vec2 b, Vec2 c, Vec2 p)
     return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/// Whether cutting a corner at the tip would put a pixel centre, other than the excepted one, on the other side.
+/// Whether the triangle at a corner's tip contains a pixel centre other than the excepted one.
 bool coversPixelCentre(Vec2 a, Vec2 tip, Vec2 b, const std::optional<Vec2>& excepted)
 {
     const int left = static_cast<int>(std::floor(std::min({a.x, tip.x, b.x}) - 0.5));
@@ -383,11 +382,11 @@ Cell cellOf(Vec2 p)
     return {static_cast<int>(std::floor(p.x - 0.5)), static_cast<int>(std::floor(p.y - 0.5))};
 }
 
-/// An end of a piece of rim: which one it is counts, for two corners may stand at the same point.
+/// End of a piece of rim. Its identity counts, because two corners may stand at the same point.
 struct End {
     Vec2 at;
     std::size_t loop = 0;
-    std::size_t slot = 0;  ///< the vertex's slot, or the one before a tip
+    std::size_t slot = 0;  ///< slot of the vertex, or the slot before a tip
     bool is_tip = false;
 
     [[nodiscard]] bool same(const End& other) const
@@ -396,7 +395,7 @@ struct End {
     }
 };
 
-/// A straight piece of rim.
+/// Straight piece of rim.
 struct Piece {
     End from;
     End to;
@@ -410,13 +409,13 @@ double distance(Vec2 p, const Piece& piece)
     return length(p - (piece.from.at + t * along));
 }
 
-/// Whether two pieces cross or come nearer than round-off, other than by a common end.
+/// Whether two pieces without a common end cross or nearly touch.
 bool touch(const Piece& p, const Piece& q)
 {
     if (p.from.same(q.from) || p.from.same(q.to) || p.to.same(q.from) || p.to.same(q.to)) {
         return false;
     }
-    constexpr double kNear = 1e-3;  // px; slots' vertices keep kSlotMargin from one another
+    constexpr double kNear = 1e-3;  // px; vertices of slots keep kSlotMargin from one another
     const Vec2 u = p.to.at - p.from.at;
     const Vec2 v = q.to.at - q.from.at;
     const bool crossing = cross(u, q.from.at - p.from.at) * cross(u, q.to.at - p.from.at) < 0 &&
@@ -439,7 +438,7 @@ bool standsBetween(const Corner& corner)
     return !corner.replaces_first && !corner.replaces_last;
 }
 
-/// All cells a piece can touch.
+/// All cells that a piece can touch.
 std::vector<Cell> cellsAround(const Piece& piece)
 {
     constexpr double kSlack = 0.01;  // a piece along a cell's border belongs to both sides
@@ -456,7 +455,7 @@ std::vector<Cell> cellsAround(const Piece& piece)
     return cells;
 }
 
-/// The pieces of rim in those cells in which corners stand.
+/// Pieces of rim in the cells in which corners stand.
 class PiecesByCell {
 public:
     explicit PiecesByCell(const std::vector<CorneredLoop>& loops)
@@ -490,7 +489,7 @@ public:
     }
 
 private:
-    /// Adds the pieces between slots, but those that corners replace, where there are corners to touch.
+    /// Adds the pieces between slots in cells with corners, except pieces that corners replace.
     void addSlotPieces(const CorneredLoop& loop, std::size_t id)
     {
         const std::size_t n = loop.slots.size();
@@ -526,7 +525,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
     for (std::size_t i = 0; i < n; ++i) {
         sharpness[i] = turnBetweenChords(path, i, chord);
     }
-    // Slots too near to a turn already known.
+    // Slots that are too near to a known turn.
     std::vector<std::uint8_t> taken(n, 0);
     for (const Turn& turn : known) {
         for (const bool forward : {false, true}) {
@@ -541,10 +540,10 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
     }
     std::vector<Turn> turns = known;
     for (std::size_t i = 0; i < n; ++i) {
-        if (sharpness[i] < kTryTurn || taken[i] != 0) {
+        if (sharpness[i] < kMinTriedTurn || taken[i] != 0) {
             continue;
         }
-        // The sharpest of its neighbourhood; of equals, the first.
+        // Keep the sharpest turn of a neighbourhood; of equal ones, the first.
         bool sharpest = true;
         for (const bool forward : {false, true}) {
             std::size_t j = i;
@@ -579,7 +578,7 @@ std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std
 
 std::vector<Turn> relocated(const SlotLoop& loop, std::vector<Turn> turns)
 {
-    // Well away from the turn, which is drawn toward where it was thought to be.
+    // The chords are well away from the turn, because the curve near it is biased toward the first guess.
     constexpr Chord kSides{3.0, 1.5};
     const Path path(loop);
     for (Turn& turn : turns) {
@@ -606,7 +605,7 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     const Side before = fitSide(loop, breaks, turn.first, false);
     const Side after = fitSide(loop, breaks, turn.last, true);
     const std::optional<Vec2> tip = meet(before.line, after.line);
-    const double min_turn = coverage ? kKeepTurn : kKeepTurnHard;
+    const double min_turn = coverage ? kMinKeptTurn : kMinKeptTurnHard;
     if (!tip) {
         return std::nullopt;
     }
@@ -620,7 +619,7 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     const bool drops = (turn.first + 1) % n != turn.last;
     const double ahead_before = dot(*tip - before.end, before.line.direction);
     const double ahead_after = dot(*tip - after.end, after.line.direction);
-    // A tip at the end of a side is that end; one further behind would fold the rim back.
+    // A tip at the end of a side is that end; a tip further behind would fold the rim back.
     constexpr double kBehind = 0.35;
     constexpr double kAt = 0.05;
     if (std::min(ahead_before, ahead_after) < -kBehind || std::max(ahead_before, ahead_after) > kReach) {
@@ -638,9 +637,9 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
     if (std::min(ahead_before, ahead_after) < kAt || coversPixelCentre(before.end, *tip, after.end, pixel)) {
         return std::nullopt;
     }
-    // Less than this is within the error of the sides themselves, a few hundredths of a pixel over their ends.
-    constexpr double kTold = 0.15;
-    if (coverage && added > kTold && !levelsAgree(before, after, *tip, coverage)) {
+    // Less area than this is within the error of the sides, which is a few hundredths of a pixel over their ends.
+    constexpr double kMinCheckedArea = 0.15;
+    if (coverage && added > kMinCheckedArea && !levelsAgree(before, after, *tip, coverage)) {
         return std::nullopt;
     }
     return Corner{turn, *tip, false, false};
@@ -648,7 +647,7 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
 
 void removeTouchingCorners(std::vector<CorneredLoop>& loops)
 {
-    // Taking one back restores the pieces it replaced, which another corner may touch.
+    // Removing a corner restores the pieces it replaced, which another corner may touch.
     for (bool changed = true; changed;) {
         changed = false;
         const PiecesByCell pieces(loops);

@@ -11,8 +11,8 @@
 
 namespace droplet {
 
-/// A place on a loop where the curve turns sharply: between slot `first` and slot `last`; slots between those two, if
-/// any, lie on neither side and give way to the corner.
+/// Place on a loop where the curve turns sharply: between the slots `first` and `last`. Slots between those two, if
+/// any, lie on neither side and are replaced by the corner.
 struct Turn {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -20,51 +20,52 @@ struct Turn {
     friend constexpr bool operator==(const Turn&, const Turn&) = default;
 };
 
-/// How a turn is measured: between chords of some length on either side of it, some way from it [px].
+/// Chords between which a turn is measured, one on either side of it [px].
 struct Chord {
     double length = 0.0;
-    double gap = 0.0;
+    double gap = 0.0;  ///< distance of the chord from the turn
 };
 
-/// The turns of a roughly faired loop that are sharp enough for a corner to be tried, in order, apart from one another.
-/// @param known  turns already found to be corners: they are returned too, and others only away from them
+/// Turns of a roughly faired loop that are sharp enough to try a corner; in order, not overlapping.
+/// @param known  turns already known to be corners; they are returned, too, and others only away from them
 std::vector<Turn> sharpTurns(const SlotLoop& loop, const Chord& chord, const std::vector<Turn>& known);
 
-/// The turns moved, by a slot or a few, to where the sides of a faired loop say they are.
+/// Moves turns by a slot or a few to the place that the sides of a faired loop indicate.
 std::vector<Turn> relocated(const SlotLoop& loop, std::vector<Turn> turns);
 
-/// One flag per slot: 1 where a turn lies between this slot and the next.
+/// One flag per slot: 1 if a turn lies between this slot and the next.
 std::vector<std::uint8_t> breaksAt(const std::vector<Turn>& turns, std::size_t slots);
 
-/// A corner of the rim, in place of the slots between the ends of a turn, or of one of those ends.
+/// Corner of the rim. It replaces the slots between the ends of a turn, or one of those ends.
 struct Corner {
     Turn turn;
     Vec2 tip;                     ///< [px]
-    bool replaces_first = false;  ///< the tip lies so near to the vertex before it that it takes that one's place
-    bool replaces_last = false;   ///< likewise the vertex after it
+    bool replaces_first = false;  ///< the tip is so near to the vertex before it that it replaces that vertex
+    bool replaces_last = false;   ///< likewise for the vertex after it
 };
 
-/// Coverage of a pixel by liquid, in [0, 1]; 0 outside the mask. Empty for a hard mask, whose levels say nothing.
+/// Coverage of a pixel by liquid, in [0, 1]; 0 outside the mask. Empty for a hard mask, whose levels carry no sub-pixel
+/// place.
 using Coverage = std::function<double(int x, int y)>;
 
-/// Where the two sides of a loop meet when extended into a turn.
+/// Extends the two sides of a loop into a turn to find the corner where they meet.
 /// @param loop      faired with a break at every turn
-/// @param breaks    all breaks of the loop: a side ends at the next one
-/// @param turn      where
+/// @param breaks    all breaks of the loop; a side ends at the next one
+/// @param turn      turn to examine
 /// @param coverage  of the mask
-/// @return          the corner, or none if the sides do not meet sharply, or a corner there would put a pixel centre on
-///                  the other side of the rim (other than that of the one pixel it stands in), or contradict grey
-///                  levels
+/// @return          the corner; none if the sides do not meet sharply, if the corner would put a pixel centre on the
+///                  other side of the rim (except the centre of the one pixel it stands in), or if it contradicts the
+///                  grey levels
 std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::uint8_t>& breaks, const Turn& turn,
                                  const Coverage& coverage);
 
-/// A faired loop and its corners, in order along it.
+/// Faired loop and its corners, in order along it.
 struct CorneredLoop {
     SlotLoop slots;
     std::vector<Corner> corners;
 };
 
-/// Takes back every corner that touches another piece of rim, its own loop's or another's: without corners, no two
+/// Removes every corner that touches another piece of rim, of its own loop or of another one. Without corners, no two
 /// pieces touch. Linear in the number of slots.
 void removeTouchingCorners(std::vector<CorneredLoop>& loops);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Nesting of loops as in S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by border
-// following" (1985): what lies next to a hole's leftmost point is its surrounding rim, or a hole whose rim is known.
+// following" (1985): the nearest loop to the left of a hole's leftmost point is its surrounding rim, or a hole whose
+// rim is known.
 
 #include "droplet/footprint/domain.h"
 
@@ -27,7 +28,7 @@ struct Edge {
     std::size_t loop = 0;
 };
 
-/// Edges of all loops, found by the height of a horizontal line, then from right to left.
+/// Edges of all loops, sorted by rows and within a row by their right ends.
 class EdgeRows {
 public:
     explicit EdgeRows(const std::vector<Loop>& loops)
@@ -46,7 +47,7 @@ public:
                 top = std::max(top, points[i].y);
             }
         }
-        // About as many rows as make the edges' entries and the rows themselves equally many for traced loops.
+        // With about this many rows, traced loops have as many entries of edges as rows.
         const std::size_t rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(edges_.size())));
         rows_.resize(rows);
         per_unit_ = top > bottom_ ? static_cast<double>(rows) / (top - bottom_) : 0.0;
@@ -62,18 +63,18 @@ public:
                           [&](std::size_t row) { std::sort(rows_[row].entries.begin(), rows_[row].entries.end()); });
     }
 
-    /// The loop whose edge is met first going left from a point, other than the loop excepted.
+    /// The loop whose edge is met first on the way left from a point; one loop is excepted.
     [[nodiscard]] std::optional<std::size_t> firstLeftOf(Vec2 point, std::size_t excepted) const
     {
         std::optional<std::size_t> found;
         double nearest = -std::numeric_limits<double>::infinity();
         const Row& row = rows_[rowOf(point.y)];
-        // Edges that end further to the right begin to the right of the point.
+        // Edges that end further right than this begin to the right of the point.
         const Entry rightmost{point.x + row.widest, edges_.size()};
         for (auto entry = std::upper_bound(row.entries.begin(), row.entries.end(), rightmost);
              entry != row.entries.begin() && std::prev(entry)->right >= nearest; --entry) {
             const Edge& edge = edges_[std::prev(entry)->edge];
-            // Half-open in height, so that a line through a vertex meets one of its two edges.
+            // Edges are half-open in height, so that a line through a vertex meets one of its two edges.
             if (edge.loop == excepted || (edge.from.y > point.y) == (edge.to.y > point.y)) {
                 continue;
             }
@@ -89,7 +90,7 @@ public:
 
 private:
     struct Entry {
-        double right = 0.0;  ///< the edge's right end
+        double right = 0.0;  ///< right end of the edge
         std::size_t edge = 0;
 
         friend bool operator<(const Entry& a, const Entry& b)
@@ -100,7 +101,7 @@ private:
 
     struct Row {
         std::vector<Entry> entries;
-        double widest = 0.0;  ///< of any edge, from left to right
+        double widest = 0.0;  ///< largest width of an edge
     };
 
     [[nodiscard]] std::size_t rowOf(double y) const
@@ -137,7 +138,7 @@ Domain split(const Outline& outline)
     const std::vector<Loop>& loops = outline.loops;
     Domain domain;
     domain.extent = outline.extent;
-    // For a rim, its own droplet; for a hole, the droplet it lies in once that is known.
+    // Droplet of every loop: for a rim its own, for a hole the one it lies in, once that is known.
     std::vector<std::size_t> droplet_of(loops.size());
     std::vector<std::size_t> holes;
     for (std::size_t k = 0; k < loops.size(); ++k) {
@@ -154,7 +155,7 @@ Domain split(const Outline& outline)
     if (holes.empty()) {
         return domain;
     }
-    // From left to right, a hole met on the way has its droplet already.
+    // Holes go from left to right, so that a hole met on the way left has its droplet already.
     std::vector<std::pair<Vec2, std::size_t>> from_left;
     from_left.reserve(holes.size());
     for (const std::size_t hole : holes) {
@@ -165,11 +166,11 @@ Domain split(const Outline& outline)
     for (const auto& [point, hole] : from_left) {
         const std::optional<std::size_t> neighbour = rows.firstLeftOf(point, hole);
         if (!neighbour) {
-            throw Error(ErrorCode::InvalidInput, "a hole of the outline lies in no rim");
+            throw Error(ErrorCode::InvalidInput, "a hole of the outline lies outside of all rims");
         }
         droplet_of[hole] = droplet_of[*neighbour];
     }
-    // Holes in the order of the outline, whatever order they were sorted out in.
+    // Holes keep the order of the outline.
     for (const std::size_t hole : holes) {
         domain.droplets[droplet_of[hole]].holes.push_back(loops[hole]);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Minimum-variation curves: H. P. Moreton and C. H. Séquin, "Functional optimization for fair surface design",
-// SIGGRAPH 1992 (the functional ∫ (dκ/ds)² ds). Here the curve is a polygon whose vertices have one freedom each, so
-// the functional is minimised by Gauss–Newton on the discrete (Menger) curvature, with the place of every vertex as a
-// random variable: normal about what grey levels say, or, in a hard mask, with density 6t(1 − t) over its slot.
-// Departure: the variation is weighed against the curvature itself, as in scale-invariant minimum-variation curves
-// (Moreton and Séquin, section 6).
+// Minimum-variation curves: H. P. Moreton and C. H. Séquin, "Functional optimization for fair surface design", SIGGRAPH
+// 1992 (the functional ∫ (dκ/ds)² ds). Here the curve is a polygon whose vertices have one degree of freedom each. So
+// Gauss–Newton minimises the functional on the discrete (Menger) curvature. The place of a vertex is a random variable:
+// normal about the place from grey levels, or, in a hard mask, with density 6t(1 − t) over its slot. Departure: the
+// variation is weighed against the curvature itself, as in scale-invariant minimum-variation curves (Moreton and
+// Séquin, section 6).
 
 #include "footprint/fairing.h"
 
@@ -19,32 +19,32 @@
 namespace droplet {
 namespace {
 
-/// Radius below which a curve may vary its curvature more freely [px]: what counts is dκ/ds against κ², so that small
-/// shapes are treated like large ones seen from afar.
+/// Radius below which the curvature of a curve may vary more freely [px]. The cost depends on dκ/ds relative to κ², so
+/// that small shapes are treated like large ones seen from afar.
 constexpr double kFreeRadius = 4.0;
 
-/// Most Gauss–Newton steps; discs and squares settle in half a dozen.
+/// Maximum number of Gauss–Newton steps; discs and squares converge in half a dozen.
 constexpr int kSteps = 20;
 
-/// Most halvings of a step that makes the curve worse.
+/// Maximum number of halvings of a step that makes the curve worse.
 constexpr int kHalvings = 6;
 
-/// Lengths enter curvatures no shorter than about this [px]: crossings next to a pixel centre nearly coincide.
-constexpr double kShortest = 0.05;
+/// Smallest length in a curvature, roughly [px]; crossings next to a pixel centre nearly coincide.
+constexpr double kMinLength = 0.05;
 
-/// Rows of the normal equations reach this far to either side: a variation of curvature spans four vertices.
+/// Half-width of the rows of the normal equations: a variation of curvature spans four vertices.
 constexpr std::size_t kHalfBand = 3;
 
-/// Coupling around the loop, relative to the diagonal, below which elimination no longer carries it along.
+/// Coupling around the loop, relative to the diagonal, below which it is dropped.
 constexpr double kNoCoupling = 1e-40;
 
 double smoothLength(Vec2 a)
 {
-    return std::sqrt(dot(a, a) + kShortest * kShortest);
+    return std::sqrt(dot(a, a) + kMinLength * kMinLength);
 }
 
-/// Half the square of how unlikely a slot's place is; in a hard mask, minus the logarithm of its density over that at
-/// the middle.
+/// Cost of a slot's place: half the squared deviation in standard deviations. In a hard mask, minus the logarithm of
+/// the density relative to that at the middle.
 double placeStrain(const Slot& slot)
 {
     if (!slot.measured) {
@@ -93,14 +93,14 @@ PlaceCost placeCost(const Slot& slot)
     return {above - below, below * below + above * above};
 }
 
-/// A polygon's vertices and what the functional needs of them.
+/// Polygon with the quantities that the functional needs.
 ///
-/// Every vector wraps around: after the last of n entries the first few stand once more.
+/// Every vector wraps around: after its n entries the first few are repeated.
 struct Polygon {
     std::vector<Vec2> points;
     std::vector<double> edges;   ///< smooth length of the edge to the next vertex
     std::vector<double> scales;  ///< 2/(product of the sides) of vertices i, i + 1, i + 2: curvature per cross product
-    std::vector<double> bends;   ///< their (Menger) curvature
+    std::vector<double> bends;   ///< Menger curvature of these vertices
 };
 
 template <class Value>
@@ -138,7 +138,7 @@ void measure(const SlotLoop& loop, Polygon& polygon)
     wrap(polygon.bends);
 }
 
-/// The term of the functional between slots i + 1 and i + 2, from the curvatures at both.
+/// Term of the functional between slots i + 1 and i + 2, from the curvatures at both.
 struct Variation {
     double weight = 0.0;
     double difference = 0.0;
@@ -174,13 +174,14 @@ void measureVariations(const Polygon& polygon, const FairingOptions& options, st
     }
 }
 
-/// A row of the normal equations: the vertex's own coefficient and those of the next three, then the right-hand side.
+/// Row of the normal equations: the vertex's own coefficient, those of the next three vertices, and the right-hand
+/// side.
 struct Row {
     std::array<double, kHalfBand + 1> band{};
     double right = 0.0;
 };
 
-/// The normal equations of one Gauss–Newton step: a band of half-width 3 that wraps around.
+/// Normal equations of one Gauss–Newton step: a band of half-width 3 that wraps around.
 void assemble(const SlotLoop& loop, const Polygon& polygon, const std::vector<Variation>& terms, std::vector<Row>& rows)
 {
     const std::size_t n = loop.size();
@@ -191,7 +192,7 @@ void assemble(const SlotLoop& loop, const Polygon& polygon, const std::vector<Va
         rows[i].right = -cost.gradient;
     }
     const auto toward = [&](std::size_t i) { return loop[i < n ? i : i - n].toward; };
-    // Derivatives of the curvature at slots i, i + 1, i + 2 with respect to their places.
+    // Derivatives of the curvature at slots i, i + 1, i + 2 with respect to their places
     const auto derivatives = [&](std::size_t i) {
         const Vec2 ab = polygon.points[i + 1] - polygon.points[i];
         const Vec2 bc = polygon.points[i + 2] - polygon.points[i + 1];
@@ -223,12 +224,12 @@ void assemble(const SlotLoop& loop, const Polygon& polygon, const std::vector<Va
     rows.resize(n);
 }
 
-/// Solves the normal equations by LDLᵀ, row after row but for the last six, which are left as a dense block. The
-/// coupling around the loop, of the first three rows to the last three, moves along for as long as there is any of it:
-/// it dies out like the influence of one vertex on another.
+/// Solves the normal equations by LDLᵀ, row after row. The last six rows are left as a dense block. The first three
+/// rows are coupled to the last three around the loop. Elimination carries this coupling along until it becomes
+/// negligible, as the influence of one vertex on another does.
 class BandSolver {
 public:
-    /// @param rows  at least 8; destroyed
+    /// @param rows  at least 8; overwritten
     /// @return      the Newton step; empty if round-off spoils the factorisation
     const std::vector<double>& solve(std::vector<Row>& rows)
     {
@@ -241,13 +242,13 @@ public:
 
 private:
     static constexpr std::size_t kDense = 2 * kHalfBand;
-    /// A row's coupling to the last three.
+    /// Coupling of a row to the last three rows.
     using Around = std::array<double, kHalfBand>;
 
     [[nodiscard]] bool eliminate(std::vector<Row>& rows)
     {
         const std::size_t n = rows.size();
-        std::array<Around, kHalfBand> around{};  // of rows k, k + 1, k + 2
+        std::array<Around, kHalfBand> around{};  // coupling of rows k, k + 1, k + 2
         for (std::size_t k = 0; k < kHalfBand; ++k) {
             for (std::size_t q = k; q < kHalfBand; ++q) {
                 around[k][q] = rows[n - kHalfBand + q].band[k + kHalfBand - q];
@@ -279,8 +280,8 @@ private:
         return true;
     }
 
-    /// Eliminates one row from what is coupled around the loop.
-    /// @return whether anything is left that is
+    /// Eliminates one row from the coupling around the loop.
+    /// @return whether any coupling is left
     bool carryAround(std::array<Around, kHalfBand>& around, const Row& factor, double pivot)
     {
         const Around here = around[0];
@@ -305,7 +306,7 @@ private:
         return true;
     }
 
-    /// Adds what is left of the last six rows to what elimination took from the last three.
+    /// Adds the last six rows to the terms that elimination put into the last three.
     void fillDense(const std::vector<Row>& rows, const std::array<Around, kHalfBand>& around)
     {
         const std::size_t first = rows.size() - kDense;
@@ -341,7 +342,7 @@ private:
         }
     }
 
-    /// Where the last three rows stand among the last six.
+    /// Index of one of the last three rows within the last six.
     static Eigen::Index row(std::size_t q) { return static_cast<Eigen::Index>(q + kHalfBand); }
 
     using Dense = Eigen::Matrix<double, kDense, 1>;
@@ -351,7 +352,7 @@ private:
     std::vector<double> solution_;
 };
 
-/// A loop and its cost.
+/// Loop and its cost.
 struct Curve {
     SlotLoop loop;
     Polygon polygon;
@@ -369,7 +370,7 @@ struct Curve {
     }
 };
 
-/// Moves a loop along a part of the step, every slot at most nine tenths of the way to its end.
+/// Moves a loop by a part of the step; every slot moves at most nine tenths of the way to its end.
 void move(const SlotLoop& loop, const std::vector<double>& step, double part, SlotLoop& result)
 {
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -379,11 +380,11 @@ void move(const SlotLoop& loop, const std::vector<double>& step, double part, Sl
     }
 }
 
-/// Least distance of neighbouring knots [px], by where they are measured: the curvature through two crossings next to
-/// the same pixel centre says nothing but how they were rounded.
+/// Smallest distance of neighbouring knots by their measured places [px]. The curvature through two crossings next to
+/// the same pixel centre only shows how they were rounded.
 constexpr double kKnotSpacing = 0.4;
 
-/// The slots that carry curvature; those between follow them.
+/// Slots that carry curvature; those between two knots follow them.
 std::vector<std::size_t> knots(const SlotLoop& loop)
 {
     const auto place = [](const Slot& slot) { return slot.liquid + slot.measured.value_or(0.5) * slot.toward; };
@@ -409,7 +410,7 @@ SlotLoop select(const SlotLoop& loop, const std::vector<std::size_t>& indices)
     return result;
 }
 
-/// Breaks between the knots: wherever there is one between the slots from one knot to the next.
+/// Breaks between the knots: one wherever there is a break between the slots from one knot to the next.
 FairingOptions selectBreaks(const FairingOptions& options, const std::vector<std::size_t>& indices)
 {
     FairingOptions result{{}, options.fairness};
@@ -430,7 +431,7 @@ FairingOptions selectBreaks(const FairingOptions& options, const std::vector<std
     return result;
 }
 
-/// Puts a slot where the chord between two points crosses it, as far as it reaches.
+/// Puts a slot's vertex where the chord between two points crosses the slot, within the slot.
 void follow(Slot& slot, Vec2 from, Vec2 to)
 {
     const double slope = cross(slot.toward, to - from);
@@ -442,7 +443,7 @@ void follow(Slot& slot, Vec2 from, Vec2 to)
 /// Fairs a loop whose slots are all knots.
 void fairKnots(SlotLoop& loop, const FairingOptions& options)
 {
-    // A band that wraps around onto itself has no place to put its entries twice.
+    // The band of a shorter loop would overlap itself.
     if (loop.size() < 8) {
         return;
     }
@@ -512,7 +513,7 @@ std::vector<double> strain(const SlotLoop& loop, const FairingOptions& options)
     measureVariations(polygon, selectBreaks(options, indices), terms);
     std::vector<double> result(loop.size(), 0.0);
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        // Terms stand at the first of their four slots; the piece between the middle two begins at the second.
+        // A term is stored at the first of its four slots; the piece between the middle two begins at the second.
         result[indices[(k + 1) % indices.size()]] =
             placeStrain(carriers[(k + 1) % indices.size()]) + variationStrain(terms[k]);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which levels of a picture are liquid. Everything is decided on histograms of 65536 levels and applied through
-// one table, in place: two passes over the pixels and no memory beyond the plane that becomes the coverage.
+// Decides which levels of a picture are liquid, on histograms of 65536 levels, and applies the result through one
+// table, in place: two passes over the pixels, and no memory beyond the plane that becomes the coverage.
 #include "droplet/footprint/mask.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::int64_t kWhite = std::numeric_limits<std::uint16_t>::max();
 
-/// How many pixels have each level.
+/// Number of pixels of each level.
 using Histogram = std::vector<std::uint64_t>;
 
 Histogram emptyHistogram()
@@ -35,7 +35,7 @@ Histogram emptyHistogram()
 
 Histogram histogramOf(const std::vector<std::uint16_t>& plane)
 {
-    // Most of a mask is of one level over wide stretches, which compilers compare by vector instructions.
+    // Most of a mask has one level over wide areas, which compilers compare by vector instructions.
     constexpr std::size_t kBlock = 64;
     Histogram histogram = emptyHistogram();
     for (std::size_t first = 0; first < plane.size(); first += kBlock) {
@@ -61,21 +61,22 @@ std::uint64_t pixelsAt(const Histogram& histogram, std::int64_t level)
     return level < 0 || level > kWhite ? 0 : histogram[static_cast<std::size_t>(level)];
 }
 
-/// The levels that become coverage 0 and 1.
+/// Levels that become coverage 0 and 1.
 struct Range {
     std::int64_t dry = 0;
     std::int64_t liquid = kWhite;
-    bool clear = false;      ///< whether the picture says so itself
-    bool is_uneven = false;  ///< whether much of the picture is dry by far: the border does not tell of the middle
+    bool clear = false;      ///< whether the picture itself shows them
+    bool is_uneven = false;  ///< whether much of the picture is far on the dry side: the border's level is not that of
+                             ///< the whole ground
 };
 
-/// Whether two levels this far apart are told apart: a quarter of the range.
+/// Whether two levels at this distance are clearly different: a quarter of the range.
 bool isClear(std::int64_t distance)
 {
     return 4 * distance >= kWhite;
 }
 
-/// The level that half the border's pixels do not exceed (the darker of two if exactly half).
+/// Level that half of the border's pixels do not exceed (the darker of two if exactly half).
 std::int64_t borderLevel(const std::vector<std::uint16_t>& plane, int width, int height)
 {
     const auto columns = static_cast<std::size_t>(width);
@@ -105,13 +106,14 @@ std::int64_t borderLevel(const std::vector<std::uint16_t>& plane, int width, int
     return level;
 }
 
-/// Distance from `dry` of the farthest level towards `sign` that is not a stray: more than a hundredth of all
-/// marked pixels lie at it or up to an eighth nearer. None if no pixel that way is clear of `dry`.
+/// Distance from `dry` of the farthest level towards `sign` that is not a stray: more than a hundredth of all marked
+/// pixels have this level or one up to an eighth nearer. 0 if no pixel in that direction is clear of `dry`.
 ///
-/// The farthest level alone would hang on one hot pixel, a quantile would cut the top off a soft mark. So strays
-/// are told by their loneliness, and counted against the marked pixels, not the image: a mark of under a hundred
-/// pixels keeps its level in an image of any size. An eighth, because a mark's own noise may reach so far: then
-/// the stretched level of its body is still above 7/8, and its half level off by less than 1/16 of the step.
+/// The farthest level alone would depend on one hot pixel, and a quantile would cut the top off a soft mark. So a level
+/// is a stray if few pixels are near it. They are counted relative to the marked pixels, not to the image, so that a
+/// mark of under a hundred pixels keeps its level in an image of any size. The noise of a mark may reach an eighth of
+/// the distance. Then the stretched level of its body is still above 7/8, and its half level is off by less than 1/16
+/// of the step.
 std::int64_t farthest(const Histogram& histogram, std::int64_t dry, int sign, std::uint64_t marked)
 {
     const std::int64_t reach = sign > 0 ? kWhite - dry : dry;
@@ -131,7 +133,7 @@ std::int64_t farthest(const Histogram& histogram, std::int64_t dry, int sign, st
     return 0;
 }
 
-/// The levels of a picture of liquid on a dry ground that reaches the border.
+/// Levels of a picture that shows liquid on a dry ground which reaches the border.
 Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, int height)
 {
     const Histogram histogram = histogramOf(plane);
@@ -155,14 +157,14 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
         }
         return {dry, is_dark ? dry - distance : dry + distance, true, 10 * beyond > plane.size()};
     }
-    // Nothing stands out. Unstretched, towards the farther end of the range, no pixel reaches half.
+    // Nothing stands out. Without stretching, no pixel reaches half towards the farther end of the range.
     return {dry, 2 * dry > kWhite ? 0 : kWhite, false};
 }
 
-/// Whether a picture says with its alpha where it is: some pixel is less than half opaque.
+/// Whether a picture uses its alpha: some pixel is less than half opaque.
 bool usesAlpha(const std::vector<std::uint16_t>& alpha)
 {
-    // Not std::any_of nor std::min_element, of which compilers make no vector instructions.
+    // std::any_of and std::min_element would not be vectorised.
     std::uint16_t min = kWhite;
     for (const std::uint16_t level : alpha) {
         min = std::min(min, level);
@@ -170,7 +172,7 @@ bool usesAlpha(const std::vector<std::uint16_t>& alpha)
     return 2 * std::int64_t{min} < kWhite;
 }
 
-/// The levels of an alpha channel. Drawn, not photographed, it has no strays.
+/// Levels of an alpha channel. It is drawn, not photographed, so it has no strays.
 Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
 {
     std::uint16_t max = 0;
@@ -203,7 +205,7 @@ void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool inve
     }
 }
 
-/// What a channel without the image's own decision holds: alpha that is not there is opaque.
+/// Plane of a channel; missing alpha is opaque.
 std::vector<std::uint16_t> planeOf(Image image, Channel channel)
 {
     if (channel != Channel::Alpha) {
@@ -220,7 +222,7 @@ double shareOfWhite(std::int64_t level)
     return static_cast<double>(level) / static_cast<double>(kWhite);
 }
 
-/// What a mask takes over from its picture: all but the coverage.
+/// Mask with all properties of its picture except the coverage.
 /// @param of  Image or Mask
 template <typename Picture>
 Mask blankMask(const Picture& of)
@@ -233,7 +235,7 @@ Mask blankMask(const Picture& of)
     return mask;
 }
 
-/// The mask of a picture in which a way of segmentation finds nothing.
+/// Mask of a picture in which a segmentation method finds nothing.
 /// @param of  Image or Mask
 template <typename Picture>
 Mask dryMask(const Picture& of, const MaskOptions& options, Segmentation segment)
@@ -246,14 +248,14 @@ Mask dryMask(const Picture& of, const MaskOptions& options, Segmentation segment
     return mask;
 }
 
-/// A mask, and whether the ground it was told from has one level.
+/// Mask found by levels, and whether its ground has several levels.
 struct LevelMask {
     Mask mask;
     bool is_uneven = false;
 };
 
 /// Decides which levels are liquid, and turns one plane of the image into coverage in place.
-/// @throws Error InvalidInput: no alpha where alpha was asked
+/// @throws Error InvalidInput: no alpha although Channel::Alpha is set
 LevelMask maskFromImage(Image image, const MaskOptions& options)
 {
     if (options.levels) {
@@ -262,7 +264,8 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
         if (options.channel != Channel::Auto || levels.channel == Channel::Auto || !within(levels.dry) ||
             !within(levels.liquid) || levels.dry == levels.liquid) {
             throw Error(ErrorCode::InvalidArgument,
-                        "options.levels must be two levels from 0 to 1 of one channel, and options.channel Auto");
+                        "options.levels must be two different levels from 0 to 1 of one channel, and options.channel "
+                        "must be Auto");
         }
     }
     Mask mask = blankMask(image);
@@ -270,9 +273,9 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
     if (options.channel == Channel::Auto) {
         mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
     } else if (options.channel == Channel::Alpha && image.alpha.empty()) {
-        throw Error(ErrorCode::InvalidInput, "--channel alpha was asked for, but the image has none");
+        throw Error(ErrorCode::InvalidInput, "--channel alpha: the image has no alpha channel");
     }
-    std::vector<std::uint16_t> given;  // the channel of the levels that were given, if the image's own is another
+    std::vector<std::uint16_t> given;  // plane of the given levels' channel, if the image's own channel differs
     if (options.levels && options.levels->channel != mask.channel) {
         given = planeOf(image, options.levels->channel);
     }
@@ -305,7 +308,7 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
     return {std::move(mask), range.is_uneven};
 }
 
-/// The mask that a way of segmentation other than one threshold makes of a picture; none if it finds nothing.
+/// Mask by a segmentation method other than Threshold; none if it finds nothing.
 /// @param image    with colour
 /// @param segment  Adaptive, GrabCut or Colour
 std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Segmentation segment)
@@ -326,7 +329,7 @@ std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Se
     mask.segment = segment;
     mask.segment_confidence = found->confidence;
     if (segment != Segmentation::Colour) {
-        mask.segment_confidence *= fewColours(image, mask.coverage);
+        mask.segment_confidence *= hueUniformity(image, mask.coverage);
     }
     mask.level_dry = found->level_dry;
     mask.level_liquid = found->level_liquid;
@@ -346,7 +349,7 @@ Image decode(std::span<const std::byte> encoded, const MaskOptions& options, boo
                                  .drawing = {options.vector_seconds, options.vector_memory}});
 }
 
-/// A picture whose luma is as it is seen in front of black.
+/// The picture with the luma it has in front of black.
 Image inFrontOfBlack(Image image)
 {
     if (!image.alpha.empty()) {
@@ -360,42 +363,42 @@ Image inFrontOfBlack(Image image)
     return image;
 }
 
-/// What Segmentation::Auto makes of a picture of which one threshold makes a mask.
-/// @throws Error InvalidInput: it is no mask, however it is taken
-Mask decided(std::span<const std::byte> encoded, const MaskOptions& options, LevelMask levels)
+/// Mask by Segmentation::Auto: the one by levels, or the adaptive one if that is better.
+/// @throws Error InvalidInput: neither looks like a mask
+Mask autoMask(std::span<const std::byte> encoded, const MaskOptions& options, LevelMask levels)
 {
     constexpr double kClean = 0.9;
     constexpr double kBetter = 0.05;
-    constexpr double kNoMask = 0.3;
+    constexpr double kMinConfidence = 0.3;
     Mask mask = std::move(levels.mask);
-    const MaskLook look = lookOfMask({mask.width, mask.height, mask.coverage}, true);
-    mask.segment_confidence = look.confidence;
-    if (look.confidence >= kClean && !levels.is_uneven) {
+    const MaskLikeness likeness = maskLikeness({mask.width, mask.height, mask.coverage}, true);
+    mask.segment_confidence = likeness.confidence;
+    if (likeness.confidence >= kClean && !levels.is_uneven) {
         return mask;
     }
     const Image image = inFrontOfBlack(decode(encoded, options, true));
-    // One level in the middle of several grounds puts rims off.
+    // One level between several grounds displaces rims.
     constexpr double kUneven = 0.7;
-    mask.segment_confidence *= fewColours(image, mask.coverage) * (levels.is_uneven ? kUneven : 1.0);
+    mask.segment_confidence *= hueUniformity(image, mask.coverage) * (levels.is_uneven ? kUneven : 1.0);
     // A drawing may have any number of colours.
-    if (look.has_rim && isDrawn({image.width, image.height, image.luma})) {
+    if (likeness.has_rim && isDrawn({image.width, image.height, image.luma})) {
         mask.segment_confidence = std::max(0.5, mask.segment_confidence);
-        if (look.sharp) {
+        if (likeness.sharp) {
             return mask;
         }
     }
     auto other = segmented(image, options, Segmentation::Adaptive);
     if (other && other->segment_confidence > mask.segment_confidence + kBetter &&
-        other->segment_confidence >= kNoMask) {
+        other->segment_confidence >= kMinConfidence) {
         return std::move(*other);
     }
-    if (look.has_rim && mask.segment_confidence < kNoMask && !options.insist) {
+    if (likeness.has_rim && mask.segment_confidence < kMinConfidence && !options.insist) {
         if (!other && options.may_be_dry) {
             return dryMask(image, options, Segmentation::Threshold);
         }
         throw Error(ErrorCode::InvalidInput,
-                    "is no picture of a footprint: it does not fall into liquid and dry with an edge between them; "
-                    "--segment or --threshold takes it all the same");
+                    "does not look like a footprint: no clear edge between liquid and dry; "
+                    "use --segment or --threshold to read it anyway");
     }
     return mask;
 }
@@ -416,16 +419,16 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
             throw Error(ErrorCode::InvalidInput, "nothing in the picture has the colour " + text(*options.colour) +
                                                      "; its most common colours are " + commonColours(image));
         }
-        const bool by_levels = options.segment == Segmentation::Auto || options.segment == Segmentation::Threshold;
+        const bool by_threshold = options.segment == Segmentation::Auto || options.segment == Segmentation::Threshold;
         LevelMask levels = maskFromImage(decode(encoded, options, false), options);
         Mask& mask = levels.mask;
         if (mask.channel == Channel::Alpha) {
             return mask;
         }
-        if (by_levels) {
-            const bool is_open =
+        if (by_threshold) {
+            const bool is_auto =
                 options.segment == Segmentation::Auto && options.channel == Channel::Auto && !options.levels;
-            return is_open && !mask.drawn_scale ? decided(encoded, options, std::move(levels)) : std::move(mask);
+            return is_auto && !mask.drawn_scale ? autoMask(encoded, options, std::move(levels)) : std::move(mask);
         }
         if (auto found = segmented(inFrontOfBlack(decode(encoded, options, true)), options, options.segment)) {
             return std::move(*found);

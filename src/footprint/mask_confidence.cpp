@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether levels are those of a mask. Robust figures in the spirit of N. Otsu, "A threshold selection method from
-// gray-level histograms" (1979): how far the two classes' levels lie apart, in units of how far they are spread.
+// Decides whether levels are those of a mask. Robust figures in the spirit of N. Otsu, "A threshold selection method
+// from gray-level histograms" (1979): the distance of the two classes' levels in units of their spread.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,12 +47,12 @@ private:
     std::uint64_t total_ = 0;
 };
 
-/// What rows and columns tell of a mask.
+/// Statistics of a mask along its rows and columns.
 class Survey {
 public:
     explicit Survey(const LevelView& plane) : plane_(plane)
     {
-        // As far as the blur of a picture a little out of focus.
+        // The blur of a picture that is slightly out of focus.
         reach_ = std::max(4, std::min(plane.width, plane.height) / 100);
         constexpr int kLines = 512;
         for (int y = 0; y < plane.height; y += 1 + plane.height / kLines) {
@@ -63,16 +63,16 @@ public:
         }
     }
 
-    [[nodiscard]] bool findsRim() const { return crossings_ > 0; }
+    [[nodiscard]] bool hasRim() const { return crossings_ > 0; }
 
-    /// Share of the rim beside which, within reach, the level changes by half of the way from dry to liquid.
+    /// Share of the rim at which the level changes, within reach, by half of the range from dry to liquid.
     [[nodiscard]] double sharp() const { return static_cast<double>(sharp_) / static_cast<double>(crossings_); }
 
-    /// How far apart the classes' levels are, in units of their spread.
+    /// Distance of the classes' levels in units of their spread.
     [[nodiscard]] double separation() const
     {
-        constexpr std::uint64_t kFewest = 64;
-        if (off_rim_[0].total() < kFewest || off_rim_[1].total() < kFewest) {
+        constexpr std::uint64_t kMinSamples = 64;
+        if (off_rim_[0].total() < kMinSamples || off_rim_[1].total() < kMinSamples) {
             return std::numeric_limits<double>::infinity();
         }
         constexpr double kRounding = 0.02;
@@ -83,7 +83,7 @@ public:
         return (off_rim_[1].quantile(0.5) - off_rim_[0].quantile(0.5)) / spread;
     }
 
-    /// Share of pixels that are fully dry or fully liquid, in the class that has fewer of them.
+    /// Share of fully dry or fully liquid pixels, in the class with the smaller share.
     [[nodiscard]] double plateaus() const
     {
         const auto share = [&](std::size_t k) {
@@ -92,8 +92,8 @@ public:
         return std::min(share(0), share(1));
     }
 
-    /// Share of single pixels of the other class, in the class that has fewer of them: drawings have dots in one class,
-    /// noise makes them in both.
+    /// Share of isolated pixels of the other class, in the class with the smaller share. Drawings have dots in one
+    /// class; noise makes them in both.
     [[nodiscard]] double grains() const
     {
         const auto share = [&](std::size_t k) {
@@ -131,12 +131,12 @@ private:
         for (int i = begin + reach_; i < end - reach_; ++i) {
             off_rim_[kind].add(at(first + i * step));
         }
-        if (end - begin == 1 && isAlone(first + begin * step)) {
+        if (end - begin == 1 && isIsolated(first + begin * step)) {
             ++grains_[1 - kind];
         }
     }
 
-    [[nodiscard]] bool isAlone(std::ptrdiff_t index) const
+    [[nodiscard]] bool isIsolated(std::ptrdiff_t index) const
     {
         const std::ptrdiff_t x = index % plane_.width;
         const std::ptrdiff_t y = index / plane_.width;
@@ -180,7 +180,7 @@ double ramp(double value, double from, double to)
     return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-/// Share of the picture in regions whose rim has no edge, at a size where that is quickly seen.
+/// Share of the picture in regions whose rim has no edge, measured on a small copy.
 double softRegions(const LevelView& plane)
 {
     const cv::Mat levels = workingImage(plane);
@@ -197,14 +197,14 @@ double softRegions(const LevelView& plane)
 
 }  // namespace
 
-MaskLook lookOfMask(const LevelView& coverage, bool as_they_stand)
+MaskLikeness maskLikeness(const LevelView& coverage, bool is_original)
 {
     constexpr int kTooSmall = 128;
     if (std::min(coverage.width, coverage.height) < kTooSmall) {
         return {1.0, true, true};
     }
     const Survey survey(coverage);
-    if (!survey.findsRim()) {
+    if (!survey.hasRim()) {
         return {};
     }
     constexpr double kSharp = 0.97;
@@ -215,16 +215,16 @@ MaskLook lookOfMask(const LevelView& coverage, bool as_they_stand)
     if (confidence > 0.0 && sharp < kEverywhere) {
         confidence *= 1.0 - 0.8 * ramp(softRegions(coverage), 0.0005, 0.003);
     }
-    // Soft edges between two levels are a mask's, too, if not a sharp one's.
+    // Soft edges between two levels can also be those of a mask.
     constexpr double kBimodal = 0.55;
-    const double min = as_they_stand && survey.plateaus() >= kBimodal ? 0.5 : 0.0;
+    const double min = is_original && survey.plateaus() >= kBimodal ? 0.5 : 0.0;
     return {std::max(min, confidence), true, sharp >= kSharp};
 }
 
 bool isDrawn(const LevelView& luma)
 {
     constexpr int kLines = 128;
-    constexpr double kMuch = 0.4;
+    constexpr double kMinFlatShare = 0.4;
     const std::ptrdiff_t wide = std::max(8, std::min(luma.width, luma.height) / 16);
     std::ptrdiff_t flat = 0;
     std::ptrdiff_t total = 0;
@@ -239,7 +239,7 @@ bool isDrawn(const LevelView& luma)
         }
         total += luma.width;
     }
-    return static_cast<double>(flat) >= kMuch * static_cast<double>(total);
+    return static_cast<double>(flat) >= kMinFlatShare * static_cast<double>(total);
 }
 
 }  // namespace droplet

@@ -2,8 +2,8 @@
 //
 // Tracing: borders of the thresholded mask, refined to the crossings of marching squares.
 // Sub-pixel place: the height function of volume-of-fluid methods (S. J. Cummins, M. M. Francois and D. B. Kothe,
-// "Estimating curvature from volume fractions", 2005): the coverage summed across the rim is its mean place, exact for
-// straight edges, where interpolating single pixels is up to 0.09 px off.
+// "Estimating curvature from volume fractions", 2005). The coverage summed across the rim gives its mean place. This is
+// exact for straight edges, while interpolation of single pixels is up to 0.09 px off.
 
 #include "droplet/footprint/outline.h"
 
@@ -30,42 +30,43 @@ namespace {
 
 constexpr double kFull = std::numeric_limits<std::uint16_t>::max();
 
-/// Coverage this close to 0 or 1 is dry or liquid: JPEG ringing at good quality, 8-bit rounding many times over.
+/// Coverage this close to 0 or 1 counts as dry or liquid. It allows for JPEG ringing at good quality and for many times
+/// the rounding to 8 bits.
 constexpr double kSaturated = 0.04;
 
-/// Share of rim crossings beside an intermediate pixel from which a mask counts as anti-aliased: hard masks have none,
-/// anti-aliased ones most, but for sides that fall on pixel borders.
+/// Share of rim crossings beside an intermediate pixel from which a mask counts as anti-aliased. In hard masks no
+/// crossing is, in anti-aliased ones most are, except on sides along pixel borders.
 constexpr double kAntiAliasedShare = 0.15;
 
-/// Pixels looked at on either side for the rim to become full liquid and full dry: an edge at 45° needs 2, a
-/// blur of 1.5 px another 2.
+/// Number of pixels examined on either side of the rim until full liquid and full dry: an edge at 45° needs 2, a blur
+/// of 1.5 px another 2.
 constexpr int kReach = 4;
 
-/// Standard deviations of a measured place [px], above what discs of 3 to 100 px, rendered exactly in 8 bits, show: the
-/// height function, with and without its neighbours; interpolation between two pixels, at worst 0.09 off; a pixel
-/// beside a corner, where neither holds; the image's border.
+/// Standard deviations of a measured place [px]; all larger than those measured on discs of 3 to 100 px, rendered
+/// exactly in 8 bits. In order: the height function with its neighbours, and without; interpolation between two pixels,
+/// at worst 0.09 off; a pixel beside a corner, where neither holds; the image's border.
 constexpr double kHeightSpread = 0.02;
 constexpr double kRoughHeightSpread = 0.05;
 constexpr double kInterpolatedSpread = 0.1;
 constexpr double kCornerSpread = 0.4;
 constexpr double kBorderSpread = 0.002;
 
-/// Crossings this near to a corner see both its sides in their pixels [px].
+/// The pixels of crossings this near to a corner cover both its sides [px].
 constexpr double kCornerNeighbourhood = 1.5;
 
-/// Fairness of the curve in which corners are looked for: smooths single pixels (waves under 6 px), keeps turns.
+/// Fairness of the curve on which corners are searched. It smooths single pixels (waves under 6 px) and keeps turns.
 constexpr double kDetectionFairness = 10.0;
 
-/// Turns are looked for with long chords, which place them better, then with short ones for strokes of 4 px, whose two
-/// corners long chords take for one [px].
+/// Chords for the search of turns [px]. Long chords place turns better. Short ones find the two corners of strokes of 4
+/// px, which long chords merge into one.
 constexpr std::array<Chord, 2> kChords{{{2.0, 0.75}, {1.25, 0.5}}};
 
-/// A corner must lower the cost of the curve around it by this much, a log-likelihood. In anti-aliased masks arcs of 3
-/// px and more gain up to 500 and right angles at least 2000; in hard ones a right angle between sides of 8 px gains 8.
+/// Gain in log-likelihood that a corner must bring to the curve around it. In anti-aliased masks, arcs of 3 px and more
+/// gain up to 500, and right angles at least 2000. In hard masks, a right angle between sides of 8 px gains 8.
 constexpr double kCornerGain = 1000.0;
 constexpr double kCornerGainHard = 4.0;
 
-/// The mask with a dry frame around it, thresholded or as coverage.
+/// The mask with a dry frame around it.
 class Field {
 public:
     Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold) {}
@@ -84,11 +85,11 @@ private:
     double threshold_;
 };
 
-/// Coverage summed from a pixel on, excluding it, in steps of `out` until it reaches `end` (0 or 1), counted as what is
-/// left to `end`; none if it does not get there monotonically.
+/// Sum of |coverage − end| over the pixels after a pixel, in steps of `out`, until the coverage reaches `end` (0 or 1);
+/// none if it does not get there monotonically.
 std::optional<double> tail(const Field& field, int x, int y, Step out, double end)
 {
-    // Full pixels count as far as they differ from full: down to half a step of 8 bits.
+    // Nearly full pixels count, too, down to half a step of 8 bits.
     constexpr double kExact = 0.002;
     double sum = 0.0;
     double last = std::abs(field.coverage(x, y) - end);
@@ -103,8 +104,8 @@ std::optional<double> tail(const Field& field, int x, int y, Step out, double en
     return sum;
 }
 
-/// Place of the rim along a line of pixels through (x, y), from that pixel's centre in the direction of `out`, by the
-/// height function; none if the line does not run from full liquid to full dry.
+/// Place of the rim along a line of pixels through (x, y), from the centre of that pixel in the direction of `out`, by
+/// the height function; none if the line does not run from full liquid to full dry.
 std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
 {
     const std::optional<double> missing = tail(field, x, y, {-out.x, -out.y}, 1.0);
@@ -115,7 +116,7 @@ std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
     return -0.5 + field.coverage(x, y) - *missing + *ahead;
 }
 
-/// The step across the slot, toward the drier side, if the rim runs more along the slot than across it.
+/// Step across the slot toward the drier side, if the rim runs more along the slot than across it.
 std::optional<Step> sidestep(const Field& field, const Crossing& at)
 {
     const Step d = at.toward();
@@ -130,21 +131,21 @@ std::optional<Step> sidestep(const Field& field, const Crossing& at)
             field.coverage(at.x + k * f.x, at.y + k * f.y) - field.coverage(at.x + d.x + k * f.x, at.y + d.y + k * f.y);
     }
     const double across = 0.5 * (pair(-1) - pair(1));
-    // Sums over three rows against two half-differences over two columns: both are three times the mean gradient.
+    // A sum over three rows and two half-differences over two columns: both are three times the mean gradient.
     if (std::abs(across) * 1.5 <= std::abs(along)) {
         return std::nullopt;
     }
     return across > 0 ? f : Step{-f.x, -f.y};
 }
 
-/// A place read off grey levels.
+/// Place measured from grey levels.
 struct Reading {
     double place = 0.0;
-    bool curved = false;  ///< whether the rim's curvature over neighbouring lines of pixels was known and allowed for
+    bool curved = false;  ///< whether the rim's curvature over neighbouring lines of pixels was known and corrected for
 };
 
-/// The place at which the rim crosses a slot it runs across: a line's mean place, which is that of its middle but for
-/// a twenty-fourth of the second difference between lines (the mean of a parabola over a pixel).
+/// Place where a rim that runs across a slot crosses it. It is the mean place of a line of pixels, minus a
+/// twenty-fourth of the second difference between lines (the mean of a parabola over a pixel).
 std::optional<Reading> readAcross(const Field& field, const Crossing& at)
 {
     const Step d = at.toward();
@@ -160,8 +161,9 @@ std::optional<Reading> readAcross(const Field& field, const Crossing& at)
     return Reading{*here - (*before - 2.0 * *here + *after) / 24.0, true};
 }
 
-/// The place at which the rim crosses a slot it runs along: where the parabola through the heights of the lines beside
-/// it, `side` being the step toward dry, is at the slot's level.
+/// Place where a rim that runs along a slot crosses it: where the parabola through the heights of the lines beside it
+/// reaches the level of the slot.
+/// @param side  step toward dry
 std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step side)
 {
     const Step d = at.toward();
@@ -178,7 +180,7 @@ std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step si
     const double bend = 0.5 * (*before - *here - *there + *beyond);
     const double fall = *here - *there;
     double t = *here / fall;
-    // h(t) = h₀ − t·fall − ½ bend t(1 − t), each height less bend/24 for being a mean.
+    // h(t) = h₀ − t·fall − ½ bend t(1 − t); each height minus bend/24, because it is a mean
     for (int k = 0; k < 4; ++k) {
         const double value = *here - bend / 24.0 - t * fall - 0.5 * bend * t * (1.0 - t);
         t += value / (fall + 0.5 * bend * (1.0 - 2.0 * t));
@@ -186,7 +188,7 @@ std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step si
     return Reading{t, true};
 }
 
-/// Reads the place of a crossing off the grey levels around it.
+/// Measures the place of a crossing from the grey levels around it.
 void measure(const Field& field, const Crossing& at, Slot& slot)
 {
     const Step d = at.toward();
@@ -194,7 +196,7 @@ void measure(const Field& field, const Crossing& at, Slot& slot)
     const double dry = field.coverage(at.x + d.x, at.y + d.y);
     slot.measured = (liquid - field.threshold()) / std::max(liquid - dry, 1e-9);
     slot.spread = kInterpolatedSpread;
-    // Areas speak of the level at half coverage only; another threshold is a level set of the greys.
+    // Areas give the level line of half coverage only; other thresholds use a level set of the greys.
     if (field.threshold() == 0.5) {
         const std::optional<Step> side = sidestep(field, at);
         const std::optional<Reading> reading = side ? readAlong(field, at, *side) : readAcross(field, at);
@@ -231,7 +233,7 @@ SlotLoop placeSlots(const Field& field, const Border& border, bool anti_aliased)
         if (anti_aliased) {
             measure(field, at, slot);
         } else if (!field.inside(at.x + d.x, at.y + d.y)) {
-            // Liquid that reaches the image's border is cut off by it, not somewhere beyond.
+            // Liquid that reaches the image's border ends there, not somewhere beyond.
             slot.measured = 0.5;
             slot.spread = kBorderSpread;
         }
@@ -240,7 +242,7 @@ SlotLoop placeSlots(const Field& field, const Border& border, bool anti_aliased)
     return loop;
 }
 
-/// Twice the area enclosed, positive for liquid inside when y points down and the loop is as traced [px²].
+/// Area enclosed [px²]; positive for liquid inside when y points down and the loop is as traced.
 double enclosedArea(const SlotLoop& loop)
 {
     double sum = 0.0;
@@ -250,7 +252,7 @@ double enclosedArea(const SlotLoop& loop)
     return -0.5 * sum;
 }
 
-/// Frees the places of crossings near a break: their pixels see both sides of the corner.
+/// Loosens the places of crossings near a break, because their pixels cover both sides of the corner.
 void loosenAt(SlotLoop& loop, const std::vector<std::uint8_t>& breaks)
 {
     const std::size_t n = loop.size();
@@ -276,7 +278,7 @@ void loosenAt(SlotLoop& loop, const std::vector<std::uint8_t>& breaks)
     }
 }
 
-/// The faired points of a loop, corners put in; pixels.
+/// Points of a faired loop with its corners; pixels.
 struct PixelLoop {
     std::vector<Vec2> points;
     std::vector<std::uint8_t> corner;
@@ -285,7 +287,7 @@ struct PixelLoop {
 /// Cost of a curve within a few pixels of a turn.
 double costAround(const SlotLoop& loop, const std::vector<double>& strains, const Turn& turn)
 {
-    constexpr double kWindow = 5.0;  // the reach of the fairing around a break, in px
+    constexpr double kWindow = 5.0;  // reach of the fairing around a break [px]
     const std::size_t n = loop.size();
     double cost = 0.0;
     double way = 0.0;
@@ -301,7 +303,7 @@ double costAround(const SlotLoop& loop, const std::vector<double>& strains, cons
     return cost;
 }
 
-/// The points of a faired loop with its corners.
+/// Builds the points of a faired loop with its corners.
 PixelLoop withCorners(const CorneredLoop& cornered)
 {
     const SlotLoop& loop = cornered.slots;
@@ -333,14 +335,14 @@ PixelLoop withCorners(const CorneredLoop& cornered)
     return result;
 }
 
-/// Fairs a loop smooth everywhere.
+/// Fairs a loop without corners.
 CorneredLoop fairWhole(SlotLoop slots)
 {
     fair(slots);
     return {std::move(slots), {}};
 }
 
-/// What fairing with corners needs of a loop at every turn.
+/// Input of fairing with corners, the same at every turn.
 struct CornerSearch {
     const SlotLoop& measured;
     const Coverage& coverage;
@@ -348,8 +350,8 @@ struct CornerSearch {
     std::vector<double> smooth_strain;
 };
 
-/// Turns and further ones as far as they do not overlap, in order along a loop of some slots.
-std::vector<Turn> apart(std::vector<Turn> turns, const std::vector<Turn>& further, std::size_t slots)
+/// Adds further turns to turns, where they do not overlap; in order along a loop of `slots` slots.
+std::vector<Turn> withoutOverlap(std::vector<Turn> turns, const std::vector<Turn>& further, std::size_t slots)
 {
     std::vector<std::uint8_t> taken = breaksAt(turns, slots);
     for (const Turn& turn : further) {
@@ -368,12 +370,12 @@ std::vector<Turn> apart(std::vector<Turn> turns, const std::vector<Turn>& furthe
     return turns;
 }
 
-/// Fairs a loop with a break at every turn, again and again without those that do not prove to be corners.
-/// @return the loop with the corners that remain; smooth everywhere if none do
+/// Fairs a loop with a break at every turn, repeatedly, each time without the turns that are not corners.
+/// @return the loop with the remaining corners; smooth everywhere if none remain
 CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
 {
     const double min_gain = search.coverage ? kCornerGain : kCornerGainHard;
-    // What was found in the rough curve may be a slot or two off: each round but the last tries failures elsewhere.
+    // Turns of the rough curve may be a slot or two off. So each round but the last tries failed turns at a new place.
     constexpr int kRelocations = 2;
     int relocations = 0;
     while (!turns.empty()) {
@@ -401,12 +403,12 @@ CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
         }
         if (relocations < kRelocations) {
             ++relocations;
-            std::vector<Turn> elsewhere = apart(kept, relocated(result.slots, failed), search.measured.size());
+            std::vector<Turn> elsewhere = withoutOverlap(kept, relocated(result.slots, failed), search.measured.size());
             if (elsewhere != turns) {
                 turns = std::move(elsewhere);
                 continue;
             }
-            // No turn has moved, and none would in another round.
+            // No turn has moved, so none would in another round.
             relocations = kRelocations;
         }
         turns = std::move(kept);
@@ -414,7 +416,7 @@ CorneredLoop keepCorners(const CornerSearch& search, std::vector<Turn> turns)
     return {search.smooth, {}};
 }
 
-/// Fairs a loop smooth everywhere, then with corners wherever they explain the mask better by far.
+/// Fairs a loop without corners, then with corners where they explain the mask far better.
 CorneredLoop fairWithCorners(const SlotLoop& measured, const Coverage& coverage)
 {
     CornerSearch search{measured, coverage, measured, {}};
@@ -458,7 +460,7 @@ void TraceOptions::validate() const
 
 double signedArea(const Loop& loop)
 {
-    // About the first point: far from the origin, products of coordinates would cancel.
+    // Relative to the first point, because far from the origin products of coordinates would cancel.
     double sum = 0.0;
     for (std::size_t i = 1; i + 1 < loop.points.size(); ++i) {
         sum += cross(loop.points[i] - loop.points[0], loop.points[i + 1] - loop.points[0]);
@@ -476,9 +478,9 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     mask.validate();
     options.validate();
     if (options.clean.any()) {
-        TraceOptions as_it_is = options;
-        as_it_is.clean = {};
-        return trace(clean(mask, options.clean, pixelSize(mask, options), options.threshold), as_it_is);
+        TraceOptions without_cleaning = options;
+        without_cleaning.clean = {};
+        return trace(clean(mask, options.clean, pixelSize(mask, options), options.threshold), without_cleaning);
     }
     const Field field(mask, options.threshold);
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * kFull));
@@ -497,7 +499,8 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     if (outline.anti_aliased) {
         coverage = [&field](int x, int y) { return field.coverage(x, y); };
     }
-    // Of specks the area alone; every loop on its own, so that order and number of threads do not matter.
+    // Specks need only their area. Every loop is computed independently, so that order and number of threads do not
+    // matter.
     std::vector<CorneredLoop> faired(borders.size());
     std::vector<double> enclosed(borders.size());
     tbb::parallel_for(std::size_t{0}, borders.size(), [&](std::size_t k) {

@@ -13,7 +13,7 @@
 namespace droplet {
 namespace {
 
-/// Where a row enters or leaves a droplet.
+/// Place where a row enters or leaves a droplet.
 struct Crossing {
     double x = 0.0;
     std::size_t droplet = 0;
@@ -21,7 +21,7 @@ struct Crossing {
 
 using Rows = std::map<long, std::vector<Crossing>>;
 
-/// Rows stand between multiples of their distance, where rims of pixels do not.
+/// Height of a row. Rows lie between multiples of their distance, because rims along pixels lie on those.
 double heightOf(long row, double distance)
 {
     return (static_cast<double>(row) + 0.5) * distance;
@@ -35,7 +35,7 @@ void addLoop(const Loop& loop, std::size_t droplet, double distance, Rows& rows)
         if (a.y > b.y) {
             std::swap(a, b);
         }
-        // Rows from a, taken in, to b, left out: each is crossed an even number of times.
+        // Rows from a (included) to b (excluded), so that each loop crosses a row an even number of times.
         for (long row = std::lround(std::ceil(a.y / distance - 0.5)); heightOf(row, distance) < b.y; ++row) {
             const double y = heightOf(row, distance);
             if (y >= a.y) {
@@ -61,29 +61,29 @@ Rows rowsOf(const Domain& domain, double distance)
     return rows;
 }
 
-/// A stretch of a row inside a droplet.
-struct Stretch {
+/// Interval of a row inside a droplet.
+struct Interval {
     double from = 0.0;
     double to = 0.0;
     std::size_t droplet = 0;
 };
 
-/// Droplets of a domain do not overlap, so their stretches follow one another.
-std::vector<Stretch> stretchesOf(const std::vector<Crossing>& crossings)
+/// Intervals in ascending order. They do not overlap, because droplets of a domain do not.
+std::vector<Interval> intervalsOf(const std::vector<Crossing>& crossings)
 {
     std::map<std::size_t, double> open;
-    std::vector<Stretch> stretches;
+    std::vector<Interval> intervals;
     for (const Crossing& crossing : crossings) {
         const auto at = open.find(crossing.droplet);
         if (at == open.end()) {
             open.emplace(crossing.droplet, crossing.x);
         } else {
-            stretches.push_back({at->second, crossing.x, crossing.droplet});
+            intervals.push_back({at->second, crossing.x, crossing.droplet});
             open.erase(at);
         }
     }
-    std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
-    return stretches;
+    std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+    return intervals;
 }
 
 }  // namespace
@@ -99,8 +99,8 @@ std::vector<Overlap> overlaps(const Domain& first, const Domain& second, double 
         if (other == of_second.end()) {
             continue;
         }
-        const std::vector<Stretch> a = stretchesOf(crossings);
-        const std::vector<Stretch> b = stretchesOf(other->second);
+        const std::vector<Interval> a = intervalsOf(crossings);
+        const std::vector<Interval> b = intervalsOf(other->second);
         for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
             const double common = std::min(a[i].to, b[j].to) - std::max(a[i].from, b[j].from);
             if (common > 0.0) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Segmentation of photographs. The first threshold is a surface through the grey levels at edges: S. D. Yanowitz and
-// A. M. Bruckstein, "A new method for image segmentation" (1989), whose validation drops regions without an edge, too.
-// From then on light is divided out: ground tells its own level, liquid what share of it it sends back. By colour:
-// C. Rother, V. Kolmogorov and A. Blake, "GrabCut" (2004), as OpenCV has it.
+// Segmentation of photographs. The first threshold is a surface through the grey levels at edges: S. D. Yanowitz and A.
+// M. Bruckstein, "A new method for image segmentation" (1989); its validation also drops regions without an edge. Then
+// the light is divided out: the level of the ground is estimated everywhere, and the share of it that liquid reflects.
+// By colour: C. Rother, V. Kolmogorov and A. Blake, "GrabCut" (2004), in OpenCV's implementation.
 #include "droplet/footprint/segment.h"
 
 #include <tbb/parallel_for.h>
@@ -22,11 +22,11 @@ namespace {
 
 constexpr double kWhite = 65535.0;
 
-/// Rims this near are told to a fraction of a pixel; farther off all is liquid or dry [px of the working image].
+/// Pixels this near to a rim get fractional coverage; all others are liquid or dry [px of the working image].
 constexpr int kBand = 3;
 
-/// Standard deviation of the noise in an image, by the median of its Laplacian's absolute values, which edges and
-/// light hardly change.
+/// Standard deviation of the noise in an image, from the median absolute value of its Laplacian, which edges and light
+/// hardly change.
 double noiseOf(const cv::Mat& image)
 {
     cv::Mat laplacian;
@@ -40,18 +40,18 @@ double noiseOf(const cv::Mat& image)
     }
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    // The mask 1 1 −4 1 1 has the norm √20; of a normal distribution half lies within 0.6745.
+    // The mask 1 1 −4 1 1 has the norm √20; half of a normal distribution lies within 0.6745.
     return *middle / 0.6745 / std::sqrt(20.0);
 }
 
 constexpr double kNarrow = 4.0;  // standard deviation [px]
 
-/// Values known in some places, smoothly spread over the whole image: averages over a few pixels where those know
-/// something, else over four times as many, and so on.
-/// @param wide  how many times as wide as kNarrow the narrowest averages are
+/// Spreads values that are known in some places smoothly over the whole image. They are averages over a few pixels
+/// where values are known there, else over four times as many, and so on.
+/// @param wide  width of the narrowest averages relative to kNarrow
 cv::Mat spread(const cv::Mat& values, const cv::Mat& known, double wide = 1.0)
 {
-    constexpr double kTrust = 1.0e-2;  // of a level against the one below
+    constexpr double kTrust = 1.0e-2;  // weight of a level relative to the finer one
     cv::Mat weight;
     known.convertTo(weight, CV_32F, 1.0 / 255.0);
     cv::Mat weighted = values.mul(weight);
@@ -91,7 +91,7 @@ cv::Mat shrunk(const cv::Mat& region, int pixels)
     return result;
 }
 
-/// The inside of a region; of one that has none, all of it.
+/// Inside of a region; the whole region if it has none.
 cv::Mat coreOf(const cv::Mat& region)
 {
     for (int pixels = kBand; pixels > 0; --pixels) {
@@ -113,18 +113,18 @@ double shareOfBorder(const cv::Mat& marked)
     return static_cast<double>(cv::countNonZero(border & marked)) / cv::countNonZero(border);
 }
 
-/// What is liquid in a working image, and the light on it.
-struct Sorted {
+/// Liquid parts of a working image, and the light on it.
+struct Classification {
     cv::Mat is_liquid;  ///< 255 or 0
-    cv::Mat ground;     ///< level of dry ground, everywhere
-    cv::Mat share;      ///< of it that liquid sends back, everywhere
+    cv::Mat ground;     ///< level of dry ground, also estimated under liquid
+    cv::Mat share;      ///< share of it that liquid reflects, everywhere
     cv::Mat image;
 };
 
-/// The regions of dry ground that lie inside of liquid.
+/// Regions of dry ground inside liquid.
 struct Holes {
     cv::Mat label;
-    std::vector<cv::Rect> boxes;  ///< by label; empty of what is no hole
+    std::vector<cv::Rect> boxes;  ///< by label; empty for regions that are not holes
     std::vector<int> areas;
 };
 
@@ -148,7 +148,7 @@ Holes holesOf(const cv::Mat& is_liquid)
     return holes;
 }
 
-/// Dry ground without its smaller holes, which may be no ground but mirror a lamp.
+/// Dry ground without its smaller holes, which may be reflections of a lamp.
 cv::Mat openGround(const cv::Mat& is_liquid, const Holes& holes)
 {
     cv::Mat ground = ~is_liquid;
@@ -160,11 +160,11 @@ cv::Mat openGround(const cv::Mat& is_liquid, const Holes& holes)
     return ground;
 }
 
-/// Fills holes that are brighter than the ground in that light: they mirror a lamp.
-void fillGlints(Sorted& sorted)
+/// Fills holes that are brighter than the ground in the same light, because they are reflections of a lamp.
+void fillGlints(Classification& classified)
 {
     constexpr double kBrighter = 1.08;
-    const Holes holes = holesOf(sorted.is_liquid);
+    const Holes holes = holesOf(classified.is_liquid);
     for (std::size_t k = 1; k < holes.boxes.size(); ++k) {
         if (holes.areas[k] == 0) {
             continue;
@@ -173,19 +173,19 @@ void fillGlints(Sorted& sorted)
         const cv::Mat hole = holes.label(box) == static_cast<int>(k);
         cv::Mat middle = shrunk(hole, 1);
         middle = cv::countNonZero(middle) > 0 ? middle : hole;
-        if (cv::mean(sorted.image(box), middle)[0] > kBrighter * cv::mean(sorted.ground(box), middle)[0]) {
-            sorted.is_liquid(box).setTo(255, hole);
+        if (cv::mean(classified.image(box), middle)[0] > kBrighter * cv::mean(classified.ground(box), middle)[0]) {
+            classified.is_liquid(box).setTo(255, hole);
         }
     }
 }
 
-std::optional<Sorted> sortByEdges(const cv::Mat& working)
+std::optional<Classification> classifyByEdges(const cv::Mat& working)
 {
     constexpr int kReach = 3;
-    constexpr double kFaintest = 0.10;   // contrast of an edge
-    constexpr double kAboveNoise = 6.0;  // standard deviations
+    constexpr double kMinContrast = 0.10;  // smallest contrast of an edge
+    constexpr double kAboveNoise = 6.0;    // standard deviations
     constexpr int kRounds = 3;
-    constexpr int kMinArea = 12;  // of a region [px]
+    constexpr int kMinArea = 12;  // smallest region [px]
     cv::Mat image;
     cv::medianBlur(working, image, 3);
     const double noise = noiseOf(working);
@@ -193,72 +193,73 @@ std::optional<Sorted> sortByEdges(const cv::Mat& working)
     cv::GaussianBlur(image, soft, {}, noise > 0.02 ? 1.5 : 1.0);
     const double soft_noise = noiseOf(soft);
 
-    // Edges by contrast, which light does not change.
+    // Find edges by contrast, which does not depend on the light.
     const LocalRange range = localRange(soft, kReach);
     const cv::Mat step = range.max - range.min;
     const cv::Mat contrast = step / (range.max + range.min + 0.04);
-    cv::Mat clear = contrast > kFaintest;
+    cv::Mat clear = contrast > kMinContrast;
     clear &= step > std::max(0.02, kAboveNoise * std::max(soft_noise, 0.3 * noise));
     const int edge_pixels = cv::countNonZero(clear);
     if (edge_pixels < std::max<int>(8, static_cast<int>(working.total() / 5000))) {
         return std::nullopt;
     }
-    // Strong and faint ones apart, as Otsu's threshold has it.
+    // Separate strong from faint edges by Otsu's threshold.
     cv::Mat bytes;
     contrast.convertTo(bytes, CV_8U, 255.0);
-    cv::Mat listed(1, edge_pixels, CV_8U);
+    cv::Mat edge_contrasts(1, edge_pixels, CV_8U);
     int next = 0;
     for (int y = 0; y < bytes.rows; ++y) {
         for (int x = 0; x < bytes.cols; ++x) {
             if (clear.at<std::uint8_t>(y, x) > 0) {
-                listed.at<std::uint8_t>(0, next++) = bytes.at<std::uint8_t>(y, x);
+                edge_contrasts.at<std::uint8_t>(0, next++) = bytes.at<std::uint8_t>(y, x);
             }
         }
     }
     cv::Mat unused;
-    const double strong = cv::threshold(listed, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+    const double strong = cv::threshold(edge_contrasts, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
     const cv::Mat is_edge = (bytes > 0.8 * strong) & clear;
 
-    Sorted sorted;
-    sorted.image = soft;
+    Classification classified;
+    classified.image = soft;
     const cv::Mat middle = 0.5 * (range.max + range.min);
-    sorted.is_liquid = soft < spread(middle, is_edge);
-    dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kMinArea);
-    if (shareOfBorder(sorted.is_liquid) > 0.5) {
-        sorted.is_liquid = ~sorted.is_liquid;
+    classified.is_liquid = soft < spread(middle, is_edge);
+    dropRegionsWithoutEdge(classified.is_liquid, is_edge, kMinArea);
+    if (shareOfBorder(classified.is_liquid) > 0.5) {
+        classified.is_liquid = ~classified.is_liquid;
     }
     for (int round = 0; round < kRounds; ++round) {
-        if (cv::countNonZero(sorted.is_liquid) == 0) {
+        if (cv::countNonZero(classified.is_liquid) == 0) {
             return std::nullopt;
         }
-        sorted.ground = cv::max(spread(soft, coreOf(openGround(sorted.is_liquid, holesOf(sorted.is_liquid)))), 1e-3);
-        sorted.share = spread(soft / sorted.ground, coreOf(sorted.is_liquid));
-        // Liquid and ground must differ, on the same side everywhere.
-        const bool dark = cv::mean(sorted.share, sorted.is_liquid)[0] < 1.0;
-        sorted.share = dark ? cv::Mat(cv::min(sorted.share, 0.92)) : cv::Mat(cv::max(sorted.share, 1.08));
-        const cv::Mat half = sorted.ground.mul(0.5 * (sorted.share + 1.0));
-        sorted.is_liquid = dark ? cv::Mat(soft < half) : cv::Mat(soft > half);
+        classified.ground =
+            cv::max(spread(soft, coreOf(openGround(classified.is_liquid, holesOf(classified.is_liquid)))), 1e-3);
+        classified.share = spread(soft / classified.ground, coreOf(classified.is_liquid));
+        // Liquid must be darker than the ground everywhere, or brighter everywhere.
+        const bool dark = cv::mean(classified.share, classified.is_liquid)[0] < 1.0;
+        classified.share = dark ? cv::Mat(cv::min(classified.share, 0.92)) : cv::Mat(cv::max(classified.share, 1.08));
+        const cv::Mat half = classified.ground.mul(0.5 * (classified.share + 1.0));
+        classified.is_liquid = dark ? cv::Mat(soft < half) : cv::Mat(soft > half);
         if (dark) {
-            fillGlints(sorted);
+            fillGlints(classified);
         }
-        dropRegionsWithoutEdge(sorted.is_liquid, is_edge, kMinArea);
+        dropRegionsWithoutEdge(classified.is_liquid, is_edge, kMinArea);
     }
-    return cv::countNonZero(sorted.is_liquid) == 0 ? std::nullopt : std::optional(sorted);
+    return cv::countNonZero(classified.is_liquid) == 0 ? std::nullopt : std::optional(classified);
 }
 
-/// Levels in any number of channels as a full image holds them.
+/// Channels of a full image.
 struct Channels {
     int width = 0;
     int height = 0;
-    std::vector<cv::Mat> planes;  ///< CV_16UC1 of that size
+    std::vector<cv::Mat> planes;  ///< CV_16UC1
 };
 
-/// The share of liquid in every pixel of a full image, from what is liquid in a working image: near rims by where the
-/// pixel's level lies between those of liquid and ground nearby.
+/// Coverage of every pixel of a full image, from the liquid parts of a working image. Near rims, the pixel's level
+/// between those of ground and liquid nearby decides.
 LevelPlane matte(const Channels& channels, const cv::Mat& is_liquid, const std::vector<cv::Mat>& dry,
                  const std::vector<cv::Mat>& liquid)
 {
-    const cv::Mat surely = shrunk(is_liquid, kBand);
+    const cv::Mat surely_liquid = shrunk(is_liquid, kBand);
     const cv::Mat surely_dry = shrunk(~is_liquid, kBand);
     LevelPlane plane{channels.width, channels.height, {}};
     plane.levels.resize(static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(plane.height));
@@ -272,8 +273,8 @@ LevelPlane matte(const Channels& channels, const cv::Mat& is_liquid, const std::
         std::uint16_t* const to = plane.levels.data() + static_cast<std::ptrdiff_t>(y) * plane.width;
         for (int x = 0; x < plane.width; ++x) {
             const auto column = std::min(static_cast<int>((x + 0.5) * per_x), is_liquid.cols - 1);
-            if (surely.at<std::uint8_t>(row, column) > 0 || surely_dry.at<std::uint8_t>(row, column) > 0) {
-                to[x] = surely.at<std::uint8_t>(row, column) > 0 ? 65535 : 0;
+            if (surely_liquid.at<std::uint8_t>(row, column) > 0 || surely_dry.at<std::uint8_t>(row, column) > 0) {
+                to[x] = surely_liquid.at<std::uint8_t>(row, column) > 0 ? 65535 : 0;
                 continue;
             }
             const double u = std::clamp((x + 0.5) * per_x - 0.5, 0.0, is_liquid.cols - 1.0);
@@ -298,22 +299,22 @@ LevelPlane matte(const Channels& channels, const cv::Mat& is_liquid, const std::
     return plane;
 }
 
-/// A plane without single hot pixels and with less noise, for rims of a full image.
-cv::Mat calmed(const LevelView& plane)
+/// A plane without single hot pixels and with less noise, for the rims of a full image.
+cv::Mat denoised(const LevelView& plane)
 {
     const cv::Mat levels(plane.height, plane.width, CV_16UC1, const_cast<std::uint16_t*>(plane.levels));
-    cv::Mat calm;
-    cv::medianBlur(levels, calm, 3);
+    cv::Mat result;
+    cv::medianBlur(levels, result, 3);
     cv::Mat sample;
     const cv::Rect middle(plane.width / 4, plane.height / 4, std::max(1, plane.width / 2),
                           std::max(1, plane.height / 2));
-    calm(middle).convertTo(sample, CV_32F, 1.0 / kWhite);
+    result(middle).convertTo(sample, CV_32F, 1.0 / kWhite);
     const double noise = noiseOf(sample);
     constexpr double kVisible = 0.01;
     if (noise > kVisible) {
-        cv::GaussianBlur(calm, calm, {}, noise > 4 * kVisible ? 2.0 : 1.2);
+        cv::GaussianBlur(result, result, {}, noise > 4 * kVisible ? 2.0 : 1.2);
     }
-    return calm;
+    return result;
 }
 
 LevelPlane planeOf(const cv::Mat& image)
@@ -340,29 +341,29 @@ double medianLevel(const cv::Mat& image, const cv::Mat& region)
     return levels.empty() ? 0.0 : *middle;
 }
 
-/// Confidence by what the light, as far as it is soft, leaves of the levels: of one liquid, all over the picture.
-/// Glints are liquid.
-double confidenceOf(const Sorted& sorted)
+/// Confidence from the levels after slow changes of light are divided out, with one level of liquid for the whole
+/// picture. Glints count as liquid.
+double confidenceOf(const Classification& classified)
 {
-    const double wide = std::max(sorted.image.cols, sorted.image.rows) / (96.0 * kNarrow);
-    const cv::Mat dry = coreOf(~sorted.is_liquid);
-    const cv::Mat light = cv::max(spread(sorted.image, dry, wide), 1e-3);
-    const cv::Mat back = sorted.image / light;
-    const double share = medianLevel(back, coreOf(sorted.is_liquid));
+    const double wide = std::max(classified.image.cols, classified.image.rows) / (96.0 * kNarrow);
+    const cv::Mat dry = coreOf(~classified.is_liquid);
+    const cv::Mat light = cv::max(spread(classified.image, dry, wide), 1e-3);
+    const cv::Mat back = classified.image / light;
+    const double share = medianLevel(back, coreOf(classified.is_liquid));
     cv::Mat coverage = (1.0 - back) / (std::abs(1.0 - share) < 0.02 ? 0.02 : 1.0 - share);
-    const cv::Mat is_glint = sorted.is_liquid & (share < 1.0 ? cv::Mat(coverage < 0) : cv::Mat(coverage > 2.0));
+    const cv::Mat is_glint = classified.is_liquid & (share < 1.0 ? cv::Mat(coverage < 0) : cv::Mat(coverage > 2.0));
     coverage.setTo(1, is_glint);
-    // Beyond 0 and 1 folded back, so that levels are seen to be spread there, too.
+    // Levels beyond 0 and 1 are folded back, so that they add to the spread.
     const cv::Mat is_over = coverage > 0.5;
     const cv::Mat off = is_over / 255;
-    cv::Mat aim;
-    off.convertTo(aim, CV_32F);
-    cv::Mat folded = cv::min(cv::abs(coverage - aim), 0.45);
+    cv::Mat nearest_level;
+    off.convertTo(nearest_level, CV_32F);
+    cv::Mat folded = cv::min(cv::abs(coverage - nearest_level), 0.45);
     cv::subtract(1.0, folded, folded, is_over);
-    return lookOfMask(planeOf(folded), false).confidence;
+    return maskLikeness(planeOf(folded), false).confidence;
 }
 
-/// The three channels of an image's colours, red first.
+/// Channels of an image's colours: red, green, blue.
 Channels colourChannels(const Image& image)
 {
     Channels channels{image.width, image.height, {}};
@@ -380,19 +381,19 @@ Channels colourChannels(const Image& image)
     return channels;
 }
 
-/// OpenCV's random numbers as they were, whatever is drawn from them meanwhile.
-class SeededDice {
+/// Seeds OpenCV's random numbers for a scope, and restores their state after it.
+class SeededRng {
 public:
-    SeededDice() : before_(cv::theRNG()) { cv::theRNG() = cv::RNG(1); }
-    ~SeededDice() { cv::theRNG() = before_; }
-    SeededDice(const SeededDice&) = delete;
-    SeededDice& operator=(const SeededDice&) = delete;
+    SeededRng() : before_(cv::theRNG()) { cv::theRNG() = cv::RNG(1); }
+    ~SeededRng() { cv::theRNG() = before_; }
+    SeededRng(const SeededRng&) = delete;
+    SeededRng& operator=(const SeededRng&) = delete;
 
 private:
     cv::RNG before_;
 };
 
-/// Half of the range that the middle two thirds of numbers take.
+/// Half the width of the range that holds the middle two thirds of the numbers.
 double spreadOf(std::vector<float> numbers)
 {
     if (numbers.empty()) {
@@ -407,10 +408,10 @@ double spreadOf(std::vector<float> numbers)
 
 }  // namespace
 
-double fewColours(const Image& image, const std::vector<std::uint16_t>& coverage)
+double hueUniformity(const Image& image, const std::vector<std::uint16_t>& coverage)
 {
-    constexpr int kSide = 128;         // hues need no more pixels, and noise goes
-    constexpr float kDarkest = 0.24F;  // sum of the channels from which a hue is told
+    constexpr int kSide = 128;         // enough for hues; also removes noise
+    constexpr float kDarkest = 0.24F;  // smallest sum of the channels at which a hue is reliable
     const cv::Mat colours(image.height, image.width, CV_8UC3,
                           const_cast<std::array<std::uint8_t, 3>*>(image.colour.data()));
     const cv::Mat covers(image.height, image.width, CV_16UC1, const_cast<std::uint16_t*>(coverage.data()));
@@ -437,7 +438,7 @@ double fewColours(const Image& image, const std::vector<std::uint16_t>& coverage
     for (std::size_t kind = 0; kind < 2; ++kind) {
         widest = std::max(widest, std::hypot(spreadOf(red[kind]), spreadOf(blue[kind])));
     }
-    // Two kinds of light on one paper make 0.05.
+    // Two light sources on one paper give 0.05.
     return 1.0 - std::clamp((widest - 0.05) / 0.05, 0.0, 1.0);
 }
 
@@ -455,31 +456,31 @@ const char* name(Segmentation segment)
         case Segmentation::Colour:
             return "colour";
     }
-    throw Error(ErrorCode::InvalidArgument, "segment is no way of segmentation");
+    throw Error(ErrorCode::InvalidArgument, "segment must be a value of Segmentation");
 }
 
 std::optional<Segmented> segmentAdaptive(const LevelView& luma)
 {
-    const auto sorted = sortByEdges(workingImage(luma));
-    if (!sorted) {
+    const auto classified = classifyByEdges(workingImage(luma));
+    if (!classified) {
         return std::nullopt;
     }
     Segmented result;
-    result.coverage = matte({luma.width, luma.height, {calmed(luma)}}, sorted->is_liquid, {sorted->ground},
-                            {sorted->ground.mul(sorted->share)});
-    result.confidence = confidenceOf(*sorted);
-    result.level_dry = medianLevel(sorted->image, ~sorted->is_liquid);
-    result.level_liquid = medianLevel(sorted->image, sorted->is_liquid);
+    result.coverage = matte({luma.width, luma.height, {denoised(luma)}}, classified->is_liquid, {classified->ground},
+                            {classified->ground.mul(classified->share)});
+    result.confidence = confidenceOf(*classified);
+    result.level_dry = medianLevel(classified->image, ~classified->is_liquid);
+    result.level_liquid = medianLevel(classified->image, classified->is_liquid);
     return result;
 }
 
 std::optional<Segmented> segmentGrabCut(const Image& image)
 {
-    constexpr int kLongest = 512;  // of the picture that colours are learned on [px]
+    constexpr int kLongest = 512;  // longer side of the picture from which colours are learned [px]
     constexpr int kRounds = 5;
     const LevelView luma(image.width, image.height, image.luma);
-    const auto sorted = sortByEdges(workingImage(luma));
-    if (!sorted) {
+    const auto classified = classifyByEdges(workingImage(luma));
+    if (!classified) {
         return std::nullopt;
     }
     const Channels full = colourChannels(image);
@@ -495,18 +496,18 @@ std::optional<Segmented> segmentGrabCut(const Image& image)
     }
     cv::Mat picture;
     cv::merge(bytes, picture);
-    cv::Mat begun;
-    cv::resize(sorted->is_liquid, begun, size, 0, 0, cv::INTER_NEAREST);
+    cv::Mat initial;
+    cv::resize(classified->is_liquid, initial, size, 0, 0, cv::INTER_NEAREST);
     cv::Mat trimap(size, CV_8U, cv::Scalar(cv::GC_PR_BGD));
-    trimap.setTo(cv::GC_PR_FGD, begun);
-    trimap.setTo(cv::GC_FGD, shrunk(begun, 2 * kBand));
-    trimap.setTo(cv::GC_BGD, shrunk(~begun, 4 * kBand));
+    trimap.setTo(cv::GC_PR_FGD, initial);
+    trimap.setTo(cv::GC_FGD, shrunk(initial, 2 * kBand));
+    trimap.setTo(cv::GC_BGD, shrunk(~initial, 4 * kBand));
     const cv::Mat is_first = (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
     if (cv::countNonZero(is_first) == 0 || cv::countNonZero(is_first) == static_cast<int>(is_first.total())) {
         return std::nullopt;
     }
     {
-        const SeededDice dice;
+        const SeededRng rng;
         cv::Mat dry_colours;
         cv::Mat liquid_colours;
         cv::grabCut(picture, trimap, {}, dry_colours, liquid_colours, kRounds, cv::GC_INIT_WITH_MASK);
@@ -523,9 +524,9 @@ std::optional<Segmented> segmentGrabCut(const Image& image)
     }
     Segmented result;
     result.coverage = matte(full, is_liquid, dry, liquid);
-    result.confidence = confidenceOf(*sorted);
+    result.confidence = confidenceOf(*classified);
     cv::Mat grey;
-    cv::resize(sorted->image, grey, size, 0, 0, cv::INTER_AREA);
+    cv::resize(classified->image, grey, size, 0, 0, cv::INTER_AREA);
     result.level_dry = medianLevel(grey, ~is_liquid);
     result.level_liquid = medianLevel(grey, is_liquid);
     return result;

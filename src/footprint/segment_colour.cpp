@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Colours are compared in CIE 1976 L*a*b*, by their distance there.
+// Colours are compared by their distance in CIE 1976 L*a*b*.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -19,16 +19,16 @@
 namespace droplet {
 namespace {
 
-using Rgb = cv::Vec3f;  ///< of 0 to 1
+using Rgb = cv::Vec3f;  ///< each channel from 0 to 1
 
-/// Distance up to which colours are the same: some eight steps that can just be seen, less than from one of the named
-/// primaries to the next.
-constexpr float kSame = 20.0F;
+/// Distance up to which colours count as the same: about eight just noticeable steps, and less than the distance
+/// between two of the named primaries.
+constexpr float kMaxDistance = 20.0F;
 
-/// Alpha below which a pixel's colour is not told.
-constexpr std::uint16_t kSheer = 1 << 14;
+/// Alpha below which a pixel's colour is unreliable.
+constexpr std::uint16_t kMinAlpha = 1 << 14;
 
-/// The colours of an image as they were before they were weighted by alpha.
+/// Colours of an image without their weight by alpha.
 class Colours {
 public:
     explicit Colours(const Image& image) : image_(image) {}
@@ -48,12 +48,12 @@ private:
     const Image& image_;
 };
 
-/// 255 where a pixel has the colour.
+/// Image that is 255 where a pixel has the colour.
 cv::Mat pixelsOf(const Image& image, const CssColour& colour)
 {
     cv::Mat wanted(1, 1, CV_32FC3, cv::Scalar(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0));
     cv::cvtColor(wanted, wanted, cv::COLOR_RGB2Lab);
-    const Rgb aim = wanted.at<Rgb>(0, 0);
+    const Rgb target = wanted.at<Rgb>(0, 0);
     const Colours colours(image);
     cv::Mat found(image.height, image.width, CV_8UC1, cv::Scalar(0));
     tbb::parallel_for(0, image.height, [&](int y) {
@@ -64,9 +64,9 @@ cv::Mat pixelsOf(const Image& image, const CssColour& colour)
         }
         cv::cvtColor(row, row, cv::COLOR_RGB2Lab);
         for (int x = 0; x < image.width; ++x) {
-            const bool is_same = cv::norm(row.at<Rgb>(0, x) - aim) <= kSame;
+            const bool is_same = cv::norm(row.at<Rgb>(0, x) - target) <= kMaxDistance;
             found.at<std::uint8_t>(y, x) =
-                is_same && colours.alpha(first + static_cast<std::size_t>(x)) >= kSheer ? 255 : 0;
+                is_same && colours.alpha(first + static_cast<std::size_t>(x)) >= kMinAlpha ? 255 : 0;
         }
     });
     return found;
@@ -85,7 +85,7 @@ std::string commonColours(const Image& image)
     std::size_t total = 0;
     const Colours colours(image);
     for (std::size_t i = 0; i < image.colour.size(); ++i) {
-        if (colours.alpha(i) < kSheer) {
+        if (colours.alpha(i) < kMinAlpha) {
             continue;
         }
         const Rgb colour = 255.0F * colours.at(i);
@@ -127,7 +127,7 @@ std::optional<Segmented> segmentColour(const Image& image, const CssColour& colo
     const auto index = [&](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
     };
-    /// How much of the colour there is in a pixel at a rim: where it lies on the way from the other side's colour.
+    /// Share of the colour in a pixel at a rim: its place on the line from the other side's colour.
     const auto share = [&](int x, int y) {
         const bool is_same = found.at<std::uint8_t>(y, x) > 0;
         const Rgb here = colours.at(index(x, y));
@@ -155,12 +155,12 @@ std::optional<Segmented> segmentColour(const Image& image, const CssColour& colo
             return 0.0F;
         }
         own /= count;
-        constexpr float kOffTheWay = 0.25F;  // of its length
+        constexpr float kMaxOffset = 0.25F;  // relative to the line's length
         float best = std::numeric_limits<float>::max();
         float result = is_same ? 1.0F : 0.0F;
         bool only_transparent = true;
         around([&](int u, int v) {
-            if (beside.at<std::uint8_t>(v, u) > 0 || colours.alpha(index(u, v)) < kSheer) {
+            if (beside.at<std::uint8_t>(v, u) > 0 || colours.alpha(index(u, v)) < kMinAlpha) {
                 return;
             }
             only_transparent = false;
@@ -172,12 +172,12 @@ std::optional<Segmented> segmentColour(const Image& image, const CssColour& colo
             }
             const float along = std::clamp((here - other).dot(way) / square, 0.0F, 1.0F);
             const float off = static_cast<float>(cv::norm(here - other - along * way)) / std::sqrt(square);
-            if (off < kOffTheWay && off < best) {
+            if (off < kMaxOffset && off < best) {
                 best = off;
                 result = along;
             }
         });
-        return only_transparent && colours.alpha(index(x, y)) < kSheer ? 1.0F : result;
+        return only_transparent && colours.alpha(index(x, y)) < kMinAlpha ? 1.0F : result;
     };
 
     Segmented result;

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-// What the library and its module of image codecs, which is opened at run time, say to each other: plain data, no
-// exceptions. Both are of one build.
+// Interface between the library and its module of image codecs, which is opened at run time: plain data, no exceptions.
+// Both come from the same build.
 
 extern "C" {
 
@@ -14,22 +14,22 @@ struct DropletPicture {
     int width;
     int height;
     int channels;        ///< 1 grey; 3 blue, green, red; 4 with alpha
-    int bits;            ///< of a sample: 8 or 16, unsigned; 32 or 64, floating point; 0 of another kind
+    int bits;            ///< bits of a sample: 8 or 16, unsigned; 32 or 64, floating point; 0 for other kinds
     const void* pixels;  ///< row by row, without gaps
-    void* owner;         ///< of the pixels, for dropletRelease
-    char problem[160];   ///< of a damaged file: what OpenCV says of it, or nothing
+    void* owner;         ///< owner of the pixels, for dropletRelease
+    char problem[160];   ///< for a damaged file: OpenCV's message, or empty
 };
 
-/// Decodes a file with OpenCV, silently. Before memory for its pixels is taken, its size is held against max_pixels:
-/// of one too large, only width and height are filled in.
+/// Decodes a file with OpenCV, without output. The size is compared with max_pixels before memory for the pixels is
+/// allocated; for an image that is too large, only width and height are filled in.
 using DropletDecode = DropletOutcome(const void* encoded, std::size_t size, std::size_t max_pixels,
                                      DropletPicture* picture);
 
 using DropletRelease = void(DropletPicture* picture);
 
-/// Encodes 32-bit floats as OpenEXR, silently.
+/// Encodes 32-bit floats as OpenEXR, without output.
 /// @param channels  1 grey, 3 red, green, blue
-/// @param picture   takes the file's bytes as `pixels`, so many as its width; for dropletRelease
+/// @param picture   receives the file's bytes as `pixels`, with their number as width; for dropletRelease
 using DropletEncodeExr = DropletOutcome(const float* values, int width, int height, int channels,
                                         DropletPicture* picture);
 }

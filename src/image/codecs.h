@@ -10,29 +10,27 @@
 
 namespace droplet {
 
-// One decoder a format. Each takes a file whose header has been read and found small enough, gives the image
-// as stored (not yet upright), and throws Error InvalidInput for one that is damaged, cut short, of another
-// size than its header said, or of a kind not read. None prints; none keeps state.
+// One decoder per format. Each gets a file whose header has been read and whose size has been checked, and returns the
+// image as stored (not yet upright). It throws Error InvalidInput if the file is damaged, cut short, unsupported, or of
+// another size than its header says. It does not print and keeps no state.
 //
-// PNG and JPEG, which nearly all masks are, are read with the codecs' own libraries: cv::imdecode (OpenCV 4.6) accepts
-// JPEGs cut in half, needs the whole image as BGRA, and brings 139 shared libraries.
+// PNG and JPEG, the formats of nearly all masks, are read with their own libraries. cv::imdecode (OpenCV 4.6) accepts
+// JPEGs cut in half, needs the whole image as BGRA, and loads 139 shared libraries.
 
 Image decodePng(std::span<const std::byte> encoded, const ImageHeader& header);
 Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header);
 
-/// Draws a vector image, which has no pixels of its own. Nothing it refers to is read.
-/// @throws Error InvalidInput: damaged, a page without area, more than librsvg can take or the options admit; the
-/// program
-///               that draws, or librsvg, is not installed
+/// Draws a vector image. Nothing that it refers to is read.
+/// @throws Error InvalidInput: damaged, a page without area, beyond the limits of librsvg or of the options; librsvg or
+///               the program that draws with it is not installed
 Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options);
 
 /// Decodes a TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or Radiance HDR, upright, by OpenCV. Its size is
-/// checked before memory for its pixels is taken. Floating-point samples are levels of 0 to 1, what lies beyond is cut
-/// off.
-/// @throws Error InvalidInput: too large, damaged, of a kind not read; OpenCV is not installed
+/// checked before memory for its pixels is allocated. Floating-point samples are levels clipped to [0, 1].
+/// @throws Error InvalidInput: too large, damaged, unsupported; OpenCV is not installed
 Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, const DecodeOptions& options);
 
-/// The same of floating-point samples as they are, colours by their luma; none if they are integers.
+/// Decodes the same formats with unchanged floating-point samples, colours as their luma; none if samples are integers.
 std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> encoded, ImageFormat format,
                                                  std::size_t max_pixels, bool keeps_colour);
 

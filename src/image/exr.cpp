@@ -13,7 +13,7 @@
 namespace droplet {
 namespace {
 
-/// The module, opened when first needed. Never closed: what OpenCV has registered stays.
+/// The module, opened at first use. It is never closed, because OpenCV's registrations stay.
 struct Encoder {
     Encoder()
     {

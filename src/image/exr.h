@@ -15,7 +15,7 @@ struct FloatPixels {
     std::span<const float> values;
 };
 
-/// A file of OpenEXR with those values as they are, by OpenCV.
+/// Encodes pixels as an OpenEXR file with unchanged values, by OpenCV.
 /// @throws Error OutputFailed: OpenCV is not installed, or cannot encode it
 std::vector<std::byte> encodeExr(const FloatPixels& pixels);
 

@@ -24,7 +24,7 @@ std::uint16_t level(Sample sample)
     return static_cast<std::uint16_t>(sample * kScale<Sample>);
 }
 
-/// The weights add up to 1000, so that grey comes out as it went in.
+/// The weights add up to 1000, so that grey stays grey.
 template <class Sample>
 std::uint16_t luma(const Sample* rgb)
 {
@@ -41,8 +41,8 @@ std::array<std::uint8_t, 3> colour(const Sample* pixel)
                : std::array{byte(pixel[0]), byte(pixel[kChannels > 2 ? 1 : 0]), byte(pixel[kChannels > 2 ? 2 : 0])};
 }
 
-/// Puts one level a pixel where a run goes. Runs without gaps, which nearly all are, have a loop of their own:
-/// compilers make vector instructions of it.
+/// Stores one level per pixel of a run. Nearly all runs have no gaps; these have a loop of their own, which compilers
+/// vectorise.
 template <class LevelOf>
 void putLevels(std::uint16_t* to, std::size_t step, std::size_t count, LevelOf level_of)
 {
@@ -60,7 +60,7 @@ void putLevels(std::uint16_t* to, std::size_t step, std::size_t count, LevelOf l
 template <std::size_t kChannels, class Sample>
 void putPixels(Image& image, const PixelRun& run, std::span<const Sample> samples)
 {
-    // Drawings are of one colour over wide stretches, which needs but one look.
+    // Drawings have one colour over wide areas, which then is converted once.
     constexpr std::size_t kBlock = 64;
     const std::size_t pixels = samples.size() / kChannels;
     for (std::size_t first = 0; first < pixels; first += kBlock) {
@@ -91,7 +91,7 @@ void putPixels(Image& image, const PixelRun& run, std::span<const Sample> sample
     }
 }
 
-/// Where a turned image finds its pixels: (x, y) lies at origin + x right + y down in the stored one.
+/// Mapping of a turned image: (x, y) lies at origin + x right + y down in the stored one.
 struct Turn {
     bool swaps_sides = false;
     std::ptrdiff_t origin = 0;
@@ -126,7 +126,7 @@ Turn turnOf(int orientation, std::ptrdiff_t width, std::ptrdiff_t height)
 template <class Sample>
 void turnPlane(std::vector<Sample>& plane, const Turn& turn, int width, int height)
 {
-    // A tile of both images stays in the first-level cache: 2 × 8 KiB, of floats 2 × 16.
+    // A tile of both images fits into the first-level cache: 2 × 8 KiB, for floats 2 × 16.
     constexpr int kTile = 64;
     std::vector<Sample> turned(plane.size());
     for (int y0 = 0; y0 < height; y0 += kTile) {

@@ -12,10 +12,10 @@
 
 namespace droplet {
 
-/// A decoded image, reduced while it is decoded to what a mask can be read from, and colour where that is asked.
-/// Two bytes a pixel, four with alpha: 512 MiB or 1 GiB at 16384 × 16384.
-/// Invariant: `luma.size() == width * height`; alpha is as long, or empty when the file has none; colour is as long, or
-/// empty where it was not asked.
+/// Decoded image, reduced during decoding to what a mask needs, with colour on request. It takes two bytes a pixel,
+/// four with alpha: 512 MiB or 1 GiB at 16384 × 16384.
+/// Invariant: `luma.size() == width * height`; alpha has the same size, or is empty if the file has none; colour has
+/// the same size, or is empty if it was not requested.
 struct Image {
     int width = 0;
     int height = 0;
@@ -28,50 +28,50 @@ struct Image {
     std::optional<double> physical_width;  ///< as in Mask [m]
 };
 
-/// An image all black and transparent, of the size in a header, with colour if that is wanted there.
+/// Black, transparent image of the size in a header, with colour if the header requests it.
 Image blankImage(const ImageHeader& header, bool with_alpha);
 
-/// A run of decoded pixels and where in an image they go.
+/// Run of decoded pixels and their place in an image.
 struct PixelRun {
-    std::size_t first = 0;  ///< index of the pixel the run starts at
-    std::size_t step = 1;   ///< from one pixel of the run to the next
+    std::size_t first = 0;  ///< index of the run's first pixel
+    std::size_t step = 1;   ///< step from one pixel of the run to the next
     int channels = 1;       ///< interleaved samples a pixel: 1 grey, 2 grey+alpha, 3 RGB, 4 RGB+alpha
 };
 
-/// Stores a run of samples; 8-bit v becomes 257 v, so that 255 is 65535 and grey stays grey to the bit.
+/// Stores a run of samples. An 8-bit v becomes 257 v, so that 255 becomes 65535 and grey stays exactly grey.
 template <class Sample>
 void putPixels(Image& image, const PixelRun& run, std::span<const Sample> samples);
 
-/// The image as seen when held by its EXIF (or TIFF) orientation, 1 … 8; needs one more plane of memory.
+/// Turns an image upright by its EXIF or TIFF orientation, 1 … 8. Needs one more plane of memory.
 Image upright(Image image, int orientation);
 
-/// What drawing a vector image may take.
+/// Limits for drawing a vector image.
 struct DrawingLimits {
     double seconds = 10.0;                      ///< as in MaskOptions [s]
     std::size_t memory = std::size_t{1} << 30;  ///< as in MaskOptions [B]
 };
 
-/// How an image becomes pixels.
+/// Options of decoding.
 struct DecodeOptions {
     std::size_t max_pixels = std::size_t{1} << 28;  ///< as in MaskOptions
     int vector_long_side = 2048;                    ///< as in MaskOptions [px]
-    bool keeps_colour = false;                      ///< beside luma
+    bool keeps_colour = false;                      ///< keep colour beside luma
     DrawingLimits drawing{};
 };
 
-/// Decodes an image of any format this library reads, upright. The size in its header is checked first.
+/// Decodes an image of any supported format, upright. The size in its header is checked first.
 /// @throws Error InvalidInput
 Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& options);
 
-/// What is seen of an image in front of black: its luma, as much of it as is opaque.
+/// Luma of an image in front of black: luma weighted by alpha.
 std::vector<std::uint16_t> lumaOverBlack(Image image);
 
-/// A decoded image of floating-point samples, one a pixel.
+/// Decoded image of floating-point samples, one per pixel.
 struct FloatImage {
     int width = 0;
     int height = 0;
-    std::vector<float> samples;                ///< row by row from the top left, as stored; not all need be finite
-    std::vector<std::array<float, 3>> colour;  ///< red, green, blue as stored, where that was asked
+    std::vector<float> samples;                ///< row by row from the top left, as stored; some may not be finite
+    std::vector<std::array<float, 3>> colour;  ///< red, green, blue as stored, if requested
 };
 
 /// Decodes an image of floating-point samples, upright; none if the samples are integers. The size in its header is

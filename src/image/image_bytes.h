@@ -12,8 +12,8 @@
 
 namespace droplet {
 
-/// The one message for an image that breaks its format's rules or ends before its pixels do.
-/// Control characters in `detail`, which may quote the file, become `?`.
+/// Throws the error for an image that breaks its format's rules or ends before its pixels do. Control characters in
+/// `detail`, which may quote the file, become `?`.
 [[noreturn]] inline void throwDamaged(ImageFormat format, std::string_view detail,
                                       std::string_view judgement = "truncated or damaged")
 {
@@ -24,13 +24,13 @@ namespace droplet {
     throw Error(ErrorCode::InvalidInput, message);
 }
 
-/// The message for an image that is whole but of a kind this program does not read.
+/// Throws the error for an intact image of a kind that is not supported.
 [[noreturn]] inline void throwUnsupported(ImageFormat format, const std::string& detail)
 {
-    throw Error(ErrorCode::InvalidInput, std::string(name(format)) + " image of a kind not read: " + detail);
+    throw Error(ErrorCode::InvalidInput, std::string("unsupported ") + name(format) + " image: " + detail);
 }
 
-/// Numbers in a file, bounds checked: reading past the end throws.
+/// Reads numbers in a file with checked bounds; reading past the end throws.
 class ByteView {
 public:
     ByteView(std::span<const std::byte> bytes, ImageFormat format) : bytes_(bytes), format_(format) {}

@@ -10,14 +10,14 @@ namespace droplet {
 
 void throwOutOfMemory()
 {
-    throw Error(ErrorCode::InvalidInput, "the image needs more memory than there is");
+    throw Error(ErrorCode::InvalidInput, "the image needs more memory than is available");
 }
 
 std::vector<std::byte> readImageFile(const std::filesystem::path& path)
 {
     try {
         return readBytes(path, std::numeric_limits<std::size_t>::max(),
-                         [](const Bytes& begun) { return imageFormat(begun).has_value(); });
+                         [](const Bytes& bytes) { return imageFormat(bytes).has_value(); });
     } catch (const Damage& damage) {
         throw Error(ErrorCode::InvalidInput, "cannot read " + shown(path) + ": " + damage.what());
     } catch (const std::bad_alloc&) {

@@ -13,11 +13,11 @@ namespace droplet {
 
 [[noreturn]] void throwOutOfMemory();
 
-/// The whole file, which may be a pipe; of one that does not begin like an image, the beginning.
+/// Reads a whole file, which may be a pipe; if it does not begin like an image, only its beginning.
 /// @throws Error InvalidInput
 std::vector<std::byte> readImageFile(const std::filesystem::path& path);
 
-/// What `decode` makes of a file's bytes; its errors name the file.
+/// Reads a file and decodes its bytes; the messages of errors name the file.
 template <class Decode>
 auto fromImageFile(const std::filesystem::path& path, const Decode& decode)
 {

@@ -29,7 +29,8 @@ int orientationIn(std::span<const std::byte> tiff)
     return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
 }
 
-/// An EXIF block is a TIFF file without pixels, after a mark that JPEG demands and some WebP writers add.
+/// Orientation from an EXIF block: a TIFF file without pixels, after a mark that JPEG requires and some WebP writers
+/// add.
 int exifOrientation(std::span<const std::byte> block)
 {
     using namespace std::string_view_literals;
@@ -41,7 +42,7 @@ int exifOrientation(std::span<const std::byte> block)
 Size pngSize(std::span<const std::byte> encoded)
 {
     constexpr std::size_t kSignature = 8;
-    constexpr std::size_t kAroundData = 12;  // length and type before it, checksum after
+    constexpr std::size_t kAroundData = 12;  // length and type before the data, checksum after them
     const ByteView view(encoded, ImageFormat::Png);
     if (!view.startsWith("IHDR", kSignature + 4)) {
         throwDamaged(ImageFormat::Png, "it does not begin with a header");
@@ -78,13 +79,13 @@ Size jpegSize(std::span<const std::byte> encoded)
         }
         at += 2;
         if (marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD8)) {
-            continue;  // these stand alone: stuffing, TEM, restarts, start of image
+            continue;  // markers without a segment: stuffing, TEM, restarts, start of image
         }
         if (marker == 0xD9 || marker == 0xDA) {
             throwDamaged(ImageFormat::Jpeg, "it has no frame header");
         }
         const std::size_t length = view.be16(at);
-        // C4, C8 and CC lie among the frame markers: Huffman tables, reserved, arithmetic conditioning.
+        // C4, C8 and CC are not frame markers but Huffman tables, reserved, and arithmetic conditioning.
         if (marker >= kFirstFrame && marker <= kLastFrame && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) {
             return {view.be16(at + 5), view.be16(at + 3), orientation};
         }
@@ -100,7 +101,7 @@ bool isSpace(std::uint32_t c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// Whether a file begins as markup and soon comes to an svg element, or is markup in UTF-16.
+/// Whether a file begins as markup and an svg element follows soon, or whether it is markup in UTF-16.
 bool beginsLikeSvg(std::span<const std::byte> encoded)
 {
     using namespace std::string_view_literals;
@@ -251,7 +252,7 @@ std::uint32_t pnmWhite(std::span<const std::byte> encoded)
             value = 10 * value + (view.u8(at) - '0');
         }
     }
-    // It stretches plain files of 8 bits itself.
+    // OpenCV itself stretches plain files of 8 bits.
     const bool plain = kind <= 3;
     return (plain && value < 256) || value == 255 || value >= 65535 ? 0 : value;
 }

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folders in which the loader would look for a library that we name.
+/// Folders in which the loader searches libraries for the given library.
 std::vector<fs::path> searchedFolders(const char* library)
 {
     std::vector<fs::path> folders;
@@ -44,7 +44,7 @@ std::optional<fs::path> installedFile(const char* name)
     void* map = nullptr;
     const bool known = dladdr1(&here, &info, &map, RTLD_DL_LINKMAP) != 0 && map != nullptr;
     const fs::path library = known ? static_cast<link_map*>(map)->l_name : "";
-    std::error_code unknown;  // where there is no /proc, the system's folders remain
+    std::error_code unknown;  // without /proc, the system's folders remain
     const fs::path own = (library.empty() ? fs::read_symlink("/proc/self/exe", unknown) : library).parent_path();
     std::vector<fs::path> folders{own / DROPLET_BESIDE_LIBRARY, own / DROPLET_BESIDE_COMMAND};
     for (fs::path& folder : searchedFolders(library.c_str())) {

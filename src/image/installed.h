@@ -6,8 +6,8 @@
 
 namespace droplet {
 
-/// A file that is installed with the library: where the library or the command that holds this code was installed or
-/// built, else in the folders that the system searches for the libraries of either.
+/// Finds a file that is installed with the library. It is searched where the library or the command with this code was
+/// installed or built, then in the folders that the system searches for their libraries.
 std::optional<std::filesystem::path> installedFile(const char* name);
 
 }  // namespace droplet

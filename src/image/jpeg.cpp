@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ITU-T T.81 (JPEG) through libjpeg. Memory beyond the Image is a few rows for a baseline file; a progressive
-// one keeps its coefficients until the last scan, up to 6 bytes a pixel.
+// ITU-T T.81 (JPEG) through libjpeg. A baseline file needs memory for a few rows beside the Image. A progressive one
+// keeps its coefficients until the last scan, up to 6 bytes a pixel.
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -17,11 +17,11 @@ namespace droplet {
 
 namespace {
 
-/// A progressive file may bring every bit of every coefficient in a scan of its own, a few bytes long and each as
-/// dear as a whole image. Encoders write about ten scans; 500 is the bound libjpeg-turbo's own fuzzers use.
+/// A progressive file may have a scan of a few bytes for every bit of every coefficient, each as expensive as a whole
+/// image. Encoders write about ten scans; 500 is the limit of libjpeg-turbo's own fuzzers.
 constexpr int kMaxScans = 500;
 
-/// libjpeg's state. Errors leave by longjmp: see PngReader.
+/// State of libjpeg. Errors leave by longjmp; see PngReader.
 struct JpegReader {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -40,10 +40,11 @@ struct JpegReader {
 {
     auto& reader = *static_cast<JpegReader*>(info->client_data);
     info->err->format_message(info, reader.message.data());
-    std::longjmp(reader.jump, 1);  // libjpeg must not be returned to
+    std::longjmp(reader.jump, 1);  // libjpeg must not continue
 }
 
-/// libjpeg calls damage a warning and invents the rest of the picture. Only what changes no pixel may pass.
+/// Handles warnings. libjpeg reports damage as a warning and invents the rest of the picture, so only warnings that
+/// change no pixel are ignored.
 void onMessage(j_common_ptr info, int level)
 {
     if (level >= 0) {
@@ -78,7 +79,7 @@ void onProgress(j_common_ptr info)
 template <class Calls>
 void guarded(JpegReader& reader, Calls calls)
 {
-    // The one way libjpeg has to report an error
+    // libjpeg reports errors only in this way.
     if (setjmp(reader.jump) != 0) {
         throwDamaged(ImageFormat::Jpeg, reader.message.data());
     }
@@ -92,17 +93,17 @@ void readHeader(JpegReader& reader, std::span<const std::byte> encoded, bool kee
     jpeg_mem_src(&reader.info, reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size());
     reader.info.src->fill_input_buffer = onEndOfData;
     jpeg_read_header(&reader.info, TRUE);
-    // Y of YCbCr is BT.601's luma as it stands.
-    const bool inks = reader.info.jpeg_color_space == JCS_CMYK || reader.info.jpeg_color_space == JCS_YCCK;
-    reader.info.out_color_space = inks ? JCS_CMYK : keeps_colour ? JCS_RGB : JCS_GRAYSCALE;
+    // Y of YCbCr is the luma of BT.601.
+    const bool is_cmyk = reader.info.jpeg_color_space == JCS_CMYK || reader.info.jpeg_color_space == JCS_YCCK;
+    reader.info.out_color_space = is_cmyk ? JCS_CMYK : keeps_colour ? JCS_RGB : JCS_GRAYSCALE;
     jpeg_start_decompress(&reader.info);
 }
 
-/// Ink on paper as light: what neither the colour nor the black takes away. Adobe's files, nearly all there
-/// are, store the paper left rather than the ink.
-void inksToRgb(std::span<std::uint8_t> row, bool stores_paper)
+/// Converts CMYK to RGB: the light that neither the coloured nor the black ink absorbs. Adobe's files, which are nearly
+/// all, store the remaining paper instead of the ink.
+void cmykToRgb(std::span<std::uint8_t> row, bool is_inverted)
 {
-    const unsigned flip = stores_paper ? 0U : 255U;
+    const unsigned flip = is_inverted ? 0U : 255U;
     for (std::size_t i = 0; i + 3 < row.size(); i += 4) {
         const unsigned black = row[i + 3] ^ flip;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -126,9 +127,9 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header)
     jpeg_decompress_struct& info = reader.info;
     if (info.output_width != static_cast<JDIMENSION>(header.width) ||
         info.output_height != static_cast<JDIMENSION>(header.height)) {
-        throwDamaged(ImageFormat::Jpeg, "it names two sizes");
+        throwDamaged(ImageFormat::Jpeg, "it states two sizes");
     }
-    const bool inks = info.out_color_space == JCS_CMYK;
+    const bool is_cmyk = info.out_color_space == JCS_CMYK;
     const int channels = info.out_color_space == JCS_GRAYSCALE ? 1 : 3;
     const std::size_t width = info.output_width;
     Image image = blankImage(header, false);
@@ -137,13 +138,13 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header)
         JSAMPROW row = reader.row.data();
         for (std::size_t y = 0; y < info.output_height; ++y) {
             jpeg_read_scanlines(&info, &row, 1);
-            if (inks) {
-                inksToRgb(reader.row, info.saw_Adobe_marker != 0);
+            if (is_cmyk) {
+                cmykToRgb(reader.row, info.saw_Adobe_marker != 0);
             }
             putPixels(image, {y * width, 1, channels},
                       std::span<const std::uint8_t>(reader.row.data(), static_cast<std::size_t>(channels) * width));
         }
-        jpeg_finish_decompress(&info);  // reads on to the end mark, and so finds a missing one
+        jpeg_finish_decompress(&info);  // reads to the end mark, so that a missing one is found
     });
     return image;
 }

@@ -16,13 +16,13 @@ namespace droplet {
 
 namespace {
 
-/// The module, opened when first needed.
+/// The module, opened at first use.
 class Codecs {
 public:
     Codecs()
     {
         const auto path = installedFile(DROPLET_CODECS);
-        // Never closed: what OpenCV has registered stays.
+        // It is never closed, because OpenCV's registrations stay.
         void* const module = path ? dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
         if (module == nullptr) {
             problem = path ? dlerror() : DROPLET_CODECS " is missing";
@@ -34,10 +34,10 @@ public:
 
     DropletDecode* decode = nullptr;
     DropletRelease* release = nullptr;
-    std::string problem;  ///< why it cannot be opened, if so
+    std::string problem;  ///< why it cannot be opened; else empty
 };
 
-/// A decoded picture as the module hands it over.
+/// Picture decoded by the module.
 class Decoded {
 public:
     Decoded(std::span<const std::byte> encoded, ImageFormat format, std::size_t max_pixels)
@@ -76,7 +76,7 @@ public:
     [[nodiscard]] std::size_t height() const { return static_cast<std::size_t>(picture_.height); }
     [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(picture_.channels); }
 
-    /// A row's samples, colours in the order red, green, blue.
+    /// Copies the samples of a row, colours in the order red, green, blue.
     template <class Stored, class Sample>
     void copyRow(std::size_t y, std::vector<Sample>& row) const
     {
@@ -100,7 +100,8 @@ private:
     DropletRelease* release_ = nullptr;
 };
 
-/// @param white  level of white, if that is not the largest there is
+/// Stores all rows of a decoded picture in an image.
+/// @param white  level of white; 0 for the largest possible level
 template <class Stored, class Sample>
 void putRows(const Decoded& decoded, Image& image, std::uint32_t white = 0)
 {
@@ -120,42 +121,42 @@ constexpr std::uint16_t kTagSamples = 277;
 constexpr std::uint16_t kTagPlanes = 284;
 constexpr std::uint16_t kTagExtraSamples = 338;
 constexpr std::uint16_t kTagSampleFormat = 339;
-constexpr std::uint64_t kInks = 5;
+constexpr std::uint64_t kCmyk = 5;
 
 std::uint64_t tiffValue(std::span<const std::byte> encoded, std::uint16_t tag)
 {
     return tiffField(encoded, tag).value_or(1);
 }
 
-/// Refuses the kinds of TIFF that OpenCV 4.6 reads wrongly, or without their alpha, and says nothing.
-void refuseMisreadTiff(std::span<const std::byte> encoded, const DropletPicture& picture)
+/// Rejects the kinds of TIFF that OpenCV 4.6 silently reads wrongly or without their alpha.
+void rejectMisreadTiff(std::span<const std::byte> encoded, const DropletPicture& picture)
 {
-    const auto refuse = [](const std::string& kind) { throwUnsupported(ImageFormat::Tiff, kind); };
+    const auto reject = [](const std::string& kind) { throwUnsupported(ImageFormat::Tiff, kind); };
     const std::uint64_t sample_format = tiffValue(encoded, kTagSampleFormat);
     constexpr std::uint64_t kUnsigned = 1;
     constexpr std::uint64_t kUndefined = 4;
     if (picture.bits == 0 || (picture.bits <= 16 && sample_format != kUnsigned && sample_format != kUndefined)) {
-        refuse("samples that are not unsigned integers");
+        reject("samples that are not unsigned integers");
     }
     const std::uint64_t bits = tiffValue(encoded, kTagBits);
     if (bits > 8 && bits < 16) {
-        refuse(std::to_string(bits) + " bits per sample");
+        reject(std::to_string(bits) + " bits per sample");
     }
     const std::uint64_t samples = tiffValue(encoded, kTagSamples);
     if (samples == 2) {
-        refuse("grey with alpha");
+        reject("grey with alpha");
     }
     if (picture.bits > 8 && samples > 1 && tiffValue(encoded, kTagPlanes) != 1) {
-        refuse("every colour in a plane of its own, of more than 8 bits");
+        reject("separate colour planes of more than 8 bits");
     }
     const std::uint64_t photometric = tiffField(encoded, kTagPhotometric).value_or(1);
     if (picture.bits == 16 && photometric != 1 && photometric != 2) {
-        refuse("photometric interpretation " + std::to_string(photometric) + " with 16 bits per sample");
+        reject("photometric interpretation " + std::to_string(photometric) + " with 16 bits per sample");
     }
 }
 
-/// Refuses a BMP whose fourth byte, which OpenCV 4.6 leaves out, says anything.
-void refuseBmpWithAlpha(std::span<const std::byte> encoded, const DropletPicture& picture)
+/// Rejects a BMP whose fourth byte, which OpenCV 4.6 ignores, is used.
+void rejectBmpWithAlpha(std::span<const std::byte> encoded, const DropletPicture& picture)
 {
     const ByteView view(encoded, ImageFormat::Bmp);
     constexpr std::uint32_t kOldHeader = 12;
@@ -171,17 +172,16 @@ void refuseBmpWithAlpha(std::span<const std::byte> encoded, const DropletPicture
     }
 }
 
-void refuseMisread(std::span<const std::byte> encoded, ImageFormat format, const DropletPicture& picture)
+void rejectMisread(std::span<const std::byte> encoded, ImageFormat format, const DropletPicture& picture)
 {
     if (format == ImageFormat::Tiff) {
-        refuseMisreadTiff(encoded, picture);
+        rejectMisreadTiff(encoded, picture);
     } else if (format == ImageFormat::Bmp) {
-        refuseBmpWithAlpha(encoded, picture);
+        rejectBmpWithAlpha(encoded, picture);
     }
 }
 
-/// Of a picture with a fourth channel, what that is. libtiff has multiplied colours of 8 bits by an alpha that was
-/// apart.
+/// Interprets the fourth channel of a picture. libtiff has already multiplied 8-bit colours by an unassociated alpha.
 void interpretAlpha(std::span<const std::byte> encoded, ImageFormat format, int bits, Image& image)
 {
     image.premultiplied = format == ImageFormat::OpenExr;
@@ -190,12 +190,12 @@ void interpretAlpha(std::span<const std::byte> encoded, ImageFormat format, int 
     }
     constexpr std::uint64_t kUnspecified = 0;
     constexpr std::uint64_t kAssociated = 1;
-    constexpr std::uint64_t kApart = 2;
+    constexpr std::uint64_t kUnassociated = 2;
     const std::optional<std::uint64_t> extra = tiffField(encoded, kTagExtraSamples);
-    if (extra == kUnspecified || tiffValue(encoded, kTagPhotometric) == kInks) {
+    if (extra == kUnspecified || tiffValue(encoded, kTagPhotometric) == kCmyk) {
         image.alpha = {};
     }
-    image.premultiplied = extra == kAssociated || (extra == kApart && bits == 8);
+    image.premultiplied = extra == kAssociated || (extra == kUnassociated && bits == 8);
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, c
 {
     const Decoded decoded(encoded, format, options.max_pixels);
     const DropletPicture& picture = decoded.picture();
-    refuseMisread(encoded, format, picture);
+    rejectMisread(encoded, format, picture);
     if (format == ImageFormat::Tiff && decoded.floats()) {
         throwUnsupported(format, "samples that are not unsigned integers");
     }
@@ -237,7 +237,7 @@ std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> enco
     if (!decoded.floats()) {
         return std::nullopt;
     }
-    refuseMisread(encoded, format, decoded.picture());
+    rejectMisread(encoded, format, decoded.picture());
     FloatImage image{decoded.picture().width, decoded.picture().height, {}, {}};
     image.samples.reserve(decoded.width() * decoded.height());
     const std::size_t channels = decoded.channels();
@@ -245,7 +245,7 @@ std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> enco
     for (std::size_t y = 0; y < decoded.height(); ++y) {
         decoded.picture().bits == 32 ? decoded.copyRow<float>(y, row) : decoded.copyRow<double>(y, row);
         for (std::size_t i = 0; i < row.size(); i += channels) {
-            // So weighed, grey stays grey to the bit.
+            // With these weights, grey stays exactly grey.
             const double luma =
                 channels < 3 ? row[i] : row[i + 1] + 0.299 * (row[i] - row[i + 1]) + 0.114 * (row[i + 2] - row[i + 1]);
             image.samples.push_back(static_cast<float>(luma));

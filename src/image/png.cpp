@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Portable Network Graphics, through libpng's row interface: memory beyond the Image is one row, interlaced or not.
+// Portable Network Graphics through libpng's row interface. It needs memory for one row beside the Image, interlaced or
+// not.
 #include <png.h>
 
 #include <algorithm>
@@ -16,15 +17,15 @@ namespace droplet {
 
 namespace {
 
-/// libpng's state. Its errors leave by longjmp, so whatever needs a destructor lives here, in a frame outside
-/// the jump, and no C++ exception ever crosses libpng.
+/// State of libpng. Its errors leave by longjmp, so objects with a destructor are kept here, in a frame outside the
+/// jump, and no C++ exception crosses libpng.
 struct PngReader {
     std::span<const std::byte> encoded;
     std::size_t position = 0;
     png_structp png = nullptr;
     png_infop info = nullptr;
     std::array<char, 128> message{};
-    std::vector<std::uint16_t> row;  // 16-bit for its alignment; 8-bit rows use it too
+    std::vector<std::uint16_t> row;  // 16-bit for alignment; 8-bit rows use it, too
 
     explicit PngReader(std::span<const std::byte> bytes) : encoded(bytes) {}
     PngReader(const PngReader&) = delete;
@@ -39,7 +40,7 @@ struct PngReader {
     png_longjmp(png, 1);
 }
 
-/// Without a handler of ours libpng would print; a warning changes no pixel.
+/// Ignores warnings, which change no pixel; without a handler libpng would print them.
 void onWarning(png_structp /*png*/, png_const_charp /*text*/) {}
 
 void onRead(png_structp png, png_bytep to, std::size_t count)
@@ -56,7 +57,7 @@ void onRead(png_structp png, png_bytep to, std::size_t count)
 template <class Calls>
 void guarded(PngReader& reader, Calls calls)
 {
-    // The one way libpng has to report an error
+    // libpng reports errors only in this way.
     if (setjmp(png_jmpbuf(reader.png)) != 0) {
         throwDamaged(ImageFormat::Png, reader.message.data());
     }
@@ -65,11 +66,11 @@ void guarded(PngReader& reader, Calls calls)
 
 void readHeader(PngReader& reader)
 {
-    // A damaged tRNS would otherwise be dropped with a warning, and the transparency with it.
+    // Otherwise a damaged tRNS would be dropped with a warning, and transparency would be lost.
     png_set_crc_action(reader.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    // Our limit has been checked; libpng's own is a million a side.
+    // The size has been checked; libpng's own limit is a million a side.
     png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    // Never used; a compressed one can unpack to megabytes.
+    // These chunks are never used; a compressed one can unpack to megabytes.
     static constexpr png_byte kUnwanted[] = "iCCP\0iTXt\0zTXt\0tEXt\0sPLT\0eXIf";
     png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, kUnwanted, static_cast<int>(sizeof kUnwanted / 5));
     png_read_info(reader.png, reader.info);
@@ -92,7 +93,8 @@ void readRow(PngReader& reader, Image& image, const PixelRun& run, std::size_t p
     }
 }
 
-/// libpng's own de-interlacing needs the whole image seven times over; unasked, it gives the passes as they lie.
+/// Reads all rows. libpng's own de-interlacing would need the whole image seven times; without it, libpng returns the
+/// passes as stored.
 void readRows(PngReader& reader, Image& image, int channels)
 {
     const auto width = static_cast<png_uint_32>(image.width);
@@ -130,7 +132,7 @@ Image decodePng(std::span<const std::byte> encoded, const ImageHeader& header)
 
     if (png_get_image_width(reader.png, reader.info) != static_cast<png_uint_32>(header.width) ||
         png_get_image_height(reader.png, reader.info) != static_cast<png_uint_32>(header.height)) {
-        throwDamaged(ImageFormat::Png, "it names two sizes");
+        throwDamaged(ImageFormat::Png, "it states two sizes");
     }
     const int channels = png_get_channels(reader.png, reader.info);
     Image image = blankImage(header, channels % 2 == 0);

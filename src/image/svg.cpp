@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // After: RFC 1952 (gzip).
 //
-// A program of ours draws the page with librsvg (svg/draw.cpp): librsvg, Cairo and Pango end the process when a drawing
-// overflows their stack or asks for more memory than there is, and compute for as long as it wants. So the drawing has
-// a process of its own, with limits, and takes but itself along. Both sides look into files in memory; nothing waits
-// for a pipe to be read but the end.
+// A separate program draws the page with librsvg (svg/draw.cpp). librsvg, Cairo and Pango end the process when a
+// drawing overflows their stack or needs more memory than is available, and they compute for as long as the drawing
+// takes. So each drawing has its own process with limits, and a crash affects only that process. Both sides use files
+// in memory; the only wait on a pipe is for the end.
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
@@ -37,7 +37,7 @@ extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leav
 namespace droplet {
 namespace {
 
-constexpr std::size_t kLongestText = std::size_t{1} << 26;
+constexpr std::size_t kMaxTextSize = std::size_t{1} << 26;
 constexpr std::size_t kMaxTags = 250'000;
 
 [[noreturn]] void throwRefused(const std::string& detail)
@@ -72,18 +72,18 @@ std::vector<std::byte> inflated(std::span<const std::byte> compressed)
         }
         text.insert(text.end(), chunk.begin(),
                     chunk.begin() + static_cast<std::ptrdiff_t>(chunk.size() - stream.avail_out));
-        if (text.size() > kLongestText) {
-            break;  // refused by the caller, as it would be uncompressed
+        if (text.size() > kMaxTextSize) {
+            break;  // rejected by the caller, as uncompressed text would be
         }
     }
     return text;
 }
 
-/// A file of ours that programs which are started do not get, but where named.
+/// File descriptor that is not inherited by started programs, unless passed explicitly.
 class Descriptor {
 public:
-    /// Takes a descriptor over. One of the three that a program starts with is exchanged, for it is to be given
-    /// others there.
+    /// Takes ownership of a descriptor. Descriptors 0 to 2 are replaced by others, because a started program gets its
+    /// own there.
     explicit Descriptor(int number) : number_(number)
     {
         if (number_ >= 0 && number_ <= STDERR_FILENO) {
@@ -120,8 +120,8 @@ void writeWhole(const Descriptor& file, const void* bytes, std::size_t size)
     }
 }
 
-/// The program that draws, started.
-pid_t startDrawing(const Descriptor& request, const Descriptor& drawing, int words)
+/// Starts the program that draws.
+pid_t startDrawing(const Descriptor& request, const Descriptor& drawing, int messages)
 {
     static const auto program = installedFile(DROPLET_SVG);
     if (!program) {
@@ -131,22 +131,23 @@ pid_t startDrawing(const Descriptor& request, const Descriptor& drawing, int wor
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, request.number(), STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, drawing.number(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, words, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&files, messages, STDERR_FILENO);
     posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-    // What the host has blocked or ignored is not the drawing's; and what the terminal sends to all of us (^C, ^Z) is
-    // ours to act on, for a drawing whose thread has ended ends as well.
-    posix_spawnattr_t how;
-    posix_spawnattr_init(&how);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    // The drawing does not inherit signals that the host has blocked or ignored. It also has its own process group, so
+    // that the terminal's ^C and ^Z reach only the host; when the thread that waits for a drawing ends, the drawing
+    // ends, too.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
     sigset_t signals;
     sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&how, &signals);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
     sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&how, &signals);
+    posix_spawnattr_setsigmask(&attributes, &signals);
     pid_t process = -1;
     std::array<char*, 2> arguments{const_cast<char*>(program->c_str()), nullptr};
-    const int failure = ::posix_spawn(&process, program->c_str(), &files, &how, arguments.data(), environ);
-    posix_spawnattr_destroy(&how);
+    const int failure = ::posix_spawn(&process, program->c_str(), &files, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     if (failure != 0) {
         throwSystem(failure);
@@ -154,34 +155,34 @@ pid_t startDrawing(const Descriptor& request, const Descriptor& drawing, int wor
     return process;
 }
 
-/// How a drawing ended.
-struct End {
-    bool late = false;
-    int status = 0;     ///< as of waitpid; 0, too, where the host has taken it
-    std::string words;  ///< the first that it said
+/// How the drawing process ended.
+struct ProcessEnd {
+    bool timed_out = false;
+    int status = 0;        ///< as from waitpid; 0 if the host has already collected it
+    std::string messages;  ///< beginning of its messages
 };
 
-End awaitEnd(pid_t process, const Descriptor& words, double seconds)
+ProcessEnd awaitEnd(pid_t process, const Descriptor& messages, double seconds)
 {
     using Clock = std::chrono::steady_clock;
     const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
-    End end;
+    ProcessEnd end;
     std::array<char, 4096> chunk{};
     for (;;) {
         const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
-        pollfd event{words.number(), POLLIN, 0};
+        pollfd event{messages.number(), POLLIN, 0};
         const int ready = ::poll(&event, 1, static_cast<int>(std::clamp(1e3 * left + 1.0, 0.0, 1e9)));
         if (ready == 0) {
-            end.late = true;
+            end.timed_out = true;
             ::kill(process, SIGKILL);
             break;
         }
-        const ssize_t count = ready < 0 ? -1 : ::read(words.number(), chunk.data(), chunk.size());
+        const ssize_t count = ready < 0 ? -1 : ::read(messages.number(), chunk.data(), chunk.size());
         if (count == 0 || (count < 0 && errno != EINTR)) {
-            break;  // nobody is left to say anything
+            break;  // the process has closed its end
         }
-        if (count > 0 && end.words.size() < chunk.size()) {
-            end.words.append(chunk.data(), static_cast<std::size_t>(count));
+        if (count > 0 && end.messages.size() < chunk.size()) {
+            end.messages.append(chunk.data(), static_cast<std::size_t>(count));
         }
     }
     while (::waitpid(process, &end.status, 0) == -1) {
@@ -198,20 +199,20 @@ std::string memoryProblem(const DrawingLimits& limits)
     return "takes more than " + numberText(static_cast<double>(limits.memory) / (1 << 20)) + " MiB of memory to draw";
 }
 
-/// What is said of a drawing that did not come to an end of its own.
-std::string problemOf(const End& end, const DrawingLimits& limits)
+/// Message for a drawing whose process did not end normally.
+std::string problemOf(const ProcessEnd& end, const DrawingLimits& limits)
 {
     const int signal = WIFSIGNALED(end.status) ? WTERMSIG(end.status) : 0;
     constexpr std::string_view kLoader = "loading shared libraries: ";
-    if (const auto at = end.words.find(kLoader); at != std::string::npos) {
-        const std::string reason = end.words.substr(at + kLoader.size());
+    if (const auto at = end.messages.find(kLoader); at != std::string::npos) {
+        const std::string reason = end.messages.substr(at + kLoader.size());
         return "needs librsvg, which must be installed (Debian's package librsvg2-2): " +
                reason.substr(0, reason.find('\n'));
     }
-    if (end.late || signal == SIGPROF) {
+    if (end.timed_out || signal == SIGPROF) {
         return "takes more than " + numberText(limits.seconds) + " s to draw";
     }
-    if (signal == SIGKILL || end.words.find("alloc") != std::string::npos) {
+    if (signal == SIGKILL || end.messages.find("alloc") != std::string::npos) {
         return memoryProblem(limits);
     }
     if (signal == SIGSEGV || signal == SIGBUS) {
@@ -220,7 +221,7 @@ std::string problemOf(const End& end, const DrawingLimits& limits)
     return "cannot be drawn: librsvg has failed";
 }
 
-/// The pixels of a file in memory.
+/// Pixels of a file in memory.
 class Pixels {
 public:
     Pixels(const Descriptor& file, std::size_t size)
@@ -273,26 +274,26 @@ Image imageOf(const SvgDrawing& drawing, const Pixels& pixels, const DecodeOptio
 
 Image draw(std::span<const std::byte> text, std::size_t tags, const DecodeOptions& options)
 {
-    const Descriptor asked = memoryFile();
-    const Descriptor drawn = memoryFile();
+    const Descriptor request_file = memoryFile();
+    const Descriptor drawing_file = memoryFile();
     const SvgRequest request{options.max_pixels, options.vector_long_side, options.drawing.seconds,
                              options.drawing.memory, tags};
-    writeWhole(asked, &request, sizeof request);
-    writeWhole(asked, text.data(), text.size());
+    writeWhole(request_file, &request, sizeof request);
+    writeWhole(request_file, text.data(), text.size());
 
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
         throwSystem(errno);
     }
-    const Descriptor words(ends[0]);
-    auto said = std::make_unique<Descriptor>(ends[1]);
-    const pid_t process = startDrawing(asked, drawn, said->number());
-    said.reset();
-    const End end = awaitEnd(process, words, options.drawing.seconds);
+    const Descriptor messages(ends[0]);
+    auto message_writer = std::make_unique<Descriptor>(ends[1]);
+    const pid_t process = startDrawing(request_file, drawing_file, message_writer->number());
+    message_writer.reset();
+    const ProcessEnd end = awaitEnd(process, messages, options.drawing.seconds);
 
     SvgDrawing drawing;
-    const bool whole = ::pread(drawn.number(), &drawing, sizeof drawing, 0) == sizeof drawing;
-    if (end.late || end.status != 0 || !whole || drawing.outcome == SvgOutcome::None) {
+    const bool whole = ::pread(drawing_file.number(), &drawing, sizeof drawing, 0) == sizeof drawing;
+    if (end.timed_out || end.status != 0 || !whole || drawing.outcome == SvgOutcome::None) {
         throwRefused(problemOf(end, options.drawing));
     }
     if (drawing.outcome == SvgOutcome::Damaged) {
@@ -304,7 +305,7 @@ Image draw(std::span<const std::byte> text, std::size_t tags, const DecodeOption
     }
     const std::size_t size =
         kSvgPixels + 4 * static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
-    return imageOf(drawing, Pixels(drawn, size), options);
+    return imageOf(drawing, Pixels(drawing_file, size), options);
 }
 
 }  // namespace
@@ -316,13 +317,13 @@ Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options
     if (is_compressed()) {
         text = inflated(encoded);
         encoded = text;
-        // librsvg would inflate what is compressed twice, without bounds.
+        // librsvg would unpack doubly compressed data, without limits.
         if (is_compressed() || imageFormat(encoded) != ImageFormat::Svg) {
             throw Error(ErrorCode::InvalidInput, "compressed data without an SVG image in them");
         }
     }
-    if (encoded.size() > kLongestText) {
-        throwRefused("of more than " + std::to_string(kLongestText >> 20) + " MiB of text");
+    if (encoded.size() > kMaxTextSize) {
+        throwRefused("of more than " + std::to_string(kMaxTextSize >> 20) + " MiB of text");
     }
     const auto tags = static_cast<std::size_t>(std::count(encoded.begin(), encoded.end(), std::byte{'<'}));
     if (tags > kMaxTags) {

@@ -4,21 +4,21 @@
 #include <array>
 #include <cstddef>
 
-// What the library and its program that draws SVG say to each other: plain data in two files in memory. Both are of
-// one build.
+// Interface between the library and its program that draws SVG: plain data in two files in memory. Both come from the
+// same build.
 //
-// The program reads an SvgRequest and then the SVG's text from its standard input, and writes an SvgDrawing and, a page
-// (kSvgPixels) from the beginning, the pixels to its standard output, both of which it maps. What it and its libraries
-// say goes to standard error, a pipe that also tells when it has ended.
+// The program reads an SvgRequest and then the SVG's text from its standard input. It writes an SvgDrawing and, from
+// kSvgPixels on, the pixels to its standard output. It maps both. Messages of the program and its libraries go to
+// standard error, a pipe whose closing also signals the program's end.
 
 namespace droplet {
 
 struct SvgRequest {
     std::size_t max_pixels = 0;  ///< as in DecodeOptions
     int long_side = 0;           ///< as in DecodeOptions [px]
-    double seconds = 0.0;        ///< of processor time
-    std::size_t memory = 0;      ///< beside the pixels, its stack included [B]
-    std::size_t tags = 0;        ///< of the text: no more elements can refer to one another
+    double seconds = 0.0;        ///< limit of processor time [s]
+    std::size_t memory = 0;      ///< limit of memory without the pixels, with the stack [B]
+    std::size_t tags = 0;        ///< tags in the text: a bound on the depth of references between elements
 };
 
 enum class SvgOutcome { None, Drawn, Damaged, Refused };
@@ -28,11 +28,11 @@ struct SvgDrawing {
     int width = 0;                     ///< [px]
     int height = 0;                    ///< [px]
     double scale = 0.0;                ///< pixels per CSS px
-    double physical_width = 0.0;       ///< of the page, if it states one [m]; else 0
+    double physical_width = 0.0;       ///< physical width of the page [m]; 0 if it states none
     std::array<char, 1000> problem{};  ///< why it is not drawn, in one line
 };
 
-/// Where the pixels begin: premultiplied ARGB in 32 bits, row by row.
+/// Offset of the pixels: premultiplied ARGB in 32 bits, row by row.
 inline constexpr std::size_t kSvgPixels = 4096;
 static_assert(sizeof(SvgDrawing) <= kSvgPixels);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Constrained Delaunay triangulation (CGAL), refined after J. Ruppert, "A Delaunay refinement algorithm for quality
-// 2-dimensional mesh generation" (1995), with his concentric shells at sharp corners. Departures: inner edges between
-// two rim vertices count as bad, for the liquid's surface would lie on the ground along them, and nothing is refined
-// below a fraction of a pixel, so that refinement ends whatever the input angles. CGAL's own refinement,
-// Delaunay_mesher_2, knows neither; on masks of noise it ends in a segmentation fault (5.5.1).
+// 2-dimensional mesh generation" (1995), with his concentric shells at sharp corners. Two departures: Inner edges
+// between two rim vertices count as bad, because the liquid's surface would lie on the ground along them. Nothing is
+// refined below a fraction of a pixel, so that refinement ends for all input angles. CGAL's own refinement,
+// Delaunay_mesher_2, does neither; on masks of noise it ends in a segmentation fault (5.5.1).
 
 #include "mesh/band.h"
 
@@ -22,14 +22,15 @@
 namespace droplet {
 namespace {
 
-/// Square of the smallest angle's tangent: Ruppert's bound, the largest for which refinement provably ends, is
+/// Squared tangent of the smallest angle: Ruppert's bound, the largest for which refinement provably ends, is
 /// arcsin(1/√8) = arctan(1/√7) = 20.7°.
 constexpr double kMinTangentSquared = 1.0 / 7.0;
 
-/// Triangles lower than this share of their longest edge, with angles below 3° or so, are needles.
+/// Triangles lower than this share of their longest edge, with angles below about 3°, are needles.
 constexpr double kNeedle = 0.05;
 
-/// Corners sharper than this get concentric shells: below it, halving one side encroaches upon the other for ever.
+/// Corners sharper than this get concentric shells; without them, halving one side would encroach upon the other
+/// without end.
 constexpr double kSharpCorner = std::numbers::pi / 3.0;
 
 using Point = Triangulation::Point;
@@ -51,7 +52,7 @@ double angleAt(Vec2 corner, Vec2 a, Vec2 b)
 
 using Polygons = std::vector<std::vector<Vec2>>;
 
-/// The triangulation of one footprint, or of what its lattice leaves of it, in the making.
+/// Triangulation of one footprint, or of the part of it outside its lattice core.
 class Band {
 public:
     /// @param finest  length below which nothing is refined [m]
@@ -65,7 +66,7 @@ public:
         }
     }
 
-    /// Of a cavity: which vertices of the polygons are on the rim, and which edges are none of ours to split.
+    /// Marks the vertices of a cavity's polygons that are on the rim, and those whose edges must not be split.
     void mark(const Cavity& cavity)
     {
         for (std::size_t k = 0; k < cavity.polygons.size(); ++k) {
@@ -77,8 +78,9 @@ public:
         }
     }
 
-    /// Points of the core, from a number on, and edges between them: what lies behind these is none of ours.
-    void leaveOut(std::size_t first, const std::vector<std::array<std::uint32_t, 2>>& boundary)
+    /// Marks points from an index on as core points and adds the edges between them; nothing behind these edges is
+    /// changed.
+    void markCore(std::size_t first, const std::vector<std::array<std::uint32_t, 2>>& boundary)
     {
         for (std::size_t i = first; i < inserted_.points.size(); ++i) {
             inserted_.points[i]->info().is_core = true;
@@ -88,7 +90,7 @@ public:
         }
     }
 
-    /// Refines until every angle and every edge's tie to the inside is good, or as fine as it may be.
+    /// Refines until every angle is good and no inner edge joins two rim vertices, or as far as `finest` allows.
     void refine()
     {
         markDomain(triangulation_);
@@ -105,31 +107,31 @@ public:
         for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end(); ++e) {
             collectFlat(*e, flat);
         }
-        // A face that is a whole droplet has no inner edge to halve, yet needs a vertex to rise.
+        // A face that is a whole droplet has no inner edge to halve, but needs an inner vertex to have a height.
         for (const FaceHandle f : whole) {
             insertInside(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
                          Triangulation::FACE, f, 0);
         }
-        // Every round mends what the one before stirred up; real footprints need two or three.
-        constexpr int kRounds = 30;
+        // Every round repairs the damage of the one before; real footprints need two or three.
+        constexpr int kMaxRounds = 30;
         for (int round = 0; !sharp.empty() || !flat.empty() || !fresh_.empty(); ++round) {
             std::vector<Corners> tried;
             for (const Corners& v : sharp) {
                 FaceHandle f;
-                // An earlier insertion may have mended this one already.
-                if (round < kRounds && triangulation_.is_face(v[0], v[1], v[2], f) && split(f)) {
+                // An earlier insertion may have removed this face.
+                if (round < kMaxRounds && triangulation_.is_face(v[0], v[1], v[2], f) && split(f)) {
                     tried.push_back(v);
                 }
             }
             sharp.clear();
-            // What is new has a new vertex.
+            // New edges have a new vertex.
             for (const VertexHandle v : fresh_) {
                 collectFlatAround(v, flat);
             }
             for (const Ends& ends : flat) {
                 FaceHandle f;
                 int i = 0;
-                // Halving another edge may have flipped this one away.
+                // Halving another edge may have removed this one.
                 if (triangulation_.is_edge(ends[0], ends[1], f, i)) {
                     insertInside(middleOf({f, i}), Triangulation::EDGE, f, i);
                 }
@@ -139,7 +141,7 @@ public:
             for (const VertexHandle v : last) {
                 collectSharpAround(v, sharp);
             }
-            // What stood in the way of a face has been split, but not the face.
+            // The edges in the way of a face have been split, but maybe not the face itself.
             for (const Corners& v : tried) {
                 FaceHandle f;
                 if (triangulation_.is_face(v[0], v[1], v[2], f)) {
@@ -151,13 +153,13 @@ public:
 
     [[nodiscard]] Filling filling() const;
 
-    /// The rim's vertices, then all others but the core's; the core's points have the given numbers after those.
+    /// Vertices in order: those of the rim, all others outside the core, then the core's points with the given numbers.
     [[nodiscard]] PlanarMesh extract(const std::vector<std::uint32_t>& core_numbers) const;
 
 private:
     using Ends = std::array<VertexHandle, 2>;
 
-    /// Takes a face of the domain that has too small an angle, by its vertices, for faces come and go.
+    /// Collects a face of the domain that has too small an angle, by its vertices, because faces are replaced.
     void collectSharp(FaceHandle f, std::vector<Corners>& sharp) const
     {
         if (f->is_in_domain() && isSharp(f)) {
@@ -165,7 +167,7 @@ private:
         }
     }
 
-    /// Of the faces around a new vertex those of which it is the newest: so each is taken once.
+    /// Collects those faces around a new vertex of which it is the newest, so that each face is collected once.
     void collectSharpAround(VertexHandle v, std::vector<Corners>& sharp) const
     {
         auto f = triangulation_.incident_faces(v);
@@ -179,7 +181,7 @@ private:
         } while (++f != done);
     }
 
-    /// Takes an inner edge that joins two rim vertices.
+    /// Collects an inner edge that joins two rim vertices.
     void collectFlat(const Edge& e, std::vector<Ends>& flat) const
     {
         const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
@@ -205,7 +207,7 @@ private:
         } while (++e != done);
     }
 
-    /// Whether a face has too small an angle that is not a corner of the rim.
+    /// Whether a face has too small an angle, other than at a corner of the rim.
     [[nodiscard]] bool isSharp(FaceHandle f) const
     {
         for (int i = 0; i < 3; ++i) {
@@ -228,14 +230,14 @@ private:
                       vec(e.first->vertex(Triangulation::ccw(e.second))->point()));
     }
 
-    /// Splits a bad face by its circumcentre, or the rim edges that stand in its way.
+    /// Splits a bad face at its circumcentre, or splits the rim edges in the way.
     /// @return whether anything was inserted
     bool split(FaceHandle f)
     {
         const auto [shortest, longest] = std::minmax({edgeLength({f, 0}), edgeLength({f, 1}), edgeLength({f, 2})});
         const Vec2 corner = vec(f->vertex(0)->point());
         const double height = cross(vec(f->vertex(1)->point()) - corner, vec(f->vertex(2)->point()) - corner) / longest;
-        // A strip of nearly no width is not cut into squares, if its triangles are no needles.
+        // A very narrow strip is not cut into squares unless its triangles are needles.
         if (shortest < finest_ || (height < finest_ && height > kNeedle * longest)) {
             return false;
         }
@@ -284,7 +286,7 @@ private:
         return changed;
     }
 
-    /// Walks straight from a face to a point; returns the rim edge in the way, or leaves the point's face in `at`.
+    /// Walks straight from a face to a point. Returns the rim edge in the way, or else leaves the point's face in `at`.
     std::optional<Edge> walk(FaceHandle& at, const Point& to) const
     {
         const Point from = CGAL::centroid(at->vertex(0)->point(), at->vertex(1)->point(), at->vertex(2)->point());
@@ -311,14 +313,14 @@ private:
         }
     }
 
-    /// Whether an edge has the core behind it.
+    /// Whether the core lies behind an edge.
     static bool isCore(const Edge& e)
     {
         return e.first->vertex(Triangulation::cw(e.second))->info().is_core &&
                e.first->vertex(Triangulation::ccw(e.second))->info().is_core;
     }
 
-    /// Splits a rim edge in the middle, or, next to a sharp corner, at a power of two away from it.
+    /// Splits a rim edge in the middle, or, next to a sharp corner, at a power of two from the corner.
     bool splitRim(const Edge& e)
     {
         const double whole = edgeLength(e);
@@ -335,12 +337,12 @@ private:
             part = std::exp2(std::round(std::log2(0.5 * whole / finest_))) * finest_ / whole;
         }
         const Vec2 middle = vec(a->point()) + part * (vec(b->point()) - vec(a->point()));
-        // The face of the edge lies on the left of the way to this end.
+        // The face of the edge lies to the left on the way to this end.
         const VertexHandle end = e.first->vertex(Triangulation::cw(e.second));
         const bool left = e.first->is_in_domain();
         const bool right = e.first->neighbor(e.second)->is_in_domain();
         const VertexHandle v = triangulation_.insert(Point(middle.x, middle.y), Triangulation::EDGE, e.first, e.second);
-        take(v);
+        addFresh(v);
         v->info().is_rim = true;
         auto f = triangulation_.incident_faces(v);
         while (f->vertex(Triangulation::ccw(f->index(v))) != end) {
@@ -350,7 +352,7 @@ private:
         bool inside = left;
         do {
             f->set_in_domain(inside);
-            // On to the other side across the rim.
+            // The walk crosses the rim to the other side.
             if (f->is_constrained(Triangulation::ccw(f->index(v)))) {
                 inside = right;
             }
@@ -358,7 +360,7 @@ private:
         return true;
     }
 
-    /// The middle of an edge; of one across a corner of the rim, where the corner is halved.
+    /// Middle of an edge; for an edge across a corner of the rim, the point where the corner is bisected.
     [[nodiscard]] Point middleOf(const Edge& e) const
     {
         const VertexHandle a = e.first->vertex(Triangulation::cw(e.second));
@@ -379,7 +381,7 @@ private:
     void insertInside(const Point& p, Triangulation::Locate_type type, FaceHandle place, int index)
     {
         const VertexHandle v = triangulation_.insert(p, type, place, index);
-        take(v);
+        addFresh(v);
         auto f = triangulation_.incident_faces(v);
         const auto done = f;
         do {
@@ -387,7 +389,7 @@ private:
         } while (++f != done);
     }
 
-    void take(VertexHandle v)
+    void addFresh(VertexHandle v)
     {
         v->info().order = ++inserted_count_;
         fresh_.push_back(v);
@@ -407,7 +409,7 @@ private:
         return sides.size() == 2 && angleAt(vec(v->point()), sides[0], sides[1]) < kSharpCorner;
     }
 
-    /// The vertex after `from` along the rim polygon toward `to`: the mesher may have split the edge between.
+    /// Next vertex after `from` along the rim polygon toward `to`; refinement may have split the edge between them.
     [[nodiscard]] VertexHandle nextToward(VertexHandle from, VertexHandle to) const
     {
         const Vec2 start{from->point().x(), from->point().y()};
@@ -435,8 +437,8 @@ private:
     Triangulation triangulation_;
     double finest_;
     Inserted inserted_;
-    std::uint32_t inserted_count_ = 0;  ///< by refinement
-    std::vector<VertexHandle> fresh_;   ///< inserted since the last round
+    std::uint32_t inserted_count_ = 0;  ///< vertices inserted by refinement
+    std::vector<VertexHandle> fresh_;   ///< vertices inserted since the last round
 };
 
 Filling Band::filling() const
@@ -451,7 +453,7 @@ Filling Band::filling() const
             v->info().index = given++;
         }
     }
-    const auto take = [&](VertexHandle v) {
+    const auto append = [&](VertexHandle v) {
         v->info().index = given + static_cast<std::uint32_t>(filling.points.size());
         filling.points.push_back(vec(v->point()));
     };
@@ -460,7 +462,7 @@ Filling Band::filling() const
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const VertexHandle end = loop[(i + 1) % loop.size()];
             for (VertexHandle v = nextToward(loop[i], end); v != end; v = nextToward(v, end)) {
-                take(v);
+                append(v);
                 filling.splits.back()[i].push_back(*v->info().index - given);
             }
         }
@@ -471,7 +473,7 @@ Filling Band::filling() const
             for (int k = 0; k < 3; ++k) {
                 const VertexHandle v = f->vertex(k);
                 if (!v->info().index) {
-                    take(v);
+                    append(v);
                 }
                 triangle[static_cast<std::size_t>(k)] = *v->info().index;
             }
@@ -486,7 +488,7 @@ PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const
     for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v) {
         v->info().index.reset();
     }
-    const auto take = [&](VertexHandle v) {
+    const auto append = [&](VertexHandle v) {
         v->info().index = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.push_back(vec(v->point()));
     };
@@ -495,7 +497,7 @@ PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const VertexHandle end = loop[(i + 1) % loop.size()];
             for (VertexHandle v = loop[i]; v != end; v = nextToward(v, end)) {
-                take(v);
+                append(v);
             }
         }
         mesh.loop_starts.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
@@ -509,7 +511,7 @@ PlanarMesh Band::extract(const std::vector<std::uint32_t>& core_numbers) const
         for (int k = 0; k < 3; ++k) {
             const VertexHandle v = f->vertex(k);
             if (!v->info().index && !v->info().is_core) {
-                take(v);
+                append(v);
             }
         }
     }
@@ -534,7 +536,7 @@ PlanarMesh triangulateBand(const Polygons& polygons, const LatticeCore& core, do
     const std::vector<Vec2> seam = core.seamPoints();
     points.insert(points.end(), seam.begin(), seam.end());
     Band band(polygons, points, finest);
-    band.leaveOut(loose, core.boundary());
+    band.markCore(loose, core.boundary());
     band.refine();
     PlanarMesh mesh = band.extract(core.seamNumbers());
     const std::size_t triangles = mesh.triangles.size();
@@ -561,7 +563,7 @@ Filling fill(const Cavity& cavity, const std::vector<Vec2>& points, double fines
     return band.filling();
 }
 
-std::vector<Triangle> triangulateAsIs(const Polygons& polygons, const std::vector<Vec2>& points)
+std::vector<Triangle> triangulateUnrefined(const Polygons& polygons, const std::vector<Vec2>& points)
 {
     Triangulation triangulation;
     const Inserted inserted = insert(triangulation, polygons, points);

@@ -10,41 +10,42 @@
 
 namespace droplet {
 
-/// Triangulates polygons with a lattice core inside: constrained Delaunay and refined in the band between, known inside
-/// the core.
+/// Triangulates polygons with a lattice core inside. The band between them is constrained Delaunay and refined; the
+/// triangles of the core are known.
 /// @param polygons  outer counter-clockwise, holes clockwise
-/// @param core      of the same polygons
+/// @param core      made from the same polygons
 /// @param finest    length below which nothing is refined [m]
 /// @throws Error    InvalidArgument if polygons cross or touch
 PlanarMesh triangulateBand(const std::vector<std::vector<Vec2>>& polygons, const LatticeCore& core, double finest);
 
-/// Triangulates polygons with points inside: constrained Delaunay, and refined.
-/// @param points  inside the polygons, none twice
+/// Triangulates polygons with points inside: constrained Delaunay, refined.
+/// @param points  inside the polygons, all different
 PlanarMesh triangulatePoints(const std::vector<std::vector<Vec2>>& polygons, const std::vector<Vec2>& points,
                              double finest);
 
-/// What is to be triangulated between a rim and triangles that stay.
+/// Region to triangulate between a rim and triangles that stay.
 struct Cavity {
     std::vector<std::vector<Vec2>> polygons;         ///< liquid on the left
-    std::vector<std::vector<std::uint8_t>> on_rim;   ///< of every vertex: whether it is on the rim
-    std::vector<std::vector<std::uint8_t>> at_seam;  ///< whether a triangle that stays has it; an edge between two such
-                                                     ///< vertices is not split
+    std::vector<std::vector<std::uint8_t>> on_rim;   ///< whether a vertex is on the rim
+    std::vector<std::vector<std::uint8_t>> at_seam;  ///< whether a vertex belongs to a triangle that stays; edges
+                                                     ///< between two such vertices are not split
 };
 
-/// What a cavity is filled with.
+/// Triangles that fill a cavity.
 struct Filling {
-    std::vector<Vec2> points;         ///< new ones
-    std::vector<Triangle> triangles;  ///< by index: vertices of the polygons in order, then the points
+    std::vector<Vec2> points;         ///< new points
+    std::vector<Triangle> triangles;  ///< indices: the polygons' vertices in order, then the points
     std::vector<std::vector<std::vector<std::uint32_t>>> splits;  ///< points on every edge of every polygon, in order
 };
 
-/// Fills a cavity with triangles: constrained Delaunay, and refined.
-/// @param points  inside, none twice
+/// Fills a cavity with triangles: constrained Delaunay, refined.
+/// @param points  inside, all different
 /// @throws Error  InvalidArgument if polygons cross or touch
 Filling fill(const Cavity& cavity, const std::vector<Vec2>& points, double finest);
 
-/// Triangulates polygons with points inside, and adds no vertex: inner edges may join two rim vertices.
-/// @return triangles by index: vertices of the polygons in order, then the points
-std::vector<Triangle> triangulateAsIs(const std::vector<std::vector<Vec2>>& polygons, const std::vector<Vec2>& points);
+/// Triangulates polygons with points inside and adds no vertex; inner edges may join two rim vertices.
+/// @return triangles by index: the polygons' vertices in order, then the points
+std::vector<Triangle> triangulateUnrefined(const std::vector<std::vector<Vec2>>& polygons,
+                                           const std::vector<Vec2>& points);
 
 }  // namespace droplet

@@ -12,7 +12,7 @@
 
 namespace droplet {
 
-/// A closed polygon by its length from the first point on.
+/// Closed polygon, parametrised by the length from its first point.
 class Curve {
 public:
     explicit Curve(std::vector<Vec2> points) : points_(std::move(points)), arc_{0.0}
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] double length() const { return arc_.back(); }
     [[nodiscard]] double arc(std::size_t point) const { return arc_[point]; }
 
-    /// Of any number, once around or more.
+    /// Maps any length into one lap.
     [[nodiscard]] double wrapped(double s) const { return s - length() * std::floor(s / length()); }
 
     [[nodiscard]] std::size_t pieceAt(double s) const
@@ -42,7 +42,7 @@ public:
         return points_[i] + t * (end(i) - points_[i]);
     }
 
-    /// Place of the nearest point among that many pieces from one on, as a length from that piece's lap on.
+    /// Place of the nearest point on the `pieces` pieces that begin at `from`, as a length that counts full laps.
     [[nodiscard]] double nearest(Vec2 p, double from, std::size_t pieces) const
     {
         double best = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Harmonic motion of inner vertices, by linear finite elements: of a translation it makes a translation, and what is
-// affine stays so.
+// Harmonic motion of inner vertices, by linear finite elements. It reproduces translations and other affine motions of
+// the rim exactly.
 #include "droplet/mesh/follow.h"
 
 #include <Eigen/SparseCholesky>
@@ -22,19 +22,19 @@
 namespace droplet {
 namespace {
 
-/// What is refused, see follow().
+/// Limits beyond which a mesh is rejected; see follow().
 constexpr double kMinAngle = 15.0 * kDegree;
-constexpr double kShareOfAngle = 0.75;
+constexpr double kMinAngleShare = 0.75;
 constexpr double kMaxStretch = 1.5;
 constexpr double kMaxSagitta = 0.2;
 
-/// Spacing of the rim's vertices, relative to what it was, beyond which the nearest way is evened out further.
+/// Range of the spacing of rim vertices, relative to the old spacing; outside of it, places are evened out further.
 constexpr double kMinSpacing = 0.5;
 constexpr double kMaxSpacing = 2.0;
 
 Vec2 centroid(const std::vector<Vec2>& points)
 {
-    // About the first point, so that places far from the origin lose no digits.
+    // Relative to the first point, so that places far from the origin lose no digits.
     const Vec2 origin = points.front();
     Vec2 moment;
     double twice = 0.0;
@@ -57,7 +57,7 @@ double enclosed(const std::vector<Vec2>& points)
     return 0.5 * twice;
 }
 
-/// For every corner of the loop the bend of the rim that becomes it, if each is the other's nearest.
+/// Pairs of a corner of the loop and the bend of the rim that becomes it; each is the other's nearest.
 std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)
 {
     constexpr double kBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
@@ -93,17 +93,17 @@ std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, c
     return pairs;
 }
 
-/// How far on the new loop every vertex is ahead of its share of the whole, one common lead for a rigid motion.
-struct Leads {
+/// Offset of every vertex on the new loop from its share of the length; a rigid motion gives one common offset.
+struct Offsets {
     std::vector<double> values;
     std::vector<std::uint8_t> fixed;  ///< 1 at vertices that become corners
 };
 
-Leads leadsOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
+Offsets offsetsOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
 {
     const std::size_t count = moved.size();
     const double ratio = after.length() / before.length();
-    // Of several vertices, the lead that others agree with most.
+    // The common offset is that of the sampled vertex with which the others agree best.
     constexpr std::size_t kSamples = 16;
     std::vector<double> sampled;
     for (std::size_t k = 0; k < std::min(kSamples, count); ++k) {
@@ -112,36 +112,36 @@ Leads leadsOf(const Curve& before, const Curve& after, const Loop& loop, const s
     }
     double common = 0.0;
     double min = std::numeric_limits<double>::infinity();
-    for (const double lead : sampled) {
+    for (const double offset : sampled) {
         double disagreement = 0.0;
         for (const double other : sampled) {
-            const double apart = after.wrapped(other - lead);
+            const double apart = after.wrapped(other - offset);
             disagreement += std::min(apart, after.length() - apart);
         }
         if (disagreement < min) {
             min = disagreement;
-            common = lead;
+            common = offset;
         }
     }
-    // The nearest way is looked for an eighth of the loop to both sides of that.
+    // The nearest place is searched an eighth of the loop to both sides of it.
     constexpr double kReach = 0.125;
-    Leads leads{std::vector<double>(count), std::vector<std::uint8_t>(count, 0)};
+    Offsets offsets{std::vector<double>(count), std::vector<std::uint8_t>(count, 0)};
     for (std::size_t v = 0; v < count; ++v) {
         const double expected = ratio * before.arc(v) + common;
         const double from = expected - kReach * after.length();
         std::size_t pieces = after.pieceAt(expected + kReach * after.length()) + after.size() - after.pieceAt(from);
         pieces = pieces % after.size() + 1;
-        leads.values[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
+        offsets.values[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
     }
     for (const auto& [corner, v] : cornerPairs(loop, moved)) {
-        const double lead = after.arc(corner) - ratio * before.arc(v);
-        leads.values[v] = common + std::remainder(lead - common, after.length());
-        leads.fixed[v] = 1;
+        const double offset = after.arc(corner) - ratio * before.arc(v);
+        offsets.values[v] = common + std::remainder(offset - common, after.length());
+        offsets.fixed[v] = 1;
     }
-    return leads;
+    return offsets;
 }
 
-/// Whether vertices follow one another at distances like those they had.
+/// Whether the spacing of vertices is similar to the old one.
 bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<double>& places)
 {
     const double ratio = after.length() / before.length();
@@ -155,7 +155,7 @@ bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<dou
     return true;
 }
 
-/// Where on the new loop every vertex goes, and which of them become corners.
+/// Places of all vertices on the new loop, and which of them become corners.
 struct Places {
     std::vector<double> values;
     std::vector<std::uint8_t> fixed;
@@ -165,31 +165,31 @@ Places placesOf(const Curve& before, const Curve& after, const Loop& loop, const
 {
     const std::size_t count = moved.size();
     const double ratio = after.length() / before.length();
-    Leads leads = leadsOf(before, after, loop, moved);
-    Places places{std::vector<double>(count), leads.fixed};
+    Offsets offsets = offsetsOf(before, after, loop, moved);
+    Places places{std::vector<double>(count), offsets.fixed};
     const std::size_t max_passes = 16 * count;
     for (std::size_t done = 0, passes = 1;; passes *= 4) {
         for (std::size_t v = 0; v < count; ++v) {
-            places.values[v] = ratio * before.arc(v) + leads.values[v];
+            places.values[v] = ratio * before.arc(v) + offsets.values[v];
         }
         if (done > max_passes || evenlySpaced(before, after, places.values)) {
             return places;
         }
         for (; done < passes; ++done) {
-            std::vector<double> evened = leads.values;
+            std::vector<double> evened = offsets.values;
             for (std::size_t v = 0; v < count; ++v) {
-                if (leads.fixed[v] == 0) {
-                    evened[v] = 0.25 * (leads.values[(v + count - 1) % count] + leads.values[(v + 1) % count]) +
-                                0.5 * leads.values[v];
+                if (offsets.fixed[v] == 0) {
+                    evened[v] = 0.25 * (offsets.values[(v + count - 1) % count] + offsets.values[(v + 1) % count]) +
+                                0.5 * offsets.values[v];
                 }
             }
-            leads.values = std::move(evened);
+            offsets.values = std::move(evened);
         }
     }
 }
 
-/// Gives every corner of the loop the vertex next to it; false if two want the same.
-bool takeCorners(const Loop& loop, const Curve& after, Places& places)
+/// Assigns the nearest vertex to every corner of the loop; false if two corners need the same.
+bool assignCorners(const Loop& loop, const Curve& after, Places& places)
 {
     const std::size_t count = places.values.size();
     std::vector<std::uint8_t> taken(count, 0);
@@ -219,7 +219,7 @@ bool takeCorners(const Loop& loop, const Curve& after, Places& places)
     return true;
 }
 
-/// Moves all but corners across the rim, alike, until the polygon has the loop's area.
+/// Moves all vertices except corners across the rim by the same distance, until the polygon has the loop's area.
 void keepArea(double wanted, const std::vector<std::uint8_t>& fixed, std::vector<Vec2>& points)
 {
     constexpr int kPasses = 3;  // the error is squared each time
@@ -244,8 +244,8 @@ void keepArea(double wanted, const std::vector<std::uint8_t>& fixed, std::vector
     }
 }
 
-/// Whether every chord stands close to its piece of the loop.
-bool hugs(const Loop& loop, const Curve& after, const std::vector<double>& places, const std::vector<Vec2>& points)
+/// Whether every chord is close to its piece of the loop.
+bool chordsFit(const Loop& loop, const Curve& after, const std::vector<double>& places, const std::vector<Vec2>& points)
 {
     const std::size_t count = points.size();
     for (std::size_t v = 0; v < count; ++v) {
@@ -278,7 +278,7 @@ std::vector<Vec2> loopOf(const PlanarMesh& mesh, std::size_t loop)
     return {mesh.vertices.begin() + mesh.loop_starts[loop], mesh.vertices.begin() + mesh.loop_starts[loop + 1]};
 }
 
-/// Where the vertices of one loop go on another.
+/// New places of the vertices of one loop on another.
 std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const Loop& loop)
 {
     const double area_before = enclosed(points);
@@ -297,18 +297,18 @@ std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const
     const Curve before(points);
     const Curve after(loop.points);
     Places places = placesOf(before, after, loop, moved);
-    if (!takeCorners(loop, after, places)) {
+    if (!assignCorners(loop, after, places)) {
         return std::nullopt;
     }
     for (std::size_t v = 0; v < points.size(); ++v) {
         moved[v] = after.at(places.values[v]);
     }
     keepArea(area_after, places.fixed, moved);
-    return hugs(loop, after, places.values, moved) ? std::optional(moved) : std::nullopt;
+    return chordsFit(loop, after, places.values, moved) ? std::optional(moved) : std::nullopt;
 }
 
-/// For every loop of the mesh the one of the footprint it becomes.
-std::optional<std::vector<const Loop*>> partners(const PlanarMesh& mesh, const Footprint& footprint)
+/// Finds for every loop of the mesh the loop of the footprint that it becomes.
+std::optional<std::vector<const Loop*>> matchingLoops(const PlanarMesh& mesh, const Footprint& footprint)
 {
     const std::size_t count = mesh.loopCount();
     if (count != 1 + footprint.holes.size()) {
@@ -344,7 +344,7 @@ PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
     const std::uint32_t on_rim = mesh.rimVertexCount();
     if (rim.size() != on_rim) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("rim must have as many vertices as the mesh's: {} against {}", rim.size(), on_rim));
+                    fmt::format("rim has {} vertices, must have {} as the mesh's rim", rim.size(), on_rim));
     }
     PlanarMesh moved = mesh;
     moved.lattice = {};
@@ -358,7 +358,7 @@ PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
     for (const Triangle& t : mesh.triangles) {
         const double twice = doubleArea(mesh, t);
         for (std::size_t k = 0; k < 3; ++k) {
-            // The edge opposite vertex k, by half the cotangent of the angle there.
+            // Weight of the edge opposite vertex k: half the cotangent of the angle at k.
             const std::uint32_t a = t[(k + 1) % 3];
             const std::uint32_t b = t[(k + 2) % 3];
             const double weight =
@@ -394,9 +394,9 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
 {
     if (first.vertices.size() != last.vertices.size() || first.loop_starts != last.loop_starts ||
         first.triangles != last.triangles) {
-        throw Error(ErrorCode::InvalidArgument, "first and last must be one mesh in two places");
+        throw Error(ErrorCode::InvalidArgument, "first and last must have the same loops and triangles");
     }
-    const std::optional<std::vector<const Loop*>> loops = partners(last, footprint);
+    const std::optional<std::vector<const Loop*>> loops = matchingLoops(last, footprint);
     const double stretch = std::sqrt(area(footprint) / area(first));
     if (!loops || !(stretch <= kMaxStretch && stretch >= 1.0 / kMaxStretch)) {
         return std::nullopt;
@@ -412,7 +412,7 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     PlanarMesh mesh = withRim(first, rim);
     const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                                    [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
-    if (!whole || minAngle(mesh) < std::min(kMinAngle, kShareOfAngle * minAngle(first))) {
+    if (!whole || minAngle(mesh) < std::min(kMinAngle, kMinAngleShare * minAngle(first))) {
         return std::nullopt;
     }
     return mesh;

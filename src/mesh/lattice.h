@@ -10,21 +10,21 @@
 
 namespace droplet {
 
-/// The regular part of a mesh: which of its vertices are points of an equilateral lattice.
+/// Regular part of a mesh: its vertices that are points of an equilateral lattice.
 ///
-/// Invariants: the grid's indices are the last vertices of the mesh; any three of them that are mutual neighbours on
-/// the lattice form a triangle of the mesh.
+/// Invariants: the grid's indices are the last vertices of the mesh; three of them that are neighbours of one another
+/// on the lattice form a triangle of the mesh.
 struct Lattice {
-    double edge = 0.0;  ///< between neighbouring points [m]
-    LatticeGrid grid;   ///< the points, by the vertices at them; never empty
-    /// From here on triangles join vertices all of whose triangles are equilateral.
+    double edge = 0.0;  ///< distance between neighbouring points [m]
+    LatticeGrid grid;   ///< vertices at the points; never empty
+    /// Triangles from this index on join only vertices whose triangles are all equilateral.
     std::uint32_t first_regular_triangle = 0;
 };
 
-/// How many of a mesh's triangles, its first, have to be looked at one by one: all but the regular ones of its lattice.
+/// Number of triangles, from the first, that must be handled one by one: all but the regular ones of the lattice.
 std::size_t irregularTriangleCount(const PlanarMesh& mesh);
 
-/// The vertices of a mesh all of whose triangles are equilateral, in ascending order.
+/// Vertices that have only equilateral triangles, in ascending order.
 std::vector<GridRun> regularRuns(const PlanarMesh& mesh);
 
 }  // namespace droplet

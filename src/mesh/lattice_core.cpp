@@ -13,12 +13,12 @@
 namespace droplet {
 namespace {
 
-/// Lattice points stay this many edges away from the rim. At 1/√3 ≈ 0.577 and more, every point of a lattice triangle's
-/// circumdisc is nearer to one of its corners than the rim is, so that the triangle is Delaunay; with 0.65 the smallest
-/// angles between the lattice and the rim are 27° to 32° on discs and type.
+/// Distance of lattice points from the rim, in edges. At 1/√3 ≈ 0.577 and more, every point of a lattice triangle's
+/// circumdisc is nearer to one of its corners than to the rim, so that the triangle is Delaunay. With 0.65, the
+/// smallest angles between the lattice and the rim are 27° to 32° on discs and type.
 constexpr double kClearance = 0.65;
 
-/// Layers of points between two halvings of the density: edges then grow by about half their length per edge.
+/// Layers of points between two halvings of the density. Edges then grow by about half their length per edge.
 constexpr int kLayersPerLevel = 2;
 
 void appendPoints(std::vector<Vec2>& points, const LatticeRegion& region, double edge)
@@ -67,7 +67,7 @@ std::vector<std::array<std::uint32_t, 2>> LatticeCore::boundary() const
     const LatticeRegion& fixed = fixed_.region();
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (const Site& site : seam_.region().sites()) {
-        // Counter-clockwise; every edge is met once, from its lower or left end.
+        // Neighbours in counter-clockwise order; every edge is visited once, from its lower or left end.
         const std::array<Site, 5> around{neighbour(site, LatticeStep::BelowRight), neighbour(site, LatticeStep::Right),
                                          neighbour(site, LatticeStep::AboveRight),
                                          neighbour(site, LatticeStep::AboveLeft), neighbour(site, LatticeStep::Left)};
@@ -95,7 +95,8 @@ void LatticeCore::appendTo(PlanarMesh& mesh) const
             mesh.vertices[v++] = latticePoint(edge_, {i.row, column});
         }
     });
-    // First the triangles at the seam, then the regular ones: whoever asks for all but the regular has them in front.
+    // Triangles at the seam come first, then the regular ones, so that all irregular triangles of the mesh are at its
+    // front.
     const LatticeTriangles regular = trianglesOf(regular_);
     append(mesh.triangles, without(trianglesOf(fixed), regular), lattice.grid);
     lattice.first_regular_triangle = static_cast<std::uint32_t>(mesh.triangles.size());

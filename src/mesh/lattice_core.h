@@ -12,29 +12,29 @@
 
 namespace droplet {
 
-/// The lattice inside a footprint, in layers: where it is regular it needs no triangulating.
+/// Lattice inside a footprint, in layers; its regular part needs no triangulation.
 ///
-/// Of the points clear of the rim, those next to it may still be moved; the fixed ones have only clear points around
-/// them, the regular ones only fixed points. A triangle of three fixed points belongs to the core and is known. What is
-/// left for the Delaunay triangulation is the band between rim and core, with two layers of points in it: so nothing
-/// that is refined at the rim comes near the core.
+/// Points clear of the rim are loose or fixed. Loose points lie next to the rim and may still be moved. Fixed points
+/// have only clear points around them, and regular points only fixed points. A triangle of three fixed points belongs
+/// to the core and is known. The band between rim and core is left for the Delaunay triangulation. It has two layers of
+/// points, so that refinement at the rim does not reach the core.
 class LatticeCore {
 public:
     /// @param polygons  outer counter-clockwise, holes clockwise, not crossing
     LatticeCore(const std::vector<std::vector<Vec2>>& polygons, double edge);
 
-    /// Points clear of the rim that are not fixed.
+    /// Loose points: clear of the rim, but not fixed.
     [[nodiscard]] std::vector<Vec2> loosePoints() const;
 
-    /// Fixed points with triangles outside the core.
+    /// Fixed points that have triangles outside the core.
     [[nodiscard]] std::vector<Vec2> seamPoints() const;
-    /// The same by their numbers among the fixed ones, in the same order.
+    /// Numbers of the seam points among the fixed points, in the same order.
     [[nodiscard]] std::vector<std::uint32_t> seamNumbers() const;
 
-    /// Edges between a triangle of the core and none, as indices into seamPoints().
+    /// Edges with a core triangle on one side only, as indices into seamPoints().
     [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> boundary() const;
 
-    /// Appends the fixed points as vertices and the core's triangles, and describes them in `mesh.lattice`.
+    /// Appends the fixed points as vertices and the core's triangles to a mesh, and describes them in `mesh.lattice`.
     void appendTo(PlanarMesh& mesh) const;
 
     [[nodiscard]] std::uint32_t fixedCount() const { return fixed_.end(); }
@@ -47,11 +47,11 @@ private:
     LatticeGrid seam_;
 };
 
-/// How many lattice points a footprint holds clear of its rim.
+/// Number of lattice points of a footprint that are clear of its rim.
 std::size_t countClearPoints(const std::vector<std::vector<Vec2>>& polygons, double edge);
 
-/// Lattice points clear of the rim, fewer and fewer inward: every second row and column is left out, again and again,
-/// until edges are `longest` times as long as at the rim.
+/// Lattice points clear of the rim, coarser inward: every second row and column is left out, repeatedly, until edges
+/// are `longest` times as long as at the rim.
 std::vector<Vec2> gradedPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest);
 
 }  // namespace droplet

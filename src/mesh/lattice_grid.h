@@ -8,15 +8,15 @@
 
 namespace droplet {
 
-/// Points along a row of a grid, by their indices, which follow one another, and those of their neighbours.
+/// Points along a row of a grid, by their consecutive indices, with the indices of their neighbours.
 struct GridRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    std::uint32_t below = 0;  ///< left of the two neighbours of the first in the row below
+    std::uint32_t below = 0;  ///< left one of the first point's two neighbours in the row below
     std::uint32_t above = 0;
 };
 
-/// Storage for values at lattice points: the points of a region have consecutive indices, row by row.
+/// Numbering of lattice points: the points of a region have consecutive indices, row by row.
 class LatticeGrid {
 public:
     LatticeGrid() = default;
@@ -25,20 +25,20 @@ public:
 
     /// Index of a point of the region.
     [[nodiscard]] std::uint32_t at(Site site) const;
-    /// The point of an index.
+    /// Point with an index.
     [[nodiscard]] Site siteOf(std::uint32_t index) const;
-    /// Points of the region that has all their neighbours, too.
+    /// Indices of a run of points whose neighbours all belong to the region.
     [[nodiscard]] GridRun run(const RowInterval& points) const;
 
-    /// The first index.
+    /// First index.
     [[nodiscard]] std::uint32_t begin() const { return starts_.empty() ? end_ : starts_.front(); }
-    /// One more than the last index.
+    /// One past the last index.
     [[nodiscard]] std::uint32_t end() const { return end_; }
     [[nodiscard]] const LatticeRegion& region() const { return region_; }
 
 private:
     LatticeRegion region_;
-    std::vector<std::uint32_t> starts_;  ///< the first index of every interval
+    std::vector<std::uint32_t> starts_;  ///< first index of every interval
     std::uint32_t end_ = 0;
 };
 

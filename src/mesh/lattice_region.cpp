@@ -13,7 +13,7 @@
 namespace droplet {
 namespace {
 
-/// An interval of x, open or closed as its user says.
+/// Interval of x; its user decides whether it is open or closed.
 struct Span {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -25,7 +25,8 @@ struct Span {
     }
 };
 
-/// Where the line at height y runs through what is nearer to the piece ab than `reach`: a capsule, so one span.
+/// Interval in which the line at height y is nearer to the segment ab than `reach`. That region is a capsule, so there
+/// is one interval.
 Span nearPiece(Vec2 a, Vec2 b, double reach, double y)
 {
     Span span;
@@ -163,7 +164,7 @@ LatticeRegion without(const LatticeRegion& region, const LatticeRegion& removed)
         while (cut != end && std::tie(cut->row, cut->end) <= std::tie(i.row, i.begin)) {
             ++cut;
         }
-        // The last cut may reach into the next interval, so it is only looked at.
+        // The last cut may reach into the next interval, so it is not consumed here.
         for (auto c = cut; c != end && std::tie(c->row, c->begin) < std::tie(i.row, i.end); ++c) {
             result.push_back({i.row, i.begin, c->begin});
             i.begin = std::max(i.begin, c->end);
@@ -230,7 +231,7 @@ LatticeRegion pointsInside(const std::vector<std::vector<Vec2>>& polygons, doubl
             const std::int32_t to = std::min(end, whole(std::floor((high + clearance) / height)) + 1);
             for (std::int32_t row = from; row < to; ++row) {
                 const double y = static_cast<double>(row) * height;
-                // Half-open, so that a vertex on a row counts once.
+                // Half-open, so that a vertex on a row counts once
                 if (low <= y && y < high) {
                     crossings[static_cast<std::size_t>(row - first)].push_back(a.x +
                                                                                (y - a.y) / (b.y - a.y) * (b.x - a.x));

@@ -22,61 +22,62 @@ struct RowInterval {
     [[nodiscard]] constexpr Site first() const { return {row, begin}; }
     [[nodiscard]] constexpr Site last() const { return {row, end - 1}; }
 
-    /// Row after row, from left to right.
+    /// Row by row, from left to right.
     friend bool operator<(const RowInterval& a, const RowInterval& b)
     {
         return a.row != b.row ? a.row < b.row : a.begin < b.begin;
     }
 };
 
-/// A set of lattice points, as intervals of rows: all work on it is in proportion to its outline, not to its area.
+/// Set of lattice points, stored as intervals of rows. All operations take time in proportion to its outline, not to
+/// its area.
 class LatticeRegion {
 public:
     LatticeRegion() = default;
-    /// The points of any of several intervals, which may be empty, overlap, and come in any order.
+    /// Union of several intervals, which may be empty, overlap, and come in any order.
     explicit LatticeRegion(std::vector<RowInterval> intervals);
 
-    /// Row after row, from left to right, none empty, with gaps between.
+    /// Row by row, from left to right; not empty, with gaps between them.
     [[nodiscard]] const std::vector<RowInterval>& intervals() const& { return intervals_; }
     [[nodiscard]] std::vector<RowInterval> intervals() && { return std::move(intervals_); }
     [[nodiscard]] bool empty() const { return intervals_.empty(); }
 
-    /// Of a region that is not empty.
+    /// First row; the region must not be empty.
     [[nodiscard]] std::int32_t firstRow() const { return intervals_.front().row; }
-    /// One more than the last row, of a region that is not empty.
+    /// One past the last row; the region must not be empty.
     [[nodiscard]] std::int32_t endRow() const { return intervals_.back().row + 1; }
     [[nodiscard]] std::span<const RowInterval> row(std::int32_t row) const;
 
     [[nodiscard]] bool contains(Site site) const;
-    /// Which interval holds a point of the region.
+    /// Index of the interval that holds a point of the region.
     [[nodiscard]] std::size_t intervalOf(Site site) const;
 
-    /// How many points it has.
+    /// Number of points.
     [[nodiscard]] std::size_t size() const;
     [[nodiscard]] std::vector<Site> sites() const;
 
 private:
     std::vector<RowInterval> intervals_;
-    std::vector<std::uint32_t> row_starts_;  ///< into intervals_, from firstRow() on, and their end
+    std::vector<std::uint32_t> row_starts_;  ///< indices into intervals_ for each row from firstRow() on, and the end
 };
 
-/// The points of both.
+/// Points that belong to both regions.
 LatticeRegion common(const LatticeRegion& a, const LatticeRegion& b);
 
-/// The points of the one that are not in the other.
+/// Points of a region that are not in the other.
 LatticeRegion without(const LatticeRegion& region, const LatticeRegion& removed);
 
-/// All points a step further.
+/// All points moved by one step.
 LatticeRegion moved(const LatticeRegion& region, LatticeStep step);
 
-/// The points all six neighbours of which belong to the region, too.
+/// Points whose six neighbours all belong to the region.
 LatticeRegion eroded(const LatticeRegion& region);
 
-/// The points that belong to the lattice of twice the edge, as points of that.
+/// Points that belong to the lattice of twice the edge, as points of that lattice.
 LatticeRegion everySecond(const LatticeRegion& region);
 
-/// The points inside polygons (outer counter-clockwise, holes clockwise, not crossing) that are at least `clearance`
-/// away from them.
+/// Points inside polygons (outer counter-clockwise, holes clockwise, not crossing) that are at least `clearance` away
+/// from them.
 LatticeRegion pointsInside(const std::vector<std::vector<Vec2>>& polygons, double edge, double clearance);
 
 }  // namespace droplet

@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// A point of an equilateral lattice by row and column.
+/// Point of an equilateral lattice by row and column.
 struct Site {
     std::int32_t row = 0;
     std::int32_t column = 0;
@@ -17,15 +17,16 @@ struct Site {
     friend bool operator==(const Site&, const Site&) = default;
 };
 
-/// Where it lies: row r at y = r·√3/2·edge, its columns at x = column·edge, half an edge further in odd rows.
-/// @param edge  between neighbouring points [m]
+/// Position of a lattice point: row r is at y = r·√3/2·edge, its columns at x = column·edge, half an edge further in
+/// odd rows.
+/// @param edge  distance between neighbouring points [m]
 inline Vec2 latticePoint(double edge, Site site)
 {
     return {(static_cast<double>(site.column) + (site.row % 2 == 0 ? 0.0 : 0.5)) * edge,
             static_cast<double>(site.row) * (0.5 * std::numbers::sqrt3 * edge)};
 }
 
-/// From a lattice point to one of its six neighbours.
+/// Step from a lattice point to one of its six neighbours.
 enum class LatticeStep { Left, Right, BelowLeft, BelowRight, AboveLeft, AboveRight };
 
 inline constexpr std::array<LatticeStep, 6> kLatticeSteps{LatticeStep::Left,      LatticeStep::Right,
@@ -34,7 +35,7 @@ inline constexpr std::array<LatticeStep, 6> kLatticeSteps{LatticeStep::Left,    
 
 constexpr Site neighbour(Site site, LatticeStep step)
 {
-    const std::int32_t left = site.column - (site.row % 2 == 0 ? 1 : 0);  // in the rows above and below
+    const std::int32_t left = site.column - (site.row % 2 == 0 ? 1 : 0);  // left neighbour in the rows above and below
     switch (step) {
         case LatticeStep::Left:
             return {site.row, site.column - 1};
@@ -52,7 +53,7 @@ constexpr Site neighbour(Site site, LatticeStep step)
     return {site.row + 1, left + 1};
 }
 
-/// The six neighbours of a lattice point, in the order of kLatticeSteps.
+/// Six neighbours of a lattice point, in the order of kLatticeSteps.
 constexpr std::array<Site, 6> neighboursOf(Site site)
 {
     std::array<Site, 6> neighbours{};
@@ -62,14 +63,15 @@ constexpr std::array<Site, 6> neighboursOf(Site site)
     return neighbours;
 }
 
-/// A point of the lattice with twice the edge, as a point of this one. Its six neighbours here are half-way to its
-/// neighbours there.
+/// Converts a point of the lattice with twice the edge to a point of this lattice. Its six neighbours here are half-way
+/// to its neighbours there.
 constexpr Site onFiner(Site coarse)
 {
     return {2 * coarse.row, 2 * coarse.column + (coarse.row & 1)};
 }
 
-/// The two points of the lattice with twice the edge half-way between which a point lies; twice the same if it is one.
+/// Two points of the lattice with twice the edge between which a point lies half-way; the same point twice if it is one
+/// of them.
 constexpr std::array<Site, 2> onCoarser(Site fine)
 {
     const std::int32_t low = fine.row >> 1;
@@ -78,7 +80,7 @@ constexpr std::array<Site, 2> onCoarser(Site fine)
     if ((fine.row & 1) == 0) {
         return {{{low, column >> 1}, {low, (column + 1) >> 1}}};
     }
-    // Row low + 1 begins half an edge further left or right, so the halves round the other way there.
+    // Row low + 1 begins half an edge further left or right, so there the halves are exchanged.
     return {{{low, (column + 1) >> 1}, {low + 1, (fine.column + odd) >> 1}}};
 }
 

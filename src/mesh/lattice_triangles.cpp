@@ -23,7 +23,7 @@ void append(std::vector<Triangle>& to, const LatticeTriangles& triangles, const 
     if (grid.region().empty()) {
         return;
     }
-    // Between row r and the next: those upward from r, and those downward from the next.
+    // Between row r and the next lie the upward triangles of row r and the downward ones of the next row.
     const std::int32_t first = grid.region().firstRow();
     const auto rows = static_cast<std::size_t>(grid.region().endRow() - first);
     std::vector<std::size_t> starts{to.size()};

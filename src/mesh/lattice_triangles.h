@@ -10,21 +10,21 @@
 
 namespace droplet {
 
-/// Triangles of neighbouring lattice points, by the left ends of their horizontal edges.
+/// Triangles of neighbouring lattice points, given by the left ends of their horizontal edges.
 struct LatticeTriangles {
-    LatticeRegion upward;    ///< with the third corner above
-    LatticeRegion downward;  ///< with the third corner below
+    LatticeRegion upward;    ///< third corner above
+    LatticeRegion downward;  ///< third corner below
 
     [[nodiscard]] std::size_t size() const { return upward.size() + downward.size(); }
 };
 
-/// The triangles all three corners of which belong to a region.
+/// Triangles whose three corners all belong to a region.
 LatticeTriangles trianglesOf(const LatticeRegion& region);
 
-/// The triangles of the one that are not of the other.
+/// Triangles of the first set that are not in the second.
 LatticeTriangles without(const LatticeTriangles& triangles, const LatticeTriangles& removed);
 
-/// Appends them row by row, corners by their indices in a grid that has them.
+/// Appends triangles row by row; corners are given by their indices in a grid that has them.
 void append(std::vector<Triangle>& to, const LatticeTriangles& triangles, const LatticeGrid& grid);
 
 }  // namespace droplet

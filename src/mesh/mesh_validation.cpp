@@ -19,7 +19,7 @@ namespace {
     throw Error(ErrorCode::InvalidArgument, message);
 }
 
-/// Whether the grid holds the last vertices, each at its place.
+/// Checks that the grid holds the last vertices, each at its place.
 void validatePlaces(const PlanarMesh& mesh)
 {
     const Lattice& lattice = *mesh.lattice;
@@ -39,12 +39,12 @@ void validatePlaces(const PlanarMesh& mesh)
     }
 }
 
-/// Whether what is known of the lattice is true.
+/// Checks the recorded lattice.
 void validateLattice(const PlanarMesh& mesh)
 {
     validatePlaces(mesh);
     const LatticeGrid& grid = mesh.lattice->grid;
-    const double just_longer = 1.01 * mesh.lattice->edge;  // the next distance on the lattice is √3 edges
+    const double just_longer = 1.01 * mesh.lattice->edge;  // the next larger distance on the lattice is √3 edges
     std::vector<std::uint8_t> regular(mesh.vertices.size(), 0);
     for (const GridRun& run : regularRuns(mesh)) {
         std::fill_n(regular.begin() + run.first, run.count, std::uint8_t{1});
@@ -62,7 +62,7 @@ void validateLattice(const PlanarMesh& mesh)
         in_lattice += neighbours ? 1 : 0;
         all_regular += is_regular ? 1 : 0;
         if (is_regular != (i >= mesh.lattice->first_regular_triangle)) {
-            fail("lattice.first_regular_triangle of the mesh must part regular triangles from others");
+            fail("lattice.first_regular_triangle of the mesh must separate regular triangles from others");
         }
     }
     if (in_lattice != trianglesOf(grid.region()).size() || all_regular != trianglesOf(eroded(grid.region())).size()) {

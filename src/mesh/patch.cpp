@@ -20,13 +20,13 @@
 namespace droplet {
 namespace {
 
-constexpr double kFitting = 0.05;     // of an edge, between an old rim vertex and the new rim
-constexpr double kMaxSagitta = 0.06;  // of an edge, between it and the new rim; a third more than a fresh one's
-constexpr double kMaxDetour = 1.3;    // of the rim between two vertices, to their distance
-constexpr double kFar = 2.5;          // edges from where the rim changed
-constexpr double kMaxOffset = 0.02;   // of an edge, between the whole rim and the new one in the mean
-constexpr double kFinest = 0.07;      // of the loops' own detail, as triangulate() has it
-constexpr std::size_t kFewest = 8;    // triangles that stay together, or they go
+constexpr double kMaxGap = 0.05;      // distance of an old rim vertex from the new rim, relative to an edge
+constexpr double kMaxSagitta = 0.06;  // distance of an old edge from the new rim, relative to it; new edges: 0.044
+constexpr double kMaxDetour = 1.3;    // length of the rim between two vertices, relative to their distance
+constexpr double kFar = 2.5;          // distance from changes of the rim, in edges
+constexpr double kMaxOffset = 0.02;   // mean distance of the whole rim from the new one, relative to an edge
+constexpr double kFinest = 0.07;      // relative to the loops' own detail, as in triangulate.cpp
+constexpr std::size_t kMinPiece = 8;  // smaller connected pieces of triangles are not kept
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t keyOf(std::uint32_t a, std::uint32_t b)
@@ -34,7 +34,7 @@ std::uint64_t keyOf(std::uint32_t a, std::uint32_t b)
     return std::uint64_t{a} << 32U | b;
 }
 
-/// Things in square cells, found from points near them.
+/// Things in square cells, found by points near them.
 template <typename Thing>
 class Cells {
 public:
@@ -48,14 +48,14 @@ public:
         }
     }
 
-    /// Calls take(thing) for all in the cell of a point and those around it, until it returns true.
-    template <typename Take>
-    bool around(Vec2 p, const Take& take) const
+    /// Calls visit(thing) for all things in the cell of a point and the cells around it, until it returns true.
+    template <typename Visit>
+    bool around(Vec2 p, const Visit& visit) const
     {
         for (std::int64_t y = column(p.y) - 1; y <= column(p.y) + 1; ++y) {
             for (std::int64_t x = column(p.x) - 1; x <= column(p.x) + 1; ++x) {
                 const auto cell = cells_.find(key(x, y));
-                if (cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), take)) {
+                if (cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), visit)) {
                     return true;
                 }
             }
@@ -74,13 +74,13 @@ private:
     std::unordered_map<std::uint64_t, std::vector<Thing>> cells_;
 };
 
-/// A place on one of a footprint's loops, by its length along it.
+/// Place on one of a footprint's loops, by the length along it.
 struct Place {
     std::size_t loop = 0;
     double arc = 0.0;
 };
 
-/// The loops of a footprint, to be found from points near them.
+/// Loops of a footprint, found by points near them.
 class NewRim {
 public:
     NewRim(const Footprint& footprint, double edge) : cells_(edge)
@@ -106,7 +106,7 @@ public:
     [[nodiscard]] const Loop& loop(std::size_t k) const { return *loops_[k]; }
     [[nodiscard]] const Curve& curve(std::size_t k) const { return curves_[k]; }
 
-    /// The nearest place no farther than a distance, which is at most half an edge.
+    /// Nearest place within a distance, which is at most half an edge.
     [[nodiscard]] std::optional<Place> nearest(Vec2 p, double max) const
     {
         std::optional<Place> found;
@@ -125,7 +125,7 @@ public:
         return found;
     }
 
-    /// Whether a chord may stand for the rim between two places.
+    /// Whether a chord may replace the rim between two places.
     [[nodiscard]] bool fits(Vec2 a, Vec2 b, const Place& from, const Place& to) const
     {
         const Vec2 chord = b - a;
@@ -141,7 +141,7 @@ public:
                 break;
             }
             const Vec2 p = loops_[from.loop]->points[i];
-            const bool at_end = std::min(length(p - a), length(p - b)) < kFitting * size;
+            const bool at_end = std::min(length(p - a), length(p - b)) < kMaxGap * size;
             if (std::abs(cross(chord, p - a)) > kMaxSagitta * size * size ||
                 (loops_[from.loop]->corner[i] != 0 && !at_end)) {
                 return false;
@@ -161,7 +161,7 @@ public:
                (loops_[place.loop]->corner[next] != 0 && along.arc(i + 1) - along.wrapped(place.arc) < near);
     }
 
-    /// By the even-odd rule.
+    /// Whether the loops enclose a point, by the even-odd rule.
     [[nodiscard]] bool encloses(Vec2 p) const
     {
         bool inside = false;
@@ -189,11 +189,11 @@ private:
     Cells<std::pair<std::size_t, std::size_t>> cells_;
 };
 
-/// An old rim edge that the new rim runs along.
+/// Old rim edge along which the new rim runs.
 struct FittingEdge {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
-    double begin = 0.0;  ///< length along the loop
+    double begin = 0.0;  ///< place of `from`, as a length along the loop
     double way = 0.0;
 };
 
@@ -221,7 +221,7 @@ public:
     std::optional<PatchedMesh> make()
     {
         findFittingEdges();
-        if (!layRim()) {
+        if (!placeRim()) {
             return std::nullopt;
         }
         chooseTriangles();
@@ -241,7 +241,7 @@ private:
         std::vector<std::optional<Place>> places(old_);
         for (std::uint32_t v = 0; v < old_; ++v) {
             if (next_[v] != kNone) {
-                places[v] = rim_.nearest(at(v), kFitting * std::min(edge_, length(at(next_[v]) - at(v))));
+                places[v] = rim_.nearest(at(v), kMaxGap * std::min(edge_, length(at(next_[v]) - at(v))));
             }
         }
         for (std::uint32_t v = 0; v < old_; ++v) {
@@ -259,7 +259,7 @@ private:
         }
     }
 
-    /// A vertex of a fresh rim.
+    /// Vertex of a newly sampled rim.
     struct Fresh {
         Vec2 point;
         double arc = 0.0;
@@ -267,8 +267,8 @@ private:
         bool corner = false;
     };
 
-    /// Lays the new rim: old vertices where it runs along them, fresh ones elsewhere.
-    bool layRim()
+    /// Places the vertices of the new rim: old ones where it runs along them, new ones elsewhere.
+    bool placeRim()
     {
         const std::vector<RimPolygon> polygons = sampler_.sample(edge_);
         for (std::size_t k = 0; k < rim_.size(); ++k) {
@@ -284,14 +284,14 @@ private:
                 }
                 fresh.push_back({polygon[i], place->arc, spacing, rim_.isCorner(*place)});
             }
-            if (!layLoop(k, fresh)) {
+            if (!placeLoop(k, fresh)) {
                 return false;
             }
         }
         return true;
     }
 
-    bool layLoop(std::size_t k, const std::vector<Fresh>& fresh)
+    bool placeLoop(std::size_t k, const std::vector<Fresh>& fresh)
     {
         const Curve& curve = rim_.curve(k);
         std::vector<FittingEdge>& edges = fitting_[k];
@@ -353,7 +353,7 @@ private:
 
     void chooseTriangles()
     {
-        // Far from old rims that went and new ones that came.
+        // Triangles stay if they are far from old rims that vanished and new rims that appeared.
         const double far = kFar * edge_;
         Cells<Vec2> seeds(far);
         for (std::uint32_t v = 0; v < points_.size(); ++v) {
@@ -369,7 +369,7 @@ private:
                       [&](const Triangle& t) { return stays[t[0]] == 0 || stays[t[1]] == 0 || stays[t[2]] == 0; });
         while (removePinches()) {
         }
-        // What hangs together is wholly wet or wholly dry now, for no changed rim comes near it.
+        // A connected piece is wholly wet or wholly dry now, because no changed rim is near it.
         UnionFind pieces(old_);
         for (const Triangle& t : triangles_) {
             pieces.join(t[0], t[1]);
@@ -385,11 +385,11 @@ private:
         }
         std::erase_if(triangles_, [&](const Triangle& t) {
             const std::size_t piece = pieces.find(t[0]);
-            return sizes[piece] < kFewest || !wet[piece];
+            return sizes[piece] < kMinPiece || !wet[piece];
         });
     }
 
-    /// Edges of triangles that stay, as they go round them, which none of these has the other way.
+    /// Directed edges that border the triangles that stay.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> borders() const
     {
         std::unordered_set<std::uint64_t> all;
@@ -409,15 +409,15 @@ private:
         return found;
     }
 
-    /// Takes triangles away around vertices where they touch one another, or the rim, by a point alone.
+    /// Removes triangles around vertices where they touch one another, or the rim, only at a point.
     bool removePinches()
     {
-        constexpr std::uint8_t kLeaves = 2;
-        std::vector<std::uint8_t> leaving(old_, 0);  // or how many borders begin there
+        constexpr std::uint8_t kRemove = 2;
+        std::vector<std::uint8_t> border_count(old_, 0);  // number of borders that begin at a vertex, up to kRemove
         std::vector<std::uint8_t> along_rim(old_, 0);
         const std::vector<std::pair<std::uint32_t, std::uint32_t>> all = borders();
         for (const auto& [a, b] : all) {
-            leaving[a] = static_cast<std::uint8_t>(std::min<int>(leaving[a] + 1, kLeaves));
+            border_count[a] = static_cast<std::uint8_t>(std::min<int>(border_count[a] + 1, kRemove));
             if (next_[a] == b) {
                 along_rim[a] = along_rim[b] = 1;
             }
@@ -425,19 +425,19 @@ private:
         bool found = false;
         for (const auto& [a, b] : all) {
             if (next_[a] != kNone && along_rim[a] == 0) {
-                leaving[a] = kLeaves;  // they touch the rim by it
+                border_count[a] = kRemove;  // the triangles touch the rim only there
             }
-            found = found || leaving[a] == kLeaves;
+            found = found || border_count[a] == kRemove;
         }
         if (found) {
             std::erase_if(triangles_, [&](const Triangle& t) {
-                return leaving[t[0]] == kLeaves || leaving[t[1]] == kLeaves || leaving[t[2]] == kLeaves;
+                return border_count[t[0]] == kRemove || border_count[t[1]] == kRemove || border_count[t[2]] == kRemove;
             });
         }
         return found;
     }
 
-    /// Finds what is to be filled.
+    /// Finds the cavity to fill.
     bool cutCavity()
     {
         if (triangles_.empty()) {
@@ -447,20 +447,20 @@ private:
         for (const Triangle& t : triangles_) {
             at_seam[t[0]] = at_seam[t[1]] = at_seam[t[2]] = 1;
         }
-        onward_.assign(points_.size(), kNone);
+        cavity_next_.assign(points_.size(), kNone);
         std::vector<std::uint8_t> rim_stays(old_, 0);
-        std::size_t staying = 0;
-        bool clear = true;
-        const auto lead = [&](std::uint32_t from, std::uint32_t to) {
-            clear = clear && onward_[from] == kNone;
-            onward_[from] = to;
+        std::size_t unmatched = 0;
+        bool is_simple = true;
+        const auto connect = [&](std::uint32_t from, std::uint32_t to) {
+            is_simple = is_simple && cavity_next_[from] == kNone;
+            cavity_next_[from] = to;
         };
         for (const auto& [a, b] : borders()) {
             if (next_[a] == b) {
                 rim_stays[a] = 1;
-                ++staying;
+                ++unmatched;
             } else {
-                lead(b, a);
+                connect(b, a);
             }
         }
         on_rim_.assign(points_.size(), 0);
@@ -468,28 +468,28 @@ private:
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 const std::uint32_t v = loop[i];
                 const std::uint32_t w = loop[(i + 1) % loop.size()];
-                clear = clear && on_rim_[v] == 0;
+                is_simple = is_simple && on_rim_[v] == 0;
                 on_rim_[v] = 1;
                 if (v < old_ && rim_stays[v] != 0 && next_[v] == w) {
-                    --staying;
+                    --unmatched;
                 } else {
-                    lead(v, w);
+                    connect(v, w);
                 }
             }
         }
-        if (!clear || staying != 0) {
+        if (!is_simple || unmatched != 0) {
             return false;
         }
         std::vector<std::uint8_t> seen(points_.size(), 0);
         for (std::uint32_t v = 0; v < points_.size(); ++v) {
-            if (onward_[v] == kNone || seen[v] != 0) {
+            if (cavity_next_[v] == kNone || seen[v] != 0) {
                 continue;
             }
             cavity_.polygons.emplace_back();
             cavity_.on_rim.emplace_back();
             cavity_.at_seam.emplace_back();
             std::uint32_t w = v;
-            for (; w != kNone && seen[w] == 0; w = onward_[w]) {
+            for (; w != kNone && seen[w] == 0; w = cavity_next_[w]) {
                 seen[w] = 1;
                 cavity_ids_.push_back(w);
                 cavity_.polygons.back().push_back(at(w));
@@ -509,7 +509,7 @@ private:
         if (!cavity_.polygons.empty()) {
             filling = fill(cavity_, gradedPoints(cavity_.polygons, edge_, 1), kFinest * sampler_.finest());
         }
-        std::vector<std::uint32_t> edge_of(points_.size(), kNone);  // of the cavity, by where it begins
+        std::vector<std::uint32_t> edge_of(points_.size(), kNone);  // edge of the cavity that begins at a vertex
         std::vector<const std::vector<std::uint32_t>*> splits;
         for (const auto& polygon : filling.splits) {
             for (const std::vector<std::uint32_t>& edge : polygon) {
@@ -521,18 +521,18 @@ private:
         PlanarMesh& mesh = patched.mesh;
         std::vector<std::uint32_t> number(points_.size(), kNone);
         std::vector<std::uint32_t> number_of_new(filling.points.size(), kNone);
-        const auto take = [&](std::uint32_t& into, Vec2 p) {
+        const auto append = [&](std::uint32_t& into, Vec2 p) {
             into = static_cast<std::uint32_t>(mesh.vertices.size());
             mesh.vertices.push_back(p);
         };
         mesh.loop_starts.push_back(0);
         for (const std::vector<std::uint32_t>& loop : loops_) {
             for (const std::uint32_t v : loop) {
-                take(number[v], at(v));
+                append(number[v], at(v));
                 patched.kept += v < old_ ? 1 : 0;
                 if (edge_of[v] != kNone) {
                     for (const std::uint32_t split : *splits[edge_of[v]]) {
-                        take(number_of_new[split], filling.points[split]);
+                        append(number_of_new[split], filling.points[split]);
                     }
                 }
             }
@@ -540,14 +540,14 @@ private:
         }
         for (std::size_t i = 0; i < filling.points.size(); ++i) {
             if (number_of_new[i] == kNone) {
-                take(number_of_new[i], filling.points[i]);
+                append(number_of_new[i], filling.points[i]);
             }
         }
         const std::size_t first_old = mesh.vertices.size();
         for (const Triangle& t : triangles_) {
             for (const std::uint32_t v : t) {
                 if (number[v] == kNone) {
-                    take(number[v], at(v));
+                    append(number[v], at(v));
                     ++patched.kept;
                 }
             }
@@ -582,17 +582,17 @@ private:
     double edge_;
     RimSampler sampler_;
     double footprint_area_;
-    std::vector<Vec2> points_;         ///< old ones, then those of fresh rims
-    std::size_t old_ = 0;              ///< how many
-    std::vector<std::uint32_t> next_;  ///< along old rims; kNone inside
-    std::vector<Triangle> triangles_;  ///< that stay
+    std::vector<Vec2> points_;         ///< old points, then new rim points
+    std::size_t old_ = 0;              ///< number of old points
+    std::vector<std::uint32_t> next_;  ///< next vertex along old rims; kNone inside
+    std::vector<Triangle> triangles_;  ///< triangles that stay
     std::vector<std::vector<FittingEdge>> fitting_;
-    std::vector<std::uint8_t> changed_;  ///< ends of old rim edges that do not fit
+    std::vector<std::uint8_t> changed_;  ///< 1 at ends of old rim edges that do not fit
     std::vector<std::vector<std::uint32_t>> loops_;
     std::vector<std::uint8_t> on_rim_;
-    std::vector<std::uint32_t> onward_;  ///< around the cavity, which is on the left
+    std::vector<std::uint32_t> cavity_next_;  ///< next vertex around the cavity, which is on the left
     Cavity cavity_;
-    std::vector<std::uint32_t> cavity_ids_;  ///< of its vertices, polygon by polygon
+    std::vector<std::uint32_t> cavity_ids_;  ///< its vertices, polygon by polygon
 };
 
 }  // namespace

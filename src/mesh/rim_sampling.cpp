@@ -20,15 +20,15 @@
 namespace droplet {
 namespace {
 
-/// A rim edge turns by at most about this angle, so that a small round droplet has 18 of them [rad]. A chord that turns
-/// by δ has a sagitta of δ/8 of its length.
+/// Largest angle, roughly, by which a rim edge turns, so that a small round droplet has 18 edges [rad]. A chord that
+/// turns by δ has a sagitta of δ/8 of its length.
 constexpr double kTurnPerEdge = 0.35;
 
-/// How fast edge lengths may change along the rim, per unit of length: neighbours then differ by less than a factor 2.
+/// Largest change of edge length per unit of length along the rim; neighbours then differ by less than a factor of 2.
 constexpr double kGradation = 0.4;
 
-/// Circles that touch the rim at points this many radii apart along it, or less, sit in a corner, not in a narrow part;
-/// at corners of less than 37° they count as narrow.
+/// If a circle touches the rim only at points at most this many radii apart along it, it is in a corner, not in a
+/// narrow part. Corners of less than 37° count as narrow.
 constexpr double kCornerReach = 6.0;
 
 std::vector<double> arcLengths(const std::vector<Vec2>& points)
@@ -40,13 +40,14 @@ std::vector<double> arcLengths(const std::vector<Vec2>& points)
     return at;
 }
 
-/// A rim point's place: loop and index in it.
+/// Place of a rim point: loop and index in it.
 struct Place {
     std::size_t loop = 0;
     std::size_t index = 0;
 };
 
-/// @param detail  points of a loop nearer than this along it are one place
+/// Width of the liquid at every point of every loop; infinite where no circle was found.
+/// @param detail  points of a loop nearer than this along it count as one place
 std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops, double detail)
 {
     std::vector<std::vector<Vec2>> polygons;
@@ -95,7 +96,7 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops, dou
         if (std::max({apart(pa, pb), apart(pb, pc), apart(pa, pc)}) > std::max(detail, kCornerReach * radius)) {
             for (const Place& p : {pa, pb, pc}) {
                 double& width = widths[p.loop][p.index];
-                // The largest circle at a point is the medial one; smaller ones fit between neighbours.
+                // The largest circle at a point is the medial one; smaller ones fit between neighbouring points.
                 width = std::isinf(width) ? 2.0 * radius : std::max(width, 2.0 * radius);
             }
         }
@@ -103,18 +104,18 @@ std::vector<std::vector<double>> localWidths(const std::vector<Loop>& loops, dou
     return widths;
 }
 
-/// A loop with the way along it and the angle turned through, left or right, up to every point.
-struct Measured {
+/// Loop with the length along it, and the sum of absolute turning angles, up to every point.
+struct MeasuredLoop {
     const std::vector<Vec2>* points = nullptr;
     std::vector<double> arc;
     std::vector<double> turned;
 };
 
-Measured measure(const Loop& loop)
+MeasuredLoop measure(const Loop& loop)
 {
     const std::vector<Vec2>& p = loop.points;
     const std::size_t n = p.size();
-    Measured result{&p, arcLengths(p), {0.0}};
+    MeasuredLoop result{&p, arcLengths(p), {0.0}};
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 before = p[i] - p[i > 0 ? i - 1 : n - 1];
         const Vec2 after = p[i + 1 < n ? i + 1 : 0] - p[i];
@@ -123,7 +124,7 @@ Measured measure(const Loop& loop)
     return result;
 }
 
-/// Consecutive points of a loop, within a circle.
+/// Consecutive points of a loop, and a circle that contains them.
 struct Stretch {
     std::size_t loop = 0;
     std::size_t begin = 0;
@@ -132,7 +133,7 @@ struct Stretch {
     double radius = 0.0;
 };
 
-std::vector<Stretch> stretchesOf(const std::vector<Measured>& loops)
+std::vector<Stretch> stretchesOf(const std::vector<MeasuredLoop>& loops)
 {
     constexpr std::size_t kPoints = 16;
     std::vector<Stretch> stretches;
@@ -150,10 +151,11 @@ std::vector<Stretch> stretchesOf(const std::vector<Measured>& loops)
     return stretches;
 }
 
-/// Whether a circle narrower than `widest` could touch two stretches of the rim at points that are far apart along it.
+/// Test whether a circle narrower than `widest` can touch two stretches of the rim at points that are far apart along
+/// it.
 class Narrowness {
 public:
-    Narrowness(const std::vector<Measured>& loops, double detail, double widest)
+    Narrowness(const std::vector<MeasuredLoop>& loops, double detail, double widest)
         : loops_(loops), detail_(detail), widest_(widest)
     {
     }
@@ -175,7 +177,7 @@ public:
     }
 
 private:
-    /// A curve that turns by less than θ < π is at most 1/cos(θ/2) times as long as its chord: so within 2·arccos(1/3)
+    /// A curve that turns by less than θ < π is at most 1/cos(θ/2) times as long as its chord. So within 2·arccos(1/3)
     /// no two points are farther apart along it than three chords, or kCornerReach radii.
     [[nodiscard]] bool isStraight(const Stretch& a, const Stretch& b) const
     {
@@ -200,27 +202,27 @@ private:
             const std::vector<double>& arc = loops_[k].arc;
             const double way = std::abs(arc[i] - arc[j]);
             const double apart = std::min(way, arc.back() - way);
-            // A chord is at most a diameter.
+            // A chord is at most a diameter
             if (apart <= detail_ || apart * apart <= 0.25 * kCornerReach * kCornerReach * squared) {
                 return false;
             }
         }
-        // Chords of a circle inside leave to the left, give or take the loop's roughness.
+        // Chords of a circle inside the liquid go to the left, within the loop's roughness.
         constexpr double kRough = 0.3;
         const Vec2 along = points[i + 1 < points.size() ? i + 1 : 0] - points[i > 0 ? i - 1 : points.size() - 1];
         const double left = cross(along, across);
         return left >= 0.0 || left * left <= kRough * kRough * squared * dot(along, along);
     }
 
-    const std::vector<Measured>& loops_;
+    const std::vector<MeasuredLoop>& loops_;
     double detail_;
     double widest_;
 };
 
-/// Whether anywhere the liquid may be narrower than `widest`, as localWidths() would find.
+/// Whether the liquid may be narrower than `widest` anywhere, as localWidths() would find.
 bool isNarrowSomewhere(const std::vector<Loop>& loops, double detail, double widest)
 {
-    std::vector<Measured> measured;
+    std::vector<MeasuredLoop> measured;
     measured.reserve(loops.size());
     for (const Loop& loop : loops) {
         measured.push_back(measure(loop));
@@ -231,7 +233,7 @@ bool isNarrowSomewhere(const std::vector<Loop>& loops, double detail, double wid
         largest = std::max(largest, stretch.radius);
     }
     const double reach = widest + 2.0 * largest;
-    // From left to right, so that only those within reach are looked at.
+    // Sorted from left to right, so that only stretches within reach are compared.
     std::stable_sort(stretches.begin(), stretches.end(),
                      [](const Stretch& a, const Stretch& b) { return a.centre.x < b.centre.x; });
     const Narrowness narrowness(measured, detail, widest);
@@ -256,7 +258,7 @@ std::vector<std::vector<double>> unknownWidths(const std::vector<Loop>& loops)
     return widths;
 }
 
-/// Lowers lengths so that they change along a closed loop no faster than kGradation.
+/// Reduces lengths so that they change along a closed loop no faster than kGradation.
 void grade(std::vector<double>& lengths, const std::vector<double>& arc)
 {
     const std::size_t n = lengths.size();
@@ -274,14 +276,14 @@ void grade(std::vector<double>& lengths, const std::vector<double>& arc)
     }
 }
 
-/// A rim vertex's place on a loop: index of a point plus a fraction of the way to the next.
+/// Place of a rim vertex on a loop: index of a point plus a fraction of the piece to the next.
 struct Mark {
     std::size_t index = 0;
     double fraction = 0.0;
-    bool exact = false;  ///< the edge from here follows the loop as it is, for want of room
+    bool exact = false;  ///< the edge from here follows the loop exactly, because space is narrow
 };
 
-/// One loop being sampled.
+/// Loop that is being sampled.
 struct Sampling {
     const Loop* loop = nullptr;
     std::vector<double> arc;
@@ -301,7 +303,7 @@ struct Sampling {
     [[nodiscard]] const Mark& next(std::size_t i) const { return marks[(i + 1) % marks.size()]; }
 };
 
-/// The place on a loop a given way along it, on a point of the loop if one is near.
+/// Place at a length along a loop; a point of the loop if one is near.
 Mark markAt(const Sampling& sampling, double way)
 {
     const std::size_t n = sampling.loop->points.size();
@@ -309,7 +311,7 @@ Mark markAt(const Sampling& sampling, double way)
     const auto after = std::upper_bound(sampling.arc.begin(), sampling.arc.end() - 1, way);
     const auto i = static_cast<std::size_t>(after - sampling.arc.begin()) - 1;
     const double fraction = (way - sampling.arc[i]) / (sampling.arc[i + 1] - sampling.arc[i]);
-    // Not beside a point of the loop but on it: that point may become a mark too.
+    // Snap to a point of the loop, because that point may become a mark, too.
     constexpr double kSnap = 0.05;
     if (fraction > 1.0 - kSnap) {
         return {(i + 1) % n, 0.0, false};
@@ -332,7 +334,7 @@ std::vector<std::size_t> between(const Sampling& sampling, const Mark& from, con
     return result;
 }
 
-/// Distributes marks so that edges have about the wanted length everywhere; corners are marks.
+/// Distributes marks so that edges have about the wanted length everywhere. Corners are marks.
 void distribute(Sampling& sampling, const std::vector<double>& lengths)
 {
     const Loop& loop = *sampling.loop;
@@ -350,13 +352,13 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
     for (std::size_t k = 0; k < stops.size(); ++k) {
         const std::size_t begin = stops[k];
         const std::size_t end = whole ? begin + n : (k + 1 < stops.size() ? stops[k + 1] : stops[0] + n);
-        std::vector<double> edges{0.0};  // how many edges fit up to every point
+        std::vector<double> edges{0.0};  // number of edges that fit up to every point
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t at = i < n ? i : i - n;
             const double mean = 0.5 * (lengths[at] + lengths[at + 1 < n ? at + 1 : 0]);
             edges.push_back(edges.back() + (sampling.arc[at + 1] - sampling.arc[at]) / mean);
         }
-        // Six vertices or more where fewer than three corners make the loop's shape.
+        // At least six vertices if fewer than three corners determine the loop's shape.
         const std::size_t min = stops.size() < 3 ? 6 / stops.size() : 1;
         const auto count = std::max(min, static_cast<std::size_t>(std::lround(edges.back())));
         sampling.marks.push_back({begin, 0.0, false});
@@ -381,7 +383,7 @@ void distribute(Sampling& sampling, const std::vector<double>& lengths)
         sampling.marks.end());
 }
 
-/// The mark in the middle between two.
+/// Mark in the middle between two.
 Mark middle(const Sampling& sampling, const Mark& from, const Mark& to)
 {
     const double begin = sampling.arcAt(from);
@@ -389,7 +391,7 @@ Mark middle(const Sampling& sampling, const Mark& from, const Mark& to)
     return markAt(sampling, begin + 0.5 * (end > begin ? end - begin : end - begin + sampling.arc.back()));
 }
 
-/// A mark between two at a point of the loop; none if there is no point between them.
+/// Mark between two at a point of the loop; none if there is no point between them.
 std::optional<Mark> pointBetween(const Sampling& sampling, const Mark& from, const Mark& to)
 {
     const std::vector<std::size_t> inside = between(sampling, from, to);
@@ -411,7 +413,7 @@ bool bulges(const Sampling& sampling, const Mark& from, const Mark& to)
     return sagitta > kTurnPerEdge / 8.0 * chord_length * chord_length;
 }
 
-/// Splits edges that turn too far, down to `shortest`.
+/// Splits edges that turn too much, down to the length `shortest`.
 void splitBulges(Sampling& sampling, double shortest)
 {
     for (bool changed = true; changed;) {
@@ -435,8 +437,8 @@ void splitBulges(Sampling& sampling, double shortest)
     }
 }
 
-/// Moves vertices off the loop, outward, so that every loop's polygon encloses its area: a chord cuts off a segment
-/// that its two ends make good by half each. Corners stay.
+/// Moves vertices outward off the loop, so that every loop's polygon encloses the loop's area. A chord cuts off a
+/// segment, and each of its two ends makes up for half of it. Corners stay.
 RimPolygon keepArea(const Sampling& sampling)
 {
     const std::size_t n = sampling.size();
@@ -446,7 +448,7 @@ RimPolygon keepArea(const Sampling& sampling)
     }
     std::vector<double> missing(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-        // Twice the area between chord and curve, positive where the curve lies to the right of the chord.
+        // Twice the area between chord and curve; positive where the curve lies to the right of the chord
         const Vec2 origin = polygon[i];
         Vec2 last = origin;
         for (const std::size_t j : between(sampling, sampling.marks[i], sampling.next(i))) {
@@ -469,7 +471,7 @@ RimPolygon keepArea(const Sampling& sampling)
         if (length(along) < 0.5 * shorter) {
             continue;
         }
-        // More than this would be no correction of a chord but a change of shape.
+        // A larger shift would not correct a chord but change the shape.
         const double max = kTurnPerEdge / 8.0 * shorter;
         const double shift = std::clamp((missing[before] + missing[i]) / both, -max, max);
         result[i] = polygon[i] + (shift / length(along)) * Vec2{along.y, -along.x};
@@ -477,7 +479,7 @@ RimPolygon keepArea(const Sampling& sampling)
     return result;
 }
 
-/// Makes edges follow the loop more closely: halves them, and leaves their ends on the loop.
+/// Makes chosen edges follow the loop more closely: halves them, and keeps their ends on the loop.
 /// @param chosen  one flag per edge
 /// @return        whether anything changed
 bool followLoop(Sampling& sampling, const std::vector<std::uint8_t>& chosen)
@@ -497,7 +499,7 @@ bool followLoop(Sampling& sampling, const std::vector<std::uint8_t>& chosen)
             marks.push_back({middle->index, middle->fraction, true});
         }
     }
-    // The last edge's half-way point may lie past the loop's first point.
+    // The middle of the last edge may lie past the loop's first point.
     std::rotate(marks.begin(),
                 std::min_element(marks.begin(), marks.end(),
                                  [&](const Mark& a, const Mark& b) { return sampling.arcAt(a) < sampling.arcAt(b); }),
@@ -506,13 +508,13 @@ bool followLoop(Sampling& sampling, const std::vector<std::uint8_t>& chosen)
     return changed;
 }
 
-/// Whether the straight pieces ab and cd cross or touch.
+/// Whether the segments ab and cd cross or touch.
 bool meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
 {
     const auto apart = [](double p, double q, double r, double s) {
         return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
     };
-    // Also keeps collinear pieces apart.
+    // This also handles collinear segments that do not touch.
     if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) {
         return false;
     }
@@ -523,7 +525,7 @@ bool meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d)
     return ((u <= 0 && v >= 0) || (u >= 0 && v <= 0)) && ((s <= 0 && t >= 0) || (s >= 0 && t <= 0));
 }
 
-/// An edge of one of several polygons.
+/// Edge of one of several polygons.
 struct EdgeId {
     std::size_t loop = 0;
     std::size_t index = 0;
@@ -531,7 +533,7 @@ struct EdgeId {
     friend bool operator==(const EdgeId&, const EdgeId&) = default;
 };
 
-/// Edges that cross or touch edges other than their neighbours, found through a grid of cells an edge long.
+/// Edges that cross or touch other edges than their neighbours, found with a grid of cells as large as an edge.
 std::vector<EdgeId> meetingEdges(const std::vector<RimPolygon>& polygons)
 {
     double total = 0.0;
@@ -592,9 +594,9 @@ RimSampler::RimSampler(const Footprint& footprint, double widest) : loops_{footp
         total += arcLengths(loop.points).back();
         count += loop.points.size();
     }
-    // Traced loops have a point every 0.8 px: detail below half a pixel is an accident of the raster.
+    // Traced loops have a point every 0.8 px. Detail below half a pixel comes from the raster.
     finest_ = 0.6 * total / static_cast<double>(count);
-    // Triangulating all points of the loops takes longer than all else on a coarse mesh of wide strokes.
+    // To triangulate all points of the loops would take longer than everything else on a coarse mesh of wide strokes.
     if (isNarrowSomewhere(loops_, finest_, widest)) {
         widths_ = localWidths(loops_, finest_);
         widest_ = std::numeric_limits<double>::infinity();
@@ -624,7 +626,7 @@ std::vector<RimPolygon> RimSampler::sample(double edge) const
         distribute(sampling, lengths);
         splitBulges(sampling, std::min(edge, finest_));
     }
-    // Where chords cut across a gap narrower than their sagitta, they follow the loop more closely, and exactly.
+    // Chords that cut across a gap narrower than their sagitta must follow the loop more closely and exactly.
     while (true) {
         std::vector<RimPolygon> polygons;
         std::vector<std::vector<std::uint8_t>> meets;

@@ -16,7 +16,7 @@ double cotangent(Vec2 a, Vec2 b, Vec2 c)
     return dot(b - a, c - a) / cross(b - a, c - a);
 }
 
-/// Cotangent of a triangle's smallest angle; of what is not counter-clockwise, infinity.
+/// Cotangent of a triangle's smallest angle; infinity if the triangle is not counter-clockwise.
 double largestCotangent(Vec2 a, Vec2 b, Vec2 c)
 {
     const double twice = cross(b - a, c - a);
@@ -26,7 +26,7 @@ double largestCotangent(Vec2 a, Vec2 b, Vec2 c)
     return std::max({dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c)}) / twice;
 }
 
-/// The movable vertices of a mesh, with the triangles around them.
+/// Movable vertices of a mesh, with the triangles around them.
 class Smoothing {
 public:
     Smoothing(PlanarMesh& mesh, const SmoothRange& range)
@@ -55,14 +55,14 @@ public:
             }
             const Vec2 move = (1.0 / weight) * sum;
             const double size_squared = weight / static_cast<double>(starts_[i + 1] - starts_[i]);
-            constexpr double kNoticed = 1e-3;  // of an edge
-            if (dot(move, move) < kNoticed * kNoticed * size_squared) {
+            constexpr double kMinMove = 1e-3;  // relative to an edge
+            if (dot(move, move) < kMinMove * kMinMove * size_squared) {
                 continue;
             }
             const Vec2 from = vertex;
-            const double was = worst(i);
+            const double worst_before = worst(i);
             vertex = from + move;
-            if (worst(i) > was || !isDelaunayAround(i)) {
+            if (worst(i) > worst_before || !isDelaunayAround(i)) {
                 vertex = from;
             }
         }
@@ -95,8 +95,8 @@ private:
         return worst;
     }
 
-    /// Whether no two angles face an inner edge of the triangles around a vertex that sum to more than 180°: the
-    /// stiffness between its ends would be positive, and heights might be negative.
+    /// Whether every inner edge of the triangles around a vertex is Delaunay: the two angles that face it sum to at
+    /// most 180°. Otherwise the stiffness between its ends would be positive, and heights could be negative.
     [[nodiscard]] bool isDelaunayAround(std::size_t i) const
     {
         for (std::uint32_t n = starts_[i]; n < starts_[i + 1]; ++n) {
@@ -104,7 +104,8 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = t[(k + 1) % 3];
                 const std::uint32_t b = t[(k + 2) % 3];
-                // One of the two is obtuse; behind the edges that face the vertex itself, it may be the other.
+                // One of the two angles must be obtuse. For edges that face the vertex itself, it may be the angle
+                // behind them.
                 const bool may_be_obtuse =
                     t[k] == range_.first_vertex + i || dot(at(a) - at(t[k]), at(b) - at(t[k])) < 0.0;
                 if (may_be_obtuse && !mesh_.onRim(a) && !mesh_.onRim(b) &&
@@ -116,8 +117,8 @@ private:
         return true;
     }
 
-    /// Cotangent of the angle on the left of the edge from a to b. Behind edges of which neither end moves it is taken
-    /// for a right one: lattice triangles have less.
+    /// Cotangent of the angle to the left of the edge from a to b. If neither end moves, the angle is assumed to be
+    /// 90°, because angles of lattice triangles are smaller.
     [[nodiscard]] double facing(std::uint32_t a, std::uint32_t b) const
     {
         const std::uint32_t end = isMovable(a) ? a : b;
@@ -138,15 +139,15 @@ private:
 
     PlanarMesh& mesh_;
     SmoothRange range_;
-    std::vector<std::uint32_t> starts_;  ///< of every movable vertex, into around_
-    std::vector<std::uint32_t> around_;  ///< triangles
+    std::vector<std::uint32_t> starts_;  ///< first index into around_ for every movable vertex
+    std::vector<std::uint32_t> around_;  ///< triangles around the vertices
 };
 
 }  // namespace
 
 void smooth(PlanarMesh& mesh, const SmoothRange& range)
 {
-    constexpr int kSweeps = 4;  // the band is two triangles wide: this carries a move across it and back
+    constexpr int kSweeps = 4;  // the band is two triangles wide; four sweeps carry a move across it and back
     Smoothing smoothing(mesh, range);
     for (int k = 0; k < kSweeps; ++k) {
         smoothing.sweep();

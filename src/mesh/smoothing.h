@@ -7,16 +7,16 @@
 
 namespace droplet {
 
-/// What of a mesh may be moved.
+/// Part of a mesh that may be moved.
 struct SmoothRange {
     std::size_t first_vertex = 0;
     std::size_t end_vertex = 0;  ///< vertices from here on stay
-    std::size_t triangles = 0;   ///< so many at the mesh's beginning; all that have a vertex of the range
+    std::size_t triangles = 0;   ///< the first triangles of the mesh, with all that have a vertex of the range
 };
 
-/// Moves vertices toward the area-weighted mean of their triangles' centroids wherever that makes no angle around them
-/// smaller than the smallest there was, and leaves no edge off the rim not Delaunay that was so before: the band
-/// between lattice and rim evens out, the lattice stays.
+/// Moves vertices toward the area-weighted mean of their triangles' centroids. A move is made only if it makes no angle
+/// around the vertex smaller than the smallest one was, and if every edge off the rim that was Delaunay stays so. The
+/// band between lattice and rim becomes more even; the lattice stays.
 void smooth(PlanarMesh& mesh, const SmoothRange& range);
 
 }  // namespace droplet

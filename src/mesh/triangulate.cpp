@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Uniform unless asked, not graded, because strokes of type and logos are a capillary length wide or less, where
-// grading gains little. Measured on the unit disc with 10 000 triangles, L² error and relative error of λ, uniform
-// against edges three times as long in the middle as at the rim (radially stretched): without gravity 5.4e-5, 1.3e-4
+// Triangles are uniform by default, because strokes of type and logos are at most a capillary length wide, where
+// grading gains little. Measured on the unit disc with 10 000 triangles: L² error and relative error of λ, uniform
+// against edges three times as long in the middle as at the rim (radially stretched). Without gravity 5.4e-5, 1.3e-4
 // against 5.4e-5, 2.8e-4; at radius = 3 capillary lengths 2.1e-4, 1.5e-4 against 0.9e-4, 1.7e-4; at 10, a wide puddle,
 // 1.2e-3, 5.5e-4 against 3.4e-4, 2.1e-4. There grading would pay.
 
@@ -28,18 +28,18 @@
 namespace droplet {
 namespace {
 
-/// Nothing is refined below this share of the loops' own detail: with half of it strips a tenth of a pixel wide take
-/// eight times the triangles, for a few degrees.
+/// Nothing is refined below this share of the loops' own detail. With half of it, strips a tenth of a pixel wide take
+/// eight times the triangles and gain a few degrees.
 constexpr double kFinest = 0.07;
 
 constexpr double kRoot3 = std::numbers::sqrt3;
 
-/// Beyond this vertices have no index.
+/// More triangles would need more vertices than there are indices.
 constexpr double kMaxTriangles = 4e9;
 
-/// Beyond these, nor beyond what was asked for, an outline may force none: refinement doubles or trebles them, and
-/// three million triangles take half a minute and a gigabyte.
-constexpr double kMaxForced = 1 << 20;
+/// Maximum number of triangles that the detail of an outline may cause beyond the requested number. Refinement doubles
+/// or triples it, and three million triangles take half a minute and a gigabyte.
+constexpr double kMaxDetailTriangles = 1 << 20;
 
 constexpr int kMaxGrading = 64;
 
@@ -68,8 +68,8 @@ std::size_t countTriangles(const std::vector<PlanarMesh>& meshes)
     return count;
 }
 
-/// Triangles that an edge length will give, from the rim's and the lattice's vertices alone: 2·inner + rim − 2 per
-/// droplet, plus 2 per hole (Euler), without what refinement adds.
+/// Number of triangles for an edge length, predicted from the vertices of rim and lattice alone: 2·inner + rim − 2 per
+/// droplet, plus 2 per hole (Euler), without refinement.
 double predictTriangles(const std::vector<RimSampler>& samplers, double edge, int grading)
 {
     std::vector<double> counts(samplers.size());
@@ -91,20 +91,20 @@ double predictTriangles(const std::vector<RimSampler>& samplers, double edge, in
     return sum;
 }
 
-/// Refuses outlines whose detail takes far more triangles than anybody asked for.
-/// @param wanted  triangles that the footprint's area takes at this edge length
+/// Rejects outlines whose detail needs far more triangles than requested.
+/// @param wanted  triangles that the footprint's area needs at this edge length
 void checkDetail(double predicted, double wanted)
 {
-    const double max = std::max(kMaxForced, wanted);
+    const double max = std::max(kMaxDetailTriangles, wanted);
     if (predicted > max) {
         throw Error(ErrorCode::InvalidInput,
                     "the footprint's detail takes " + numberText(std::round(predicted), 9) +
                         " triangles or more, over the limit of " + numberText(std::floor(max), 9) +
-                        "; make the picture smaller, smooth it, or ask for as many --triangles");
+                        "; make the picture smaller, smooth it, or raise --triangles to that number");
     }
 }
 
-/// One more edge length to try, from two that were: the count goes like edge^(−p), p found from both.
+/// Next edge length to try, from two that were tried: the count is assumed to go like edge^(−p), with p from both.
 double nextEdge(double edge, double count, double other_edge, double other_count, double wanted)
 {
     double power = 2.0;
@@ -121,10 +121,10 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     double edge = std::sqrt(4.0 * area / (kRoot3 * target));
     double last_edge = edge;
     double last_count = 0.0;
-    // Where narrow parts alone want more triangles than that, longer edges change nothing.
+    // If narrow parts alone need more triangles, longer edges change nothing.
     const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
-    // Cheap guesses first: most of the way without triangulating.
-    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxForced, target); ++k) {
+    // Cheap predictions come first; they do most of the search without triangulation.
+    for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxDetailTriangles, target); ++k) {
         const double count = predictTriangles(samplers, edge, options.grading);
         if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
             checkDetail(count, target);
@@ -139,10 +139,10 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
         }
         edge = next;
     }
-    constexpr double kEnough = 0.08;  // the promise is 10 %
+    constexpr double kMaxError = 0.08;  // the guarantee is 10 %
     std::vector<PlanarMesh> best;
     double best_error = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 5 && best_error > kEnough; ++k) {
+    for (int k = 0; k < 5 && best_error > kMaxError; ++k) {
         std::vector<PlanarMesh> meshes = meshAll(samplers, edge, options.grading);
         const auto count = static_cast<double>(countTriangles(meshes));
         const double error = std::abs(std::log(count / target));
@@ -189,7 +189,8 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
         throw Error(ErrorCode::InvalidArgument,
                     "edge " + numberText(*options.edge) + " m must be longer: it would take more than 4e9 triangles");
     }
-    // Half as long again as of equilateral triangles: the rim's band has more of them than its area's share.
+    // 1.5 times the edge of equilateral triangles, because the band along the rim has more triangles than its share of
+    // the area.
     const double widest =
         1.5 * options.edge.value_or(std::sqrt(4.0 * total_area / (kRoot3 * static_cast<double>(options.triangles))));
     std::vector<std::optional<RimSampler>> made(domain.droplets.size());
@@ -209,7 +210,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
             points += hole.points.size();
         }
     }
-    if (4.0 * static_cast<double>(points) > kMaxForced) {
+    if (4.0 * static_cast<double>(points) > kMaxDetailTriangles) {
         // Triangles at a rim may be half as high as others.
         checkDetail(predictTriangles(samplers, *options.edge, options.grading),
                     2.0 * total_area / (kRoot3 / 4.0 * *options.edge * *options.edge));
@@ -224,11 +225,11 @@ PlanarMesh cover(const PlanarMesh& mesh)
         polygons.emplace_back(mesh.vertices.begin() + mesh.loop_starts[k],
                               mesh.vertices.begin() + mesh.loop_starts[k + 1]);
     }
-    // Four times as long as edges along the rim at once: nobody looks at the ground from below.
+    // Start at four times the length of rim edges, because nobody looks at the ground from below.
     const double edge = 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
     const std::vector<Vec2> points = gradedPoints(polygons, edge, kMaxGrading);
     PlanarMesh result;
-    result.triangles = triangulateAsIs(polygons, points);
+    result.triangles = triangulateUnrefined(polygons, points);
     result.loop_starts = mesh.loop_starts;
     result.vertices.assign(mesh.vertices.begin(), mesh.vertices.begin() + mesh.rimVertexCount());
     result.vertices.insert(result.vertices.end(), points.begin(), points.end());

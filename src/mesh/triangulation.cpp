@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Insertion order: N. Amenta, S. Choi and G. Rote, "Incremental constructions con BRIO" (2003). Points of a smooth loop
-// inserted in their order along it would each rebuild a part of the triangulation as large as all that stands.
+// Insertion order: N. Amenta, S. Choi and G. Rote, "Incremental constructions con BRIO" (2003). If the points of a
+// smooth loop were inserted in their order along it, each would rebuild a part of the triangulation as large as all of
+// it.
 
 #include "mesh/triangulation.h"
 
@@ -73,7 +74,7 @@ void markDomain(Triangulation& triangulation)
         f->set_in_domain(false);
         f->tds_data().clear();
     }
-    // From the unbounded outside inward; crossing a constraint changes sides.
+    // From the unbounded face inward; a constraint separates inside and outside.
     std::vector<Triangulation::Face_handle> outside{triangulation.infinite_face()};
     std::vector<Triangulation::Face_handle> inside;
     bool is_inside = false;
@@ -101,7 +102,7 @@ void markDomain(Triangulation& triangulation)
                 stack.push_back(neighbour);
             }
         }
-        // A face may have been reached from several sides.
+        // A face may be reached from several sides.
         std::vector<Triangulation::Face_handle> fresh;
         for (const auto& f : outside) {
             if (f->tds_data().is_clear()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, section 4.2.4: every frame solved for itself, the total volume fixed. Added to it: volumes of single
-// droplets, and vertices that keep their identity.
+// After the thesis, section 4.2.4: every frame is solved by itself, the total volume is fixed. Added here: volumes of
+// single droplets, and vertices that keep their identity.
 #include "droplet/sequence/sequence.h"
 
 #include <tbb/parallel_for.h>
@@ -25,25 +25,26 @@
 
 namespace droplet {
 
-/// The meshes of a frame that were triangulated, not moved, and of closed surfaces on flat ground their bases.
+/// Meshes as they were triangulated, before they were moved, and their bases, if surfaces are closed and the ground is
+/// flat.
 struct TriangulatedMeshes {
     std::vector<PlanarMesh> meshes;
     std::vector<PlanarMesh> bases;
 };
 
 struct FrameLineage {
-    std::shared_ptr<const TriangulatedMeshes> first;  ///< where the frame's connections began
-    std::vector<PlanarMesh> bases;                    ///< of closed surfaces on flat ground
-    double edge = 0.0;                                ///< of triangles, as a run of frames began [m]
-    std::size_t next_id = 0;                          ///< not given to any droplet yet
-    std::optional<double> reservoir;                  ///< of VolumeMode::Total, once there was liquid [m³]
+    std::shared_ptr<const TriangulatedMeshes> first;  ///< meshes in which the frame's connections were made
+    std::vector<PlanarMesh> bases;                    ///< bases, if surfaces are closed and the ground is flat
+    double edge = 0.0;                                ///< length of an edge at the start of a run of frames [m]
+    std::size_t next_id = 0;                          ///< next unused id
+    std::optional<double> reservoir;  ///< total volume with VolumeMode::Total, once there was liquid [m³]
 };
 
 namespace {
 
-/// Share of the smaller footprint from which an overlap joins two droplets. A droplet that moves on by half its width
-/// into the place of the one before it overlaps that by less.
-constexpr double kJoins = 0.25;
+/// Share of the smaller footprint from which an overlap links two droplets. A droplet that moves by half its width into
+/// the place of the one before overlaps that by less.
+constexpr double kMinJoinedShare = 0.25;
 
 double volumeOf(const std::vector<Ancestry>& droplets)
 {
@@ -51,14 +52,14 @@ double volumeOf(const std::vector<Ancestry>& droplets)
                            [](double sum, const Ancestry& droplet) { return sum + droplet.volume; });
 }
 
-/// Half a pixel; of outlines that come from no picture, a fraction of the extent.
-double rowOf(const Outline& outline)
+/// Distance of rows for overlaps(): half a pixel; for outlines without a picture, a fraction of the extent.
+double rowDistance(const Outline& outline)
 {
     constexpr double kRows = 2048.0;
     return outline.pixel_size > 0.0 ? 0.5 * outline.pixel_size : outline.extent.y / kRows;
 }
 
-/// Droplets of two frames that belong together.
+/// Two droplets of two frames that belong together.
 struct Link {
     std::size_t before = 0;
     std::size_t after = 0;
@@ -78,23 +79,24 @@ std::vector<Link> linksOf(const Domain& before, const Domain& after, double row)
     for (const Overlap& overlap : all) {
         const double smaller = std::min(area(before.droplets[overlap.first]), area(after.droplets[overlap.second]));
         const bool nearest = overlap.area == max_before[overlap.first] && overlap.area == max_after[overlap.second];
-        if (overlap.area >= kJoins * smaller || nearest) {
+        if (overlap.area >= kMinJoinedShare * smaller || nearest) {
             links.push_back({overlap.first, overlap.second, overlap.area});
         }
     }
     return links;
 }
 
-/// What hangs together by links.
+/// Droplets that are connected by links.
 struct Group {
     std::vector<std::size_t> before;
     std::vector<std::size_t> after;
 };
 
-/// In the order of their first droplets before, then those that are new.
+/// Groups in the order of their first droplets before; groups of new droplets come last.
 std::vector<Group> groupsOf(std::size_t before, std::size_t after, const std::vector<Link>& links)
 {
-    // Droplets after count on from those before; each is named by the smallest it hangs together with.
+    // Droplets after are numbered on from those before. The name of a droplet is the smallest number among the droplets
+    // connected with it.
     std::vector<std::size_t> name(before + after);
     std::iota(name.begin(), name.end(), std::size_t{0});
     for (bool changed = true; changed;) {
@@ -117,7 +119,7 @@ std::vector<Group> groupsOf(std::size_t before, std::size_t after, const std::ve
     return groups;
 }
 
-/// Volumes of droplets on these meshes at one pressure, as shares of the whole.
+/// Volumes of droplets on meshes at one pressure, as shares of the total.
 std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
 {
     SolveOptions level = options;
@@ -129,7 +131,7 @@ std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveO
     level.volumes.clear();
     double whole = 0.0;
     for (const PlanarMesh& mesh : meshes) {
-        whole += std::pow(area(mesh), 1.5);  // of the order of what they hold, so that nothing overflows
+        whole += std::pow(area(mesh), 1.5);  // about the volume of the droplets, so that nothing overflows
     }
     level.fill = {FillBy::Volume, whole, FillSharing::Total};
     const Solution solution = solve(meshes, level);
@@ -146,13 +148,13 @@ std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveO
     return shares;
 }
 
-/// Volumes of new droplets by themselves.
+/// Volumes of new droplets, from their own fill.
 std::vector<double> newVolumes(const std::vector<PlanarMesh>& meshes, SolveOptions options)
 {
     options.volumes.clear();
     const Solution solution = solve(meshes, options);
     if (!solution.report.usable()) {
-        throw Error(ErrorCode::NoSuchDroplet, "a droplet that appears cannot be filled as asked; ask for less");
+        throw Error(ErrorCode::NoSuchDroplet, "a new droplet cannot be filled as requested; reduce the fill");
     }
     std::vector<double> volumes;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
@@ -162,7 +164,7 @@ std::vector<double> newVolumes(const std::vector<PlanarMesh>& meshes, SolveOptio
 }
 
 template <typename Value>
-std::vector<Value> chosen(const std::vector<Value>& all, const std::vector<std::size_t>& which)
+std::vector<Value> selected(const std::vector<Value>& all, const std::vector<std::size_t>& which)
 {
     std::vector<Value> some;
     some.reserve(which.size());
@@ -172,26 +174,28 @@ std::vector<Value> chosen(const std::vector<Value>& all, const std::vector<std::
     return some;
 }
 
-/// Gives every droplet its id and where it comes from.
-/// @return the next id
-std::size_t nameDroplets(const Frame& before, const std::vector<Group>& groups, const std::vector<Link>& links,
-                         Frame& frame)
+/// Gives every droplet its id and its origin.
+/// @return the next unused id
+std::size_t assignIds(const Frame& before, const std::vector<Group>& groups, const std::vector<Link>& links,
+                      Frame& frame)
 {
     std::size_t next_id = before.lineage->next_id;
     for (const Group& group : groups) {
         std::vector<std::size_t> ids;
-        std::size_t heir = 0;
+        std::size_t main_parent = 0;
         for (const std::size_t i : group.before) {
             ids.push_back(before.droplets[i].id);
-            heir = before.droplets[i].volume > before.droplets[heir].volume || i == group.before.front() ? i : heir;
+            main_parent = before.droplets[i].volume > before.droplets[main_parent].volume || i == group.before.front()
+                              ? i
+                              : main_parent;
         }
-        // The id goes to what covers most of the heir's ground.
+        // The droplet that covers most of the largest parent's ground gets its id.
         std::size_t keeper = frame.droplets.size();
         double max = -1.0;
         for (const std::size_t k : group.after) {
             double common = 0.0;
             for (const Link& link : links) {
-                common += link.before == heir && link.after == k && !group.before.empty() ? link.area : 0.0;
+                common += link.before == main_parent && link.after == k && !group.before.empty() ? link.area : 0.0;
             }
             if (common > max) {
                 max = common;
@@ -200,14 +204,14 @@ std::size_t nameDroplets(const Frame& before, const std::vector<Group>& groups, 
         }
         for (const std::size_t k : group.after) {
             frame.droplets[k].from = ids;
-            frame.droplets[k].id = !group.before.empty() && k == keeper ? before.droplets[heir].id : next_id++;
+            frame.droplets[k].id = !group.before.empty() && k == keeper ? before.droplets[main_parent].id : next_id++;
         }
     }
     return next_id;
 }
 
-/// Hands the volumes of the frame before on.
-void passVolumes(const Frame& before, const std::vector<Group>& groups, const SolveOptions& options, Frame& frame)
+/// Distributes the volumes of the frame before to the droplets of the frame.
+void distributeVolumes(const Frame& before, const std::vector<Group>& groups, const SolveOptions& options, Frame& frame)
 {
     std::vector<std::size_t> appeared;
     for (const Group& group : groups) {
@@ -222,14 +226,14 @@ void passVolumes(const Frame& before, const std::vector<Group>& groups, const So
         } else if (group.after.size() == 1) {
             frame.droplets[group.after.front()].volume = volume;
         } else {
-            const std::vector<double> shares = sharesOf(chosen(frame.droplet.meshes, group.after), options);
+            const std::vector<double> shares = sharesOf(selected(frame.droplet.meshes, group.after), options);
             for (std::size_t k = 0; k < shares.size(); ++k) {
                 frame.droplets[group.after[k]].volume = shares[k] * volume;
             }
         }
     }
     if (!appeared.empty()) {
-        const std::vector<double> volumes = newVolumes(chosen(frame.droplet.meshes, appeared), options);
+        const std::vector<double> volumes = newVolumes(selected(frame.droplet.meshes, appeared), options);
         for (std::size_t k = 0; k < appeared.size(); ++k) {
             frame.droplets[appeared[k]].volume = volumes[k];
             frame.volume_gained += volumes[k];
@@ -237,8 +241,8 @@ void passVolumes(const Frame& before, const std::vector<Group>& groups, const So
     }
 }
 
-/// Whether every droplet goes on as one; then the footprints are put in the order they had.
-bool putInOrder(std::size_t count, const std::vector<Group>& groups, Domain& domain)
+/// Puts the footprints into their old order if every droplet continues as one droplet; else returns false.
+bool restoreOrder(std::size_t count, const std::vector<Group>& groups, Domain& domain)
 {
     const bool one_to_one =
         domain.droplets.size() == count && std::all_of(groups.begin(), groups.end(), [](const Group& group) {
@@ -261,13 +265,13 @@ bool anyDry(const Droplet& droplet)
                        [](const HeightField& field) { return !field.dry.empty(); });
 }
 
-/// A droplet's mesh in a frame, and its base where that is kept.
+/// Mesh of a droplet in a frame, and its base if that is kept.
 struct Meshed {
     PlanarMesh mesh;
     std::optional<PlanarMesh> base;
 };
 
-/// Moves a droplet's mesh and base along with its footprint, if that can be.
+/// Moves a droplet's mesh and base with its footprint, if possible.
 std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint)
 {
     const TriangulatedMeshes& first = *before.lineage->first;
@@ -287,10 +291,10 @@ std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footpr
     return moved;
 }
 
-/// Moves meshes and bases along with their footprints.
-/// @param domain  where they go
-/// @param meshes  where they are then
-/// @return        nothing unless all of them can
+/// Moves all meshes and bases with their footprints.
+/// @param domain  new footprints
+/// @param meshes  receives the moved meshes
+/// @return        none unless all of them can be moved
 std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, std::vector<PlanarMesh>& meshes)
 {
     const std::size_t count = before.lineage->first->meshes.size();
@@ -316,9 +320,9 @@ bool needBases(const DropletOptions& options)
     return !options.open && options.solve.ground.flat();
 }
 
-/// Triangulates footprints, and where bases are needed, those.
-/// @param meshes  of the footprints
-FrameLineage meshAnew(const Domain& domain, const DropletOptions& options, std::vector<PlanarMesh>& meshes)
+/// Triangulates footprints and, if needed, their bases.
+/// @param meshes  receives the meshes
+FrameLineage triangulateAnew(const Domain& domain, const DropletOptions& options, std::vector<PlanarMesh>& meshes)
 {
     meshes = meshesOf(domain, options);
     FrameLineage lineage;
@@ -341,24 +345,25 @@ FrameLineage meshAnew(const Domain& domain, const DropletOptions& options, std::
     return lineage;
 }
 
-/// Whether angles are as those of meshes that are moved, or of one made anew.
-bool anglesWillDo(const PlanarMesh& mesh, const Footprint& footprint, double edge)
+/// Whether the angles of a mesh are good enough for moved meshes, or as good as those of a new mesh.
+bool anglesAreGood(const PlanarMesh& mesh, const Footprint& footprint, double edge)
 {
     constexpr double kMinAngle = 15.0 * kDegree;
-    constexpr double kShareOfAngle = 0.75;
+    constexpr double kMinAngleShare = 0.75;
     const double min = minAngle(mesh);
-    return min >= kMinAngle || min >= kShareOfAngle * minAngle(triangulate({{footprint}, {}}, {.edge = edge}).front());
+    return min >= kMinAngle || min >= kMinAngleShare * minAngle(triangulate({{footprint}, {}}, {.edge = edge}).front());
 }
 
-/// Meshes a frame so that it keeps what it can: droplets that only move are moved, others keep what is far from where
-/// their rims changed, new ones are triangulated with edges as long.
-/// @param kept  vertices that the frame before had
-/// @return      nothing if it is better to begin anew
-std::optional<FrameLineage> keepSome(const Frame& before, const std::vector<Group>& groups, const Domain& domain,
-                                     const DropletOptions& options, std::vector<PlanarMesh>& meshes, std::size_t& kept)
+/// Meshes a frame and keeps as many vertices as possible. Droplets that only move are moved. Others keep triangles far
+/// from changes of their rims. New ones are triangulated with edges of the same length.
+/// @param kept  receives the number of vertices that the frame before had
+/// @return      none if it is better to triangulate the whole frame
+std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<Group>& groups, const Domain& domain,
+                                         const DropletOptions& options, std::vector<PlanarMesh>& meshes,
+                                         std::size_t& kept)
 {
     if (options.solve.model != Model::Linear || options.mesh.grading > 1) {
-        return std::nullopt;  // those meshes are not even
+        return std::nullopt;  // their meshes are not uniform
     }
     const std::size_t count = domain.droplets.size();
     const double edge = before.lineage->edge;
@@ -369,7 +374,7 @@ std::optional<FrameLineage> keepSome(const Frame& before, const std::vector<Grou
         }
     }
     std::vector<Meshed> made(count);
-    std::vector<std::optional<std::size_t>> followed(count);  // whom
+    std::vector<std::optional<std::size_t>> followed(count);  // the droplet before that was moved
     std::vector<std::size_t> kept_of(count, 0);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
         const Footprint& footprint = domain.droplets[k];
@@ -390,7 +395,7 @@ std::optional<FrameLineage> keepSome(const Frame& before, const std::vector<Grou
         if (!parents.empty()) {
             patched = patch(parents, footprint, edge);
         }
-        if (patched && anglesWillDo(patched->mesh, footprint, edge)) {
+        if (patched && anglesAreGood(patched->mesh, footprint, edge)) {
             kept_of[k] = patched->kept;
             made[k].mesh = std::move(patched->mesh);
         } else {
@@ -442,15 +447,14 @@ void SequenceOptions::validate() const
 {
     validateStages(droplet);
     if (droplet.fill_range) {
-        throw Error(ErrorCode::InvalidArgument, "fill_range has no place in a sequence");
+        throw Error(ErrorCode::InvalidArgument, "fill_range is not allowed in a sequence");
     }
     if (!droplet.solve.volumes.empty()) {
         throw Error(ErrorCode::InvalidArgument,
-                    "volumes of each droplet have no place in a sequence: fill says how "
-                    "much the first frame has");
+                    "volumes are not allowed in a sequence: fill sets the amount of the first frame");
     }
     if (volume_mode == VolumeMode::Total && droplet.solve.fill.sharing != FillSharing::Total) {
-        throw Error(ErrorCode::InvalidArgument, "volume_mode total needs fill.sharing total: one reservoir");
+        throw Error(ErrorCode::InvalidArgument, "volume_mode total requires fill.sharing total: one reservoir");
     }
 }
 
@@ -466,7 +470,7 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
     if (progress) {
         progress(Stage::Triangulate);
     }
-    FrameLineage lineage = meshAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
+    FrameLineage lineage = triangulateAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
     finish(frame.droplet, options.droplet, lineage.bases, progress);
     for (const ShapeFigures& figures : frame.droplet.figures) {
         frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
@@ -480,10 +484,10 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
 {
     options.validate();
     if (!before.lineage) {
-        throw Error(ErrorCode::InvalidArgument, "the frame before must come of firstFrame or nextFrame");
+        throw Error(ErrorCode::InvalidArgument, "before must be a frame made by firstFrame or nextFrame");
     }
     if (outline.extent != before.droplet.outline.extent) {
-        throw Error(ErrorCode::InvalidInput, "frames of a sequence must have one extent");
+        throw Error(ErrorCode::InvalidInput, "frames of a sequence must have the same extent");
     }
     if (outline.loops.empty()) {
         Frame dry = dryFrame(std::move(outline), *before.lineage);
@@ -494,7 +498,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     frame.droplet.outline = std::move(outline);
     Domain& domain = frame.droplet.domain;
     domain = split(frame.droplet.outline);
-    const double row = rowOf(frame.droplet.outline);
+    const double row = rowDistance(frame.droplet.outline);
     const std::size_t count = before.droplets.size();
     std::vector<Link> links;
     if (count > 0) {
@@ -504,7 +508,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     if (progress) {
         progress(Stage::Triangulate);
     }
-    const bool one_to_one = putInOrder(count, groups, domain);
+    const bool one_to_one = restoreOrder(count, groups, domain);
     if (one_to_one) {
         links.clear();
         for (Group& group : groups) {
@@ -512,10 +516,10 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
             links.push_back({group.before.front(), group.after.front(), 1.0});
         }
     }
-    DropletOptions now = options.droplet;
+    DropletOptions frame_options = options.droplet;
     const std::optional<double> reservoir = before.lineage->reservoir;
     if (options.volume_mode == VolumeMode::Total && reservoir) {
-        now.solve.fill = {FillBy::Volume, *reservoir, FillSharing::Total};
+        frame_options.solve.fill = {FillBy::Volume, *reservoir, FillSharing::Total};
     }
     std::optional<FrameLineage> lineage;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
@@ -524,12 +528,12 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     const bool followed = lineage.has_value();
     std::size_t kept = 0;
     if (!followed && options.keep_vertices && count > 0) {
-        lineage = keepSome(before, groups, domain, now, frame.droplet.meshes, kept);
+        lineage = keepVertices(before, groups, domain, frame_options, frame.droplet.meshes, kept);
     }
     if (lineage) {
-        now.mesh.edge = lineage->edge;  // it, not the number of triangles, goes on
+        frame_options.mesh.edge = lineage->edge;  // the edge length stays the same, not the number of triangles
     } else {
-        lineage = meshAnew(domain, now, frame.droplet.meshes);
+        lineage = triangulateAnew(domain, frame_options, frame.droplet.meshes);
     }
     if (count > 0) {
         std::size_t vertices = 0;
@@ -539,16 +543,16 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         frame.vertices_kept = followed ? 1.0 : static_cast<double>(kept) / static_cast<double>(vertices);
     }
     frame.droplets.resize(domain.droplets.size());
-    lineage->next_id = nameDroplets(before, groups, links, frame);
+    lineage->next_id = assignIds(before, groups, links, frame);
     if (options.volume_mode == VolumeMode::Track) {
-        passVolumes(before, groups, options.droplet.solve, frame);
-        now.solve.fill.by = FillBy::Volume;
-        now.solve.fill.sharing = FillSharing::Each;
+        distributeVolumes(before, groups, options.droplet.solve, frame);
+        frame_options.solve.fill.by = FillBy::Volume;
+        frame_options.solve.fill.sharing = FillSharing::Each;
         for (const Ancestry& droplet : frame.droplets) {
-            now.solve.volumes.push_back(droplet.volume);
+            frame_options.solve.volumes.push_back(droplet.volume);
         }
     }
-    finish(frame.droplet, now, lineage->bases, progress);
+    finish(frame.droplet, frame_options, lineage->bases, progress);
     if (options.volume_mode == VolumeMode::Total) {
         const double scale = reservoir.value_or(frame.droplet.total.volume) / frame.droplet.total.volume;  // no drift
         for (std::size_t k = 0; k < frame.droplets.size(); ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The names are the contract of the schema droplet-shape.sequence/1: keys may be added, none renamed or left out.
+// The names are the contract of the schema droplet-shape.sequence/1: keys may be added, but not renamed or removed.
 #include "droplet/sequence/sequence_report.h"
 
 #include <algorithm>

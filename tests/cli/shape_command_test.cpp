@@ -965,7 +965,7 @@ TEST_F(ShapeCommandTest, RefusesAPictureThatIsNoMaskUnlessItIsInsistedOn)
     writeFile(directory() / "glow.pgm", glow);
     const auto result = run({"glow.pgm", "glow.glb", "-q"});
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_THAT(result.error, AllOf(HasSubstr("glow.pgm: is no picture of a footprint"), HasSubstr("--segment")));
+    EXPECT_THAT(result.error, AllOf(HasSubstr("glow.pgm: does not look like a footprint"), HasSubstr("--segment")));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1);
     EXPECT_FALSE(fs::exists(directory() / "glow.glb"));
     const auto insisted = run({"glow.pgm", "glow.glb", "--threshold", "0.5", "--triangles", "2k"});

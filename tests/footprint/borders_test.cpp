@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint16_t kLevel = 32768;
 
-/// Liquid at a share of the pixels; grey levels on either side of the level, some on it. The engine's numbers are the
-/// standard's, its distributions' are not.
+/// Random mask with a given share of liquid pixels, grey levels on both sides of the level, and some levels equal to
+/// it. std engines are specified by the standard, its distributions are not.
 Mask noise(int width, int height, double density, std::uint32_t seed)
 {
     std::mt19937 engine(seed);
@@ -39,7 +39,7 @@ bool isLiquid(const Mask& mask, int x, int y)
     return x >= 0 && y >= 0 && x < mask.width && y < mask.height && mask.at(x, y) >= kLevel;
 }
 
-/// Sizes around the blocks in which rows are read, and one pixel wide or high.
+/// Masks of sizes near the blocks in which rows are read, and masks one pixel wide or high.
 std::vector<Mask> awkwardMasks()
 {
     std::vector<Mask> masks;
@@ -53,7 +53,7 @@ std::vector<Mask> awkwardMasks()
     return masks;
 }
 
-TEST(Borders, PassEveryCrossingOnce)
+TEST(Borders, VisitEveryCrossingOnce)
 {
     for (const Mask& mask : awkwardMasks()) {
         std::vector<std::array<int, 3>> expected;
@@ -79,9 +79,9 @@ TEST(Borders, PassEveryCrossingOnce)
     }
 }
 
-TEST(Borders, CloseCornerToCornerWithLiquidOnTheLeft)
+TEST(Borders, AreClosedWithLiquidOnTheLeft)
 {
-    // Where a crossing ends, facing along with its dry pixel on the right: twice the pixel corner, from the centre.
+    // End of a crossing with its dry pixel on the right: the pixel corner, in half pixels.
     const auto end = [](const Crossing& at, int sign) {
         const Step d = at.toward();
         const Step along = kSteps[static_cast<std::size_t>((at.direction + 1) % 4)];
@@ -96,7 +96,7 @@ TEST(Borders, CloseCornerToCornerWithLiquidOnTheLeft)
     }
 }
 
-// A border's first end of a run of liquid is where it begins.
+// A border begins at its first end of a run of liquid.
 TEST(Borders, ComeInReadingOrder)
 {
     const auto before = [](const Crossing& a, const Crossing& b) { return std::pair{a.y, a.x} < std::pair{b.y, b.x}; };
@@ -112,7 +112,7 @@ TEST(Borders, ComeInReadingOrder)
     }
 }
 
-TEST(Borders, OfAPixelAndOfAHole)
+TEST(Borders, AreFoundAroundAPixelAndAHole)
 {
     const Mask pixel = testing::drawnMask("...\n.#.\n...");
     EXPECT_EQ(followBorders(pixel, kLevel), (std::vector<Border>{{{1, 1, 2}, {1, 1, 3}, {1, 1, 0}, {1, 1, 1}}}));

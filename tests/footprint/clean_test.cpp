@@ -29,35 +29,35 @@ Mask cleaned(const Mask& mask, const CleanOptions& options)
     return clean(mask, options, kPixel, 0.5);
 }
 
-/// A ring with a hole of radius 15, and a disc of radius 25 with a glint of radius 4.
+/// Ring with a hole of radius 15, and a disc of radius 25 with a glint of radius 4.
 testing::Inside ringAndGlint()
 {
     return [ring = disc({40, 40}, 30), hole = disc({40, 40}, 15), blot = disc({110, 40}, 25),
             glint = disc({104, 33}, 4)](Vec2 p) { return (ring(p) && !hole(p)) || (blot(p) && !glint(p)); };
 }
 
-TEST(Clean, DoesNothingUnlessAsked)
+TEST(Clean, DoesNothingByDefault)
 {
     const Mask mask = smoothMask(150, 80, ringAndGlint());
     EXPECT_FALSE(CleanOptions{}.any());
     EXPECT_EQ(cleaned(mask, {}).coverage, mask.coverage);
 }
 
-TEST(Clean, FillsAGlintAndLeavesARing)
+TEST(Clean, FillsAGlintAndKeepsARing)
 {
     const Mask mask = smoothMask(150, 80, ringAndGlint());
     CleanOptions options;
     options.fill_holes = 100.0 * kPixel * kPixel;
     const Mask filled = cleaned(mask, options);
     const double pi = std::numbers::pi;
-    EXPECT_NEAR(covered(filled), pi * (30 * 30 - 15 * 15 + 25 * 25), 2.0) << "no dent is left where the glint was";
+    EXPECT_NEAR(covered(filled), pi * (30 * 30 - 15 * 15 + 25 * 25), 2.0) << "the glint left no dent";
     options.fill_holes = 1000.0 * kPixel * kPixel;
     EXPECT_NEAR(covered(cleaned(mask, options)), pi * (30 * 30 + 25 * 25), 3.0);
     options.fill_holes = 20.0 * kPixel * kPixel;
     EXPECT_EQ(cleaned(mask, options).coverage, mask.coverage);
 }
 
-TEST(Clean, DryGroundThatReachesTheBorderIsNoHole)
+TEST(Clean, KeepsDryGroundAtTheBorder)
 {
     const Mask mask = testing::hardMask(40, 40, [](Vec2 p) { return p.x > 3 && !disc({20, 0}, 5)(p); });
     CleanOptions options;
@@ -65,7 +65,7 @@ TEST(Clean, DryGroundThatReachesTheBorderIsNoHole)
     EXPECT_EQ(cleaned(mask, options).coverage, mask.coverage);
 }
 
-TEST(Clean, KeepsTheLargest)
+TEST(Clean, KeepsTheLargestDroplets)
 {
     const Mask mask = smoothMask(200, 60, [](Vec2 p) {
         return disc({30, 30}, 20)(p) || disc({80, 30}, 10)(p) || disc({120, 30}, 15)(p) || disc({160, 30}, 10)(p);
@@ -73,16 +73,16 @@ TEST(Clean, KeepsTheLargest)
     CleanOptions options;
     options.keep = 2;
     const Mask kept = cleaned(mask, options);
-    EXPECT_NEAR(covered(kept), std::numbers::pi * (20 * 20 + 15 * 15), 2.0) << "with all their edges";
+    EXPECT_NEAR(covered(kept), std::numbers::pi * (20 * 20 + 15 * 15), 2.0) << "edges included";
     EXPECT_EQ(kept.at(80, 30), 0);
     options.keep = 3;
-    EXPECT_EQ(cleaned(mask, options).at(80, 30), 65535) << "of two alike the first";
+    EXPECT_EQ(cleaned(mask, options).at(80, 30), 65535) << "the first of two equal ones";
     EXPECT_EQ(cleaned(mask, options).at(160, 30), 0);
     options.keep = 9;
     EXPECT_EQ(cleaned(mask, options).coverage, mask.coverage);
 }
 
-TEST(Clean, SmoothingTakesSpotsAndTeethAndLeavesAreaAndStraightRims)
+TEST(Clean, SmoothingRemovesSpotsAndTeethButKeepsAreaAndStraightRims)
 {
     const Mask teeth = smoothMask(200, 200, [](Vec2 p) {
         const double tooth = static_cast<int>(p.y) % 6 < 3 ? 2.0 : -2.0;
@@ -101,7 +101,7 @@ TEST(Clean, SmoothingTakesSpotsAndTeethAndLeavesAreaAndStraightRims)
     }
     const Mask round = smoothMask(200, 200, disc({100, 100}, 60));
     EXPECT_NEAR(covered(cleaned(round, options)) / covered(round), 1.0, 0.01);
-    // Wide ones work on a smaller image.
+    // Wide smoothing works on a smaller image.
     options.smooth = 40 * kPixel;
     const Mask half = smoothMask(200, 200, [](Vec2 p) { return p.x < 100.5; });
     EXPECT_NEAR(covered(cleaned(half, options)) / covered(half), 1.0, 0.01);
@@ -109,7 +109,7 @@ TEST(Clean, SmoothingTakesSpotsAndTeethAndLeavesAreaAndStraightRims)
     EXPECT_NO_THROW(cleaned(half, options));
 }
 
-TEST(Clean, IsDoneBeforeTracing)
+TEST(Clean, HappensBeforeTracing)
 {
     TraceOptions options;
     options.pixel_size = kPixel;
@@ -118,10 +118,10 @@ TEST(Clean, IsDoneBeforeTracing)
     const Mask mask = smoothMask(150, 80, ringAndGlint());
     const Domain domain = split(trace(mask, options));
     ASSERT_EQ(domain.droplets.size(), 1U);
-    EXPECT_EQ(domain.droplets[0].holes.size(), 1U) << "the ring's";
+    EXPECT_EQ(domain.droplets[0].holes.size(), 1U) << "the hole of the ring";
 }
 
-TEST(Clean, RefusesWhatCannotBe)
+TEST(Clean, RejectsOptionsOutOfRange)
 {
     CleanOptions options;
     options.smooth = -1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Footprints by their colour, and how colours are written.
+// Tests of footprints by colour, and of the notation of colours.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ double covered(const Mask& mask)
     return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0;
 }
 
-/// Of 200 × 200 px: a red disc of radius 90 with a white bar of 120.6 × 32.6 in it.
+/// SVG of 200 × 200 px: a red disc of radius 90 with a white bar of 120.6 × 32.6 in it.
 std::string icon(const std::string& background = "")
 {
     return R"(<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">)" + background +
@@ -49,7 +49,7 @@ std::string icon(const std::string& background = "")
            R"(<rect x="39.7" y="84.2" width="120.6" height="32.6" fill="white"/></svg>)";
 }
 
-TEST(FootprintColour, TakesASignInsideOfAnIconAndWhatIsAroundIt)
+TEST(FootprintColour, FindsASignInsideAnIconAndTheIconAroundIt)
 {
     constexpr double kBar = 120.6 * 32.6;
     constexpr double kDisc = std::numbers::pi * 90 * 90 - kBar;
@@ -59,14 +59,14 @@ TEST(FootprintColour, TakesASignInsideOfAnIconAndWhatIsAroundIt)
     EXPECT_EQ(sign.at(100, 100), 65535);
     EXPECT_EQ(sign.at(100, 40), 0);
     EXPECT_NEAR(covered(decodeMask(bytesOf(icon()), of("#e30613"))), kDisc, 0.002 * kDisc);
-    EXPECT_NEAR(covered(decodeMask(bytesOf(icon()), of("red"))), kDisc, 0.002 * kDisc) << "nearly the same";
+    EXPECT_NEAR(covered(decodeMask(bytesOf(icon()), of("red"))), kDisc, 0.002 * kDisc) << "a similar colour";
     const std::string on_blue = icon("<rect width='200' height='200' fill='#0044aa'/>");
     EXPECT_NEAR(covered(decodeMask(bytesOf(on_blue), of("red"))), kDisc, 0.003 * kDisc) << "on any ground";
 }
 
-TEST(FootprintColour, EdgesHaveTheShareOfTheColour)
+TEST(FootprintColour, CoverageAtEdgesIsTheShareOfTheColour)
 {
-    // Columns of red, three mixtures with yellow, yellow; and black, which is no mixture.
+    // Columns of red, two mixtures with yellow, yellow, and black, which is not a mixture.
     Raster raster{9, 9, 3, 8, {}};
     for (int y = 0; y < 9; ++y) {
         for (const double share : {1.0, 1.0, 1.0, 0.75, 0.25, 0.0, 0.0, 0.0}) {
@@ -82,9 +82,9 @@ TEST(FootprintColour, EdgesHaveTheShareOfTheColour)
     EXPECT_EQ(mask.at(8, 4), 0);
 }
 
-TEST(FootprintColour, OutlineOfAnotherColourIsNoEdge)
+TEST(FootprintColour, OutlineOfAnotherColourIsDry)
 {
-    // Red, a column of black, white: black lies on the way from white to nothing.
+    // Red, a column of black, white: black is not a mixture of red and white.
     Raster raster{9, 5, 3, 8, {}};
     for (int i = 0; i < 45; ++i) {
         const int x = i % 9;
@@ -98,20 +98,20 @@ TEST(FootprintColour, OutlineOfAnotherColourIsNoEdge)
     EXPECT_EQ(mask.at(4, 2), 0);
 }
 
-TEST(FootprintColour, WhatIsNotThereIsRefusedWithWhatIs)
+TEST(FootprintColour, MissingColourIsAnErrorThatListsTheCommonOnes)
 {
     EXPECT_THAT(messageOf(bytesOf(icon()), of("lime")),
                 AllOf(HasSubstr("#00ff00"), HasSubstr("#e306"), HasSubstr("#ffffff")));
 }
 
-TEST(FootprintColour, WithoutItAFrameIsDry)
+TEST(FootprintColour, MissingColourMayGiveADryFrame)
 {
     MaskOptions options = of("lime");
     options.may_be_dry = true;
     EXPECT_EQ(covered(decodeMask(bytesOf(icon()), options)), 0.0);
 }
 
-TEST(FootprintColour, IsInvertedLast)
+TEST(FootprintColour, InversionComesLast)
 {
     MaskOptions options = of("white");
     const Mask sign = decodeMask(bytesOf(icon()), options);

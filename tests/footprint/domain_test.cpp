@@ -47,7 +47,7 @@ TEST(Domain, HolesBesideEachOtherShareADroplet)
 {
     Outline outline;
     outline.extent = {40, 40};
-    // Seen from the right-hand holes, what lies to the left is another hole, not the rim.
+    // The nearest loop to the left of the right-hand holes is another hole, not the rim.
     outline.loops = {circleAt({0, 0}, 10), reversed(circleAt({-5, 0}, 2)), reversed(circleAt({0, 0.3}, 2)),
                      reversed(circleAt({5, -0.2}, 2)), circleAt({25, 0}, 3)};
     const Domain domain = split(outline);
@@ -69,7 +69,7 @@ TEST(Domain, OrderOfLoopsDoesNotMatter)
 
 TEST(Domain, AreasOfATracedMaskAddUp)
 {
-    // Rings within rings: the areas of all droplets together are the sum of the loops'.
+    // Rings within rings: the areas of all droplets add up to the sum of the loops' areas.
     const Mask mask = testing::smoothMask(200, 200, [](Vec2 p) {
         const double r = length(p - Vec2{100, 100});
         return r < 95 && static_cast<int>(r / 9) % 2 == 0;
@@ -103,7 +103,7 @@ bool encloses(const Loop& loop, Vec2 point)
     return inside;
 }
 
-// Blobs with blobs in their holes, of all sizes: hundreds of loops, many edges to one height.
+// Blobs with blobs in their holes, of all sizes: hundreds of loops, and many edges at one height.
 TEST(Domain, EveryHoleLiesInTheSmallestRimAroundIt)
 {
     const Mask mask = testing::hardMask(300, 300, [](Vec2 p) {
@@ -130,7 +130,7 @@ TEST(Domain, EveryHoleLiesInTheSmallestRimAroundIt)
     EXPECT_GT(domain.droplets.size(), 5U);
 }
 
-TEST(Domain, RefusesHolesWithoutRim)
+TEST(Domain, RejectsHolesOutsideOfAllRims)
 {
     Outline outline;
     outline.extent = {40, 40};

@@ -15,7 +15,7 @@
 namespace droplet {
 namespace {
 
-/// The slots of the first border of a hard mask.
+/// Slots of the first border of a hard mask.
 SlotLoop slotsOf(const Mask& mask)
 {
     const std::vector<Border> borders = followBorders(mask, 32768);
@@ -56,8 +56,8 @@ Mask ellipseMask(int size, double a, double b)
     });
 }
 
-// From 12 slots, whose band overlaps itself but for a few rows, to loops that do not feel their own ends.
-TEST(Fairing, DoesNotMatterWhereALoopBegins)
+// Loops from 12 slots, whose band overlaps itself in all but a few rows, to loops whose ends do not affect each other.
+TEST(Fairing, ResultDoesNotDependOnWhereALoopBegins)
 {
     for (const double radius : {2.0, 3.3, 8.0, 30.0, 90.0}) {
         const SlotLoop loop = slotsOf(ellipseMask(200, radius, 0.8 * radius));
@@ -68,13 +68,13 @@ TEST(Fairing, DoesNotMatterWhereALoopBegins)
              {std::size_t{1}, std::size_t{2}, std::size_t{5}, loop.size() / 2, loop.size() - 1}) {
             SlotLoop other = turned(loop, by);
             fair(other);
-            EXPECT_LT(farthestApart(other, turned(faired, by)), 1e-9) << radius << " begun at " << by;
+            EXPECT_LT(farthestApart(other, turned(faired, by)), 1e-9) << radius << " from slot " << by;
         }
     }
 }
 
-// Steps are taken until they lower the cost by less than a thousandth.
-TEST(Fairing, NoSlotCanBeMovedForABetterCurve)
+// Fairing stops when a step lowers the cost by less than a thousandth.
+TEST(Fairing, NoMoveOfASlotImprovesTheCurve)
 {
     for (const double fairness : {10.0, 3e5}) {
         const FairingOptions options{{}, fairness};
@@ -93,7 +93,7 @@ TEST(Fairing, NoSlotCanBeMovedForABetterCurve)
     }
 }
 
-// With a break at each corner, a square is four straight sides; without, its corners are rounded off.
+// With a break at each corner, a square has four straight sides; without breaks its corners are rounded.
 TEST(Fairing, CurvesMayTurnAtBreaks)
 {
     const SlotLoop square = slotsOf(testing::hardMask(60, 60, testing::rectangle({30, 30}, {20, 20}, 0.0)));

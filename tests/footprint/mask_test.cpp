@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What becomes liquid. The pictures are 16-bit PGMs and PNGs made here; the codecs have their own tests.
+// Tests which pixels become liquid. The pictures are 16-bit PGMs and PNGs made here; the codecs have their own tests.
 #include "droplet/footprint/mask.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 using Bytes = std::vector<std::byte>;
 
-/// A grey picture of 16-bit levels.
+/// Grey picture of 16-bit levels.
 struct Grey {
     int width = 0;
     int height = 0;
@@ -63,7 +63,7 @@ struct Grey {
     }
 };
 
-/// A picture of 8-bit grey and alpha: 0xAAVV a pixel.
+/// Picture of 8-bit grey and alpha: 0xAAVV per pixel.
 Bytes greyAlpha(int width, int height, const std::vector<unsigned>& pixels)
 {
     encoded::Raster raster{width, height, 2, 8, {}};
@@ -101,7 +101,7 @@ TEST(Mask, AcceptsOnlyACoverageOfItsSize)
     EXPECT_THROW(mask.validate(), Error);
 }
 
-TEST(MaskLevels, WhiteOnBlackIsTakenAsItStands)
+TEST(MaskLevels, WhiteOnBlackIsNotChanged)
 {
     const Grey picture(40, 30, ellipse);
     const Mask mask = decodeMask(picture.encoded());
@@ -129,7 +129,7 @@ TEST(MaskLevels, PaleInkIsStretchedToFullCoverage)
     ASSERT_EQ(mask.coverage.size(), pale.levels.size());
     for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
-            // Two roundings to 16 bits, the first magnified by 1 / 0.5.
+            // Two roundings to 16 bits; the first is magnified by 1 / 0.5.
             EXPECT_NEAR(mask.at(x, y) / 65535.0, ellipse(x, y), 2.0 / 65535);
         }
     }
@@ -158,7 +158,7 @@ TEST(MaskLevels, InvertExchangesLiquidAndDryToTheBit)
     }
 }
 
-TEST(MaskLevels, LumaAskedForIsAbsolute)
+TEST(MaskLevels, RequestedLumaIsAbsolute)
 {
     const Grey pale(40, 30, [](int x, int y) { return 0.9 - 0.5 * ellipse(x, y); });
     MaskOptions options;
@@ -169,7 +169,7 @@ TEST(MaskLevels, LumaAskedForIsAbsolute)
     EXPECT_EQ(mask.level_liquid, 1.0);
 }
 
-TEST(MaskLevels, BorderThatAMarkTouchesIsStillDry)
+TEST(MaskLevels, BorderIsDryEvenIfAMarkTouchesIt)
 {
     // The mark covers a third of the border.
     const Grey picture(30, 30, [](int x, int) { return x < 14 ? 0.0 : 1.0; });
@@ -215,14 +215,14 @@ TEST(MaskLevels, TinyMarkInALargeImageKeepsItsLevel)
 
 TEST(MaskLevels, SoftMarkKeepsItsPeak)
 {
-    // A cone: only one pixel reaches the top, yet the top is no stray.
+    // Only one pixel of a cone reaches the top, but the top is not a stray.
     const Grey cone(101, 101, [](int x, int y) { return std::max(0.0, 1 - std::hypot(x - 50, y - 50) / 45); });
     EXPECT_EQ(decodeMask(cone.encoded()).coverage, cone.levels);
 }
 
 TEST(MaskLevels, NoiseOfAScanShiftsHalfCoverageByLessThanASixteenthOfTheStep)
 {
-    // Ground 0.8, mark 0.3, noise of every level up to 0.04 either way, evenly spread.
+    // Ground 0.8, mark 0.3, uniform noise of up to ±0.04
     const Grey scan(200, 200, [](int x, int y) {
         const double noise = 0.04 * ((x * 7919 + y * 104729) % 201 - 100) / 100.0;
         return (x > 60 && x < 140 && y > 60 && y < 140 ? 0.3 : 0.8) + noise;
@@ -251,7 +251,7 @@ TEST(MaskLevels, FaintPictureIsNotStretchedAndHoldsNoLiquid)
     EXPECT_EQ(decodeMask(clear.encoded()).at(10, 10), 65535) << "a quarter of the range is enough";
 }
 
-TEST(MaskLevels, OneLevelIsAllOrNothing)
+TEST(MaskLevels, OneLevelIsAllLiquidOrAllDry)
 {
     for (const double level : {0.0, 0.3, 0.499, 0.501, 0.7, 1.0}) {
         for (const int side : {1, 2, 9}) {
@@ -288,7 +288,7 @@ TEST(MaskAlpha, HalfTransparentLogoIsStretched)
     EXPECT_NEAR(mask.level_liquid, 100 / 255.0, 1e-12);
 }
 
-TEST(MaskAlpha, NearlyInvisibleLogoIsNot)
+TEST(MaskAlpha, NearlyInvisibleLogoIsNotStretched)
 {
     const Mask mask = decodeMask(greyAlpha(3, 1, {0x0000, 0x1e00, 0x3200}));
     EXPECT_THAT(mask.coverage, ElementsAre(0, 0x1e * 257, 0x32 * 257));
@@ -305,7 +305,7 @@ TEST(MaskAlpha, OpaqueImageIsReadByItsLuma)
     EXPECT_EQ(mask.at(0, 1), 0);
 }
 
-TEST(MaskAlpha, HalfOpaqueIsNotYetTransparent)
+TEST(MaskAlpha, HalfOpaqueDoesNotCountAsTransparent)
 {
     const auto channel_of = [](unsigned alpha) {
         return decodeMask(greyAlpha(2, 1, {0xff00, alpha << 8 | 0xff})).channel;
@@ -314,7 +314,7 @@ TEST(MaskAlpha, HalfOpaqueIsNotYetTransparent)
     EXPECT_EQ(channel_of(127), Channel::Alpha);
 }
 
-TEST(MaskAlpha, AskedForIsAbsolute)
+TEST(MaskAlpha, RequestedAlphaIsAbsolute)
 {
     MaskOptions options;
     options.channel = Channel::Alpha;
@@ -323,10 +323,10 @@ TEST(MaskAlpha, AskedForIsAbsolute)
     options.invert = true;
     const Mask inverted = decodeMask(greyAlpha(3, 1, {0x00ff, 0x3200, 0x6400}), options);
     EXPECT_THAT(inverted.coverage, ElementsAre(65535, 65535 - 0x32 * 257, 65535 - 0x64 * 257));
-    EXPECT_TRUE(inverted.inverted) << "transparent is the liquid";
+    EXPECT_TRUE(inverted.inverted) << "transparent pixels are the liquid";
 }
 
-TEST(MaskAlpha, AskedForButAbsentIsAnError)
+TEST(MaskAlpha, RequestedButMissingAlphaIsAnError)
 {
     MaskOptions options;
     options.channel = Channel::Alpha;
@@ -340,7 +340,7 @@ TEST(MaskAlpha, AskedForButAbsentIsAnError)
     }
 }
 
-TEST(MaskAlpha, LumaAskedForSeesTheImageInFrontOfBlack)
+TEST(MaskAlpha, RequestedLumaIsThatInFrontOfBlack)
 {
     MaskOptions options;
     options.channel = Channel::Luma;
@@ -348,7 +348,7 @@ TEST(MaskAlpha, LumaAskedForSeesTheImageInFrontOfBlack)
     EXPECT_THAT(mask.coverage, ElementsAre(0, 0x64 * 257, 0x80 * 257, std::lround(0x64 * 257.0 * 0x80 * 257 / 65535)));
 }
 
-TEST(Mask, LevelsThatAreGivenAreTakenInsteadOfItsOwn)
+TEST(Mask, GivenLevelsReplaceItsOwn)
 {
     const Grey ring(40, 40, [](int x, int y) { return std::hypot(x - 20, y - 20) < 12 ? 0.2 : 0.9; });
     const Mask own = decodeMask(ring.encoded());
@@ -359,7 +359,7 @@ TEST(Mask, LevelsThatAreGivenAreTakenInsteadOfItsOwn)
     MaskOptions options;
     options.levels = own.found;
     EXPECT_EQ(decodeMask(ring.encoded(), options).coverage, own.coverage);
-    // Grown over the border it says the opposite by itself.
+    // This mark covers the border, so the image itself suggests the opposite.
     const Grey grown(40, 40, [](int x, int y) { return std::hypot(x - 20, y - 20) < 26 ? 0.2 : 0.9; });
     const Mask alone = decodeMask(grown.encoded());
     EXPECT_EQ(alone.at(20, 20), 0);
@@ -367,14 +367,14 @@ TEST(Mask, LevelsThatAreGivenAreTakenInsteadOfItsOwn)
     EXPECT_EQ(alike.at(20, 20), 65535);
     EXPECT_EQ(alike.at(0, 0), 0);
     EXPECT_TRUE(alike.inverted);
-    EXPECT_LT(alike.found->dry, alike.found->liquid) << "what it says by itself is still told";
-    // Of one level there is nothing to find, but it is one of the two.
+    EXPECT_LT(alike.found->dry, alike.found->liquid) << "its own levels are still reported";
+    // An image of one level has no levels of its own, but this level is one of the given two.
     const Grey dark(40, 40, [](int, int) { return 0.2; });
     EXPECT_FALSE(decodeMask(dark.encoded()).found);
     EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(65535));
     options.invert = true;
     EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(0));
-    // Without alpha an image is opaque.
+    // An image without alpha is opaque.
     options = {};
     options.levels = MaskLevels{Channel::Alpha, 0.0, 1.0};
     EXPECT_THAT(decodeMask(dark.encoded(), options).coverage, Each(65535));

@@ -29,7 +29,7 @@ using testing::smoothMask;
 constexpr double kPi = std::numbers::pi;
 constexpr double kPixelsPerDegree = 180.0 / kPi;
 
-/// Outlines in pixels, so that bars given in pixels read as such.
+/// Options for outlines in pixels, so that limits in pixels can be compared directly.
 TraceOptions inPixels()
 {
     TraceOptions options;
@@ -37,15 +37,15 @@ TraceOptions inPixels()
     return options;
 }
 
-/// A point of the image in the outline's coordinates: origin at the centre, y up.
+/// Coordinates in the outline of a point of the image: origin at the centre, y up.
 Vec2 place(const Mask& mask, Vec2 pixel)
 {
     return {pixel.x - 0.5 * mask.width, 0.5 * mask.height - pixel.y};
 }
 
 struct DiscError {
-    double area = 0.0;      ///< relative
-    double distance = 0.0;  ///< largest of any vertex from the circle [px]
+    double area = 0.0;      ///< relative error
+    double distance = 0.0;  ///< largest distance of a vertex from the circle [px]
     double normal = 0.0;    ///< rms along the rim [rad]
 };
 
@@ -73,7 +73,7 @@ DiscError discError(const Mask& mask, Vec2 centre, double radius)
     return error;
 }
 
-/// The farthest that any of a shape's true corners is from the nearest corner of the outline [px].
+/// Largest distance of a shape's true corners from the nearest corner of the outline [px].
 double cornerError(const Outline& outline, const std::vector<Vec2>& corners)
 {
     double worst = 0.0;
@@ -111,7 +111,7 @@ std::size_t cornerCount(const Outline& outline)
     return count;
 }
 
-/// Whether any two edges of any loops cross or touch other than as neighbours; brute force, for small masks.
+/// Whether any two edges that are not neighbours cross or touch; brute force, for small masks.
 bool anyEdgesMeet(const Outline& outline)
 {
     struct Edge {
@@ -153,7 +153,7 @@ bool anyEdgesMeet(const Outline& outline)
     return false;
 }
 
-/// A small generator of our own: the standard's distributions differ between libraries.
+/// Random number generator; the distributions of the standard library differ between implementations.
 class Noise {
 public:
     explicit Noise(std::uint64_t seed) : state_(seed * 2862933555777941757U + 3037000493U) {}
@@ -180,7 +180,7 @@ Mask noiseMask(int size, double density, bool hard, std::uint64_t seed)
     return mask;
 }
 
-// The bars of the project for a disc of radius 100 px. Measured: area 4e-5, rim 0.02 px, normals 0.27°.
+// Limits for a disc of radius 100 px. Measured: area 4e-5, rim 0.02 px, normals 0.27°.
 TEST(Outline, AntiAliasedDiscIsACircle)
 {
     for (const Vec2 centre : {Vec2{120, 120}, Vec2{120.37, 119.78}, Vec2{119.5, 120.5}}) {
@@ -191,7 +191,7 @@ TEST(Outline, AntiAliasedDiscIsACircle)
     }
 }
 
-// Measured: area 3e-4, normals 0.5°. The rim can be no nearer than the pixels tell: a quarter pixel.
+// Measured: area 3e-4, normals 0.5°. Pixels give the place of the rim only to a quarter pixel.
 TEST(Outline, HardDiscIsACircleWithoutStaircases)
 {
     for (const Vec2 centre : {Vec2{120, 120}, Vec2{120.37, 119.78}, Vec2{119.5, 120.5}}) {
@@ -227,8 +227,8 @@ struct Square {
     double half = 0.0;
 };
 
-// The bar is 0.7 px. Measured: 0.2 px at worst anti-aliased, 0.69 px hard (by 0.02 rad, where one step of the staircase
-// is 50 px long).
+// The limit is 0.7 px. Measured: at most 0.2 px anti-aliased, 0.69 px hard (at 0.02 rad, where one step of the
+// staircase is 50 px long).
 TEST(Outline, TurnedSquaresKeepTheirCorners)
 {
     for (const Square square : {Square{0.0, 60}, Square{0.02, 60}, Square{0.1, 60}, Square{0.3, 60}, Square{0.5, 60},
@@ -261,8 +261,8 @@ TEST(Outline, CornersCanBeTurnedOff)
     EXPECT_EQ(cornerCount(trace(hardMask(40, 30, rectangle({20, 15}, {10, 8}, 0.0)), options)), 0U);
 }
 
-// A straight edge crosses a hard raster in steps; the outline must not. The bar is what one sees in a highlight: 0.5°
-// away from the ends. Measured 0.2°.
+// A straight edge crosses a hard raster in steps, but the outline must be straight. The limit is what is visible in a
+// highlight: 0.5° away from the ends. Measured: 0.2°.
 TEST(Outline, SlantedEdgesOfHardMasksAreStraight)
 {
     for (const double slope : {1.0 / 7, 1.0 / 13, 0.4}) {
@@ -275,7 +275,7 @@ TEST(Outline, SlantedEdgesOfHardMasksAreStraight)
         const std::vector<Vec2>& points = outline.loops[0].points;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Vec2 edge = points[(i + 1) % points.size()] - points[i];
-            // The slanted side, liquid below it: it runs leftward, falling to the right in the image.
+            // The slanted side has liquid below it. It runs to the left and falls to the right in the image.
             if (points[i].y > -60 && std::abs(points[i].x) < 110) {
                 const double off = std::remainder(std::atan2(-edge.y, -edge.x) + angle, 2 * kPi);
                 squares += off * off * length(edge);
@@ -287,7 +287,7 @@ TEST(Outline, SlantedEdgesOfHardMasksAreStraight)
     }
 }
 
-TEST(Outline, LoopsAreThoseOpenCvFinds)
+TEST(Outline, HasTheLoopsThatOpenCvFinds)
 {
     for (const double density : {0.2, 0.5, 0.7}) {
         const Mask mask = noiseMask(60, density, true, 7);
@@ -305,7 +305,7 @@ TEST(Outline, LoopsAreThoseOpenCvFinds)
     }
 }
 
-/// Pixels whose centre a polygon contains, by crossing counts along rows: the mask the outline stands for.
+/// Mask of the pixels whose centre lies in the outline, by crossing counts along rows.
 std::vector<std::uint8_t> rasterise(const Outline& outline, const Mask& mask)
 {
     std::vector<std::uint8_t> result(mask.coverage.size(), 0);
@@ -399,7 +399,7 @@ TEST(Outline, PixelsThatTouchAtACornerAreOneDroplet)
     TraceOptions options = inPixels();
     options.speck_size = 0.0;
     EXPECT_EQ(trace(drawnMask("#.\n.#"), options).loops.size(), 1U);
-    // … so dry pixels that touch at a corner are two holes.
+    // So dry pixels that touch at a corner are two holes.
     EXPECT_EQ(trace(drawnMask("####\n#.##\n##.#\n####"), options).loops.size(), 3U);
 }
 
@@ -455,7 +455,7 @@ TEST(Outline, SizeComesFromWidthOrPixelSize)
 
 TEST(Outline, ThresholdMovesABlurredEdge)
 {
-    // A ramp over 10 px: level x/10 between 20 and 30.
+    // Ramp over 10 px: the level is x/10 between 20 and 30.
     Mask mask;
     mask.width = 60;
     mask.height = 20;
@@ -520,16 +520,16 @@ void expectRefused(const Mask& mask, const char* why)
     }
 }
 
-TEST(Outline, RefusesBordersOutOfProportion)
+TEST(Outline, RejectsBordersThatAreTooLong)
 {
-    // A picture of 3 KB, if it is stored well, of which each pixel would take 300 bytes.
+    // Stored well, this picture has 3 KB, but each pixel would take 300 bytes of memory.
     expectRefused(testing::hardMask(1800, 1800, [](Vec2 p) { return static_cast<int>(p.x) % 2 == 0; }),
                   "borders are 3241800 pixels long, more than the limit of 3145728");
     expectRefused(testing::hardMask(1, 1050000, [](Vec2) { return true; }),
                   "border is 2100002 pixels long, more than the limit of 2097152");
 }
 
-TEST(Outline, RefusesOptionsOutOfRange)
+TEST(Outline, RejectsOptionsOutOfRange)
 {
     const Mask mask = drawnMask("....\n.##.\n.##.\n....");
     const auto code = [&](const TraceOptions& options) {

@@ -48,7 +48,7 @@ TEST(Overlaps, OfSquaresAreExactWhereRowsFit)
     EXPECT_TRUE(overlaps(a, domainOf(square({0, 2.5}, 1.0)), 0.125).empty());
 }
 
-TEST(Overlaps, OfDiscsAreTheirLens)
+TEST(Overlaps, OfDiscsHaveTheAreaOfALens)
 {
     const double apart = 0.8;
     const double lens = 2 * std::acos(apart / 2) - apart / 2 * std::sqrt(4 - apart * apart);
@@ -58,7 +58,7 @@ TEST(Overlaps, OfDiscsAreTheirLens)
     }
 }
 
-TEST(Overlaps, HolesAreNoGround)
+TEST(Overlaps, HolesDoNotCount)
 {
     const Domain ring = domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.5, 0.5))});
     EXPECT_TRUE(overlaps(ring, domainOf(ellipseLoop(0.4, 0.4)), 0.01).empty());
@@ -66,7 +66,7 @@ TEST(Overlaps, HolesAreNoGround)
     EXPECT_NEAR(onlyArea(ring, ring, 0.01), std::numbers::pi * 0.75, 1e-3);
 }
 
-TEST(Overlaps, NameTheDropletsInOrderAndAreTheSameBothWays)
+TEST(Overlaps, AreInOrderAndSymmetric)
 {
     Domain a;
     a.droplets = {{square({3, 0}, 1), {}}, {square({0, 0}, 1), {}}, {square({0, 9}, 1), {}}};
@@ -92,7 +92,7 @@ TEST(Overlaps, NameTheDropletsInOrderAndAreTheSameBothWays)
     }
 }
 
-TEST(Overlaps, NeedAPositiveDistanceOfRows)
+TEST(Overlaps, RequireAPositiveRowDistance)
 {
     const Domain a = domainOf(square({0, 0}, 1.0));
     EXPECT_THROW(overlaps(a, a, 0.0), Error);

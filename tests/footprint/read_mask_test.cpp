@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a file to a mask: paths, pipes, what cannot be read; photographs held sideways.
+// Tests of reading files as masks: paths, pipes, unreadable files, rotated photographs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@ using namespace encoded;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Where the stored pixel (x, y) of a w × h image is seen, by the table of EXIF 2.32, tag 0112.
+/// Upright place of the stored pixel (x, y) of a w × h image, by the table of EXIF 2.32, tag 0112.
 std::pair<int, int> seenAt(int orientation, int x, int y, int w, int h)
 {
     switch (orientation) {
@@ -71,14 +71,14 @@ TEST(Orientation, PhotographsComeUprightInEveryFormat)
                        decodeMask(webpWithExif(webp, 13, 7, exif), only(Channel::Luma)), orientation);
         }
         TiffKind kind;
-        const Raster raster = noise(1, 8, 150, 70);  // larger than a tile of the turning loop
+        const Raster raster = noise(1, 8, 150, 70);  // larger than a tile of the rotation
         const Mask stored = decodeMask(encodeTiff(raster, kind), only(Channel::Luma));
         kind.orientation = static_cast<std::uint16_t>(orientation);
         expectSeen(stored, decodeMask(encodeTiff(raster, kind), only(Channel::Luma)), orientation);
     }
 }
 
-TEST(Orientation, NonsenseIsIgnored)
+TEST(Orientation, InvalidValuesAreIgnored)
 {
     const Bytes jpeg = encodeJpeg(fields(1, 3, 2));
     const Mask stored = decodeMask(jpeg, only(Channel::Luma));
@@ -88,14 +88,14 @@ TEST(Orientation, NonsenseIsIgnored)
     }
 }
 
-TEST(ReadMask, FileIsReadAsItsBytesAre)
+TEST(ReadMask, FileGivesTheSameMaskAsItsBytes)
 {
     const Folder folder;
     const Bytes png = encodePng(noise(1, 16), {});
     writeFile(folder / "mask.png", png);
     const Mask mask = readMask(folder / "mask.png");
     EXPECT_EQ(mask.coverage, decodeMask(png).coverage);
-    // Larger than the piece read at a time.
+    // Larger than one piece of reading
     const Raster large = noise(1, 16, 1500, 900);
     writeFile(folder / "wrong.name", encodeWithOpenCv(large, ".pgm"));
     EXPECT_EQ(readMask(folder / "wrong.name", only(Channel::Luma)).at(1499, 899), large.at(1499, 899, 0));
@@ -114,12 +114,12 @@ TEST(ReadMask, PipeIsReadToItsEnd)
     EXPECT_EQ(mask.coverage, decodeMask(pgm, only(Channel::Luma)).coverage);
 }
 
-TEST(ReadMask, EndlessDeviceIsRefusedByItsBeginning)
+TEST(ReadMask, EndlessDeviceIsRejectedByItsFirstBytes)
 {
     EXPECT_THAT(messageOf([] { readMask("/dev/zero"); }), AllOf(HasSubstr("/dev/zero"), HasSubstr("not an image")));
 }
 
-TEST(ReadMask, WhatCannotBeReadIsNamedWithTheReason)
+TEST(ReadMask, ErrorsNameThePathAndTheReason)
 {
     const Folder folder;
     const auto message = [](const std::filesystem::path& path) { return messageOf([&] { readMask(path); }); };
@@ -149,7 +149,7 @@ TEST(ReadMask, FileWithoutPermissionIsNamed)
     const std::filesystem::path path = folder / "secret.png";
     writeFile(path, encodePng(noise(1, 8), {}));
     std::filesystem::permissions(path, std::filesystem::perms::none);
-    // Nothing is forbidden to the superuser.
+    // The superuser may read every file.
     constexpr uid_t kNobody = 65534;
     const uid_t user = geteuid();
     if (user == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Masks from made-up photographs, whose true masks are known, and from pictures that are none.
+// Tests of masks from synthetic photographs with known masks, and of pictures that are not masks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -21,7 +21,7 @@ using namespace encoded;
 using ::testing::HasSubstr;
 using testing::Photograph;
 
-/// The size of a picture, for its colours.
+/// Size of a picture.
 struct Size {
     int width = 0;
     int height = 0;
@@ -81,7 +81,7 @@ Bytes taken(const Photograph& photograph, const Shot& shot)
     return shot.jpeg_quality > 0 ? encodeJpeg(raster, {false, true, shot.jpeg_quality, {}}) : png(raster);
 }
 
-/// The picture is 20 mm wide; glints have up to 0.6 mm².
+/// Compares a mask with the truth. The picture is 20 mm wide; glints have up to 0.6 mm².
 void expectTrue(const Mask& mask, const Photograph& truth)
 {
     TraceOptions options;
@@ -131,12 +131,12 @@ INSTANTIATE_TEST_SUITE_P(Lights, PhotographTest,
                                            Shot{"ColouredLampSaltAndPepper", testing::lampLight(), 0.004, 0.02}),
                          [](const auto& shot) { return shot.param.name; });
 
-TEST(Segment, InkInUnevenLightIsTakenAdaptively)
+TEST(Segment, InkInUnevenLightIsReadAdaptively)
 {
     const Photograph photograph = testing::photograph(testing::inkSpill(kSide), testing::lampLight());
     const Bytes picture = png(rasterOf(photograph));
     EXPECT_EQ(decodeMask(picture).segment, Segmentation::Adaptive);
-    // One threshold takes the lit paper for the liquid, or the dark one.
+    // With one threshold, the lit or the dark paper counts as liquid.
     const Mask poor = decodeMask(picture, by(Segmentation::Threshold));
     double covered = 0.0;
     for (const std::uint16_t level : poor.coverage) {
@@ -145,7 +145,7 @@ TEST(Segment, InkInUnevenLightIsTakenAdaptively)
     EXPECT_GT(std::abs(covered / photograph.area - 1.0), 0.2);
 }
 
-TEST(Segment, CleanMasksAreTakenAsBefore)
+TEST(Segment, CleanMasksAreReadByThreshold)
 {
     for (const char* name : {"ampersand.png", "butterfly.jpg", "cluster.png", "handprint.jpg", "inkscape.png",
                              "letter_g_1bit.png", "ornament.png", "raindrops.png", "sakura.tif", "deer.bmp"}) {
@@ -157,7 +157,7 @@ TEST(Segment, CleanMasksAreTakenAsBefore)
     }
 }
 
-TEST(Segment, BlurredMaskIsNotRefused)
+TEST(Segment, BlurredMaskIsAccepted)
 {
     const Raster soft = painted({300, 200}, [](Vec2 p) {
         const double level = std::clamp(0.5 + 12.0 * (length(p - Vec2{0.5, 0.5}) - 0.3), 0.0, 1.0);
@@ -179,7 +179,7 @@ TEST(Segment, InvertExchangesLiquidAndDryToTheBit)
     EXPECT_NE(mask.inverted, inverted.inverted);
 }
 
-TEST(Segment, GrabCutGoesByColourAndIsTheSameWheneverItRuns)
+TEST(Segment, GrabCutSeparatesColoursAndIsRepeatable)
 {
     testing::Scene scene = testing::inkSpill(320.0);
     scene.look = [](Vec2, double) { return std::array{0.9, 0.55, 0.2}; };
@@ -195,7 +195,7 @@ TEST(Segment, GrabCutGoesByColourAndIsTheSameWheneverItRuns)
     cv::theRNG().state = 99;
     const Mask second = decodeMask(picture, by(Segmentation::GrabCut));
     EXPECT_TRUE(first.coverage == second.coverage);
-    EXPECT_EQ(cv::theRNG().state, 99U) << "others' random numbers are left alone";
+    EXPECT_EQ(cv::theRNG().state, 99U) << "OpenCV's random state must not change";
 }
 
 /// Value noise of several octaves, from 0 to 1.
@@ -214,9 +214,9 @@ double clouds(Vec2 p, double roughness)
         const Vec2 q = static_cast<double>(1 << k) * p;
         const int i = static_cast<int>(std::floor(q.x));
         const int j = static_cast<int>(std::floor(q.y));
-        const auto eased = [](double t) { return t * t * (3.0 - 2.0 * t); };
-        const double u = eased(q.x - i);
-        const double v = eased(q.y - j);
+        const auto smoothstep = [](double t) { return t * t * (3.0 - 2.0 * t); };
+        const double u = smoothstep(q.x - i);
+        const double v = smoothstep(q.y - j);
         sum += share * ((1 - u) * ((1 - v) * corner(i, j, k) + v * corner(i, j + 1, k)) +
                         u * ((1 - v) * corner(i + 1, j, k) + v * corner(i + 1, j + 1, k)));
         weight += share;
@@ -224,7 +224,7 @@ double clouds(Vec2 p, double roughness)
     return sum / weight;
 }
 
-/// A head and shoulders in light from the left, before a wall.
+/// Head and shoulders in light from the left, in front of a wall.
 std::array<double, 3> portrait(Vec2 p)
 {
     const double grain = clouds({10.0 * p.x, 13.0 * p.y}, 0.7);
@@ -260,11 +260,11 @@ struct NoMask {
 
 class NoMaskTest : public ::testing::TestWithParam<NoMask> {};
 
-TEST_P(NoMaskTest, IsToldSoUnlessItIsInsistedOn)
+TEST_P(NoMaskTest, IsRejectedUnlessInsistIsSet)
 {
     const Bytes picture = png(painted(GetParam().size, GetParam().colour));
     EXPECT_THAT(messageOf(picture),
-                ::testing::AllOf(HasSubstr("is no picture of a footprint"), HasSubstr("--segment")));
+                ::testing::AllOf(HasSubstr("does not look like a footprint"), HasSubstr("--segment")));
     MaskOptions options;
     options.insist = true;
     EXPECT_LT(decodeMask(picture, options).segment_confidence, 0.3);
@@ -294,13 +294,13 @@ INSTANTIATE_TEST_SUITE_P(
                       NoMask{"Portrait", {300, 400}, portrait}),
     [](const auto& picture) { return picture.param.name; });
 
-TEST(Segment, PhotographOfALeafWithRainIsNoMask)
+TEST(Segment, PhotographOfALeafWithRainIsRejected)
 {
     EXPECT_THAT(messageOf([] { readMask(testing::inSource("data/raindrops.jpg")); }),
-                HasSubstr("is no picture of a footprint"));
+                HasSubstr("does not look like a footprint"));
 }
 
-TEST(Segment, FlatAndTinyPicturesHoldNothing)
+TEST(Segment, FlatAndTinyPicturesHoldNoLiquid)
 {
     for (const Segmentation segment : {Segmentation::Adaptive, Segmentation::GrabCut}) {
         for (const Size size : {Size{1, 1}, Size{3, 1}, Size{1, 9}, Size{5, 4}, Size{40, 30}}) {
@@ -319,13 +319,13 @@ TEST(Segment, FlatAndTinyPicturesHoldNothing)
     }
 }
 
-TEST(Segment, WithoutAnEdgeAFrameIsDry)
+TEST(Segment, PictureWithoutAnEdgeMayGiveADryFrame)
 {
     const Bytes paper = png(painted({200, 150}, [](Vec2 p) {
         const double level = 0.95 - 0.6 * p.x;
         return std::array{level, level, level};
     }));
-    EXPECT_THAT(messageOf(paper), HasSubstr("is no picture of a footprint"));
+    EXPECT_THAT(messageOf(paper), HasSubstr("does not look like a footprint"));
     for (const Segmentation segment : {Segmentation::Auto, Segmentation::Adaptive, Segmentation::GrabCut}) {
         for (const bool invert : {false, true}) {
             MaskOptions options = by(segment);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files cut at every length, damaged at every byte, lying about their size.
+// Tests of files that are cut at every length, damaged at every byte, or state a wrong size.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// One small file of every kind.
+/// One small file of every format.
 std::vector<std::pair<std::string, Bytes>> smallFiles()
 {
     png_color_16 key{};
@@ -72,7 +72,7 @@ std::vector<std::pair<std::string, Bytes>> smallFiles()
     };
 }
 
-TEST(BrokenImages, CutAtEveryLengthAreReadWholeOrNotAtAllAndInSilence)
+TEST(BrokenImages, CutFilesAreReadWholeOrRejectedWithoutOutput)
 {
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
@@ -80,12 +80,12 @@ TEST(BrokenImages, CutAtEveryLengthAreReadWholeOrNotAtAllAndInSilence)
         SCOPED_TRACE(name);
         const Mask whole = decodeMask(file, only(Channel::Luma));
         for (std::size_t size = 0; size < file.size(); ++size) {
-            // A copy, so that a sanitizer sees a read past the end.
+            // This is a copy, so that a sanitizer detects reads past the end.
             const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
             try {
                 const Mask mask = decodeMask(cut, only(Channel::Luma));
                 EXPECT_EQ(mask.coverage, whole.coverage) << size << " of " << file.size();
-                // Only what follows the last pixel may be missing, and only where nothing tells: TIFF's pointer to
+                // Only bytes after the last pixel may be missing, and only where no field shows it: TIFF's pointer to
                 // the next image, the end of a line, the mark that ends run lengths.
                 EXPECT_LE(file.size() - size, name.starts_with("tiff")  ? 8U
                                               : name.ends_with("plain") ? 1U
@@ -101,7 +101,7 @@ TEST(BrokenImages, CutAtEveryLengthAreReadWholeOrNotAtAllAndInSilence)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(BrokenImages, DamagedAtEveryByteAreReadOrRefusedInSilence)
+TEST(BrokenImages, DamagedFilesAreReadOrRejectedWithoutOutput)
 {
     testing::internal::CaptureStderr();
     MaskOptions options;
@@ -149,8 +149,8 @@ Bytes jpegClaiming(std::uint32_t width, std::uint32_t height)
     return jpeg;
 }
 
-// Whatever OpenCV decodes is refused where it asks for the memory of the pixels.
-TEST(ImageBombs, OfEveryFormatAreRefusedByTheirHeader)
+// Images that OpenCV decodes are rejected when it allocates memory for the pixels.
+TEST(ImageBombs, OfEveryFormatAreRejectedByTheirHeader)
 {
     const auto refusal = [](std::uint64_t width, std::uint64_t height, std::size_t limit = std::size_t{1} << 28) {
         return AllOf(HasSubstr(std::to_string(width) + " x " + std::to_string(height)),
@@ -187,7 +187,7 @@ TEST(ImageBombs, TheLimitItselfIsAllowed)
     EXPECT_THAT(messageOf(bytesOf("P1 1 1 1\n"), options), HasSubstr("limit of 0"));
 }
 
-TEST(ImageBombs, SizesOfZeroAreRefused)
+TEST(ImageBombs, SizesOfZeroAreRejected)
 {
     for (const auto& [width, height] : {std::pair{0U, 5U}, std::pair{5U, 0U}}) {
         EXPECT_THAT(messageOf(pngClaiming(width, height)), HasSubstr("zero"));
@@ -196,7 +196,7 @@ TEST(ImageBombs, SizesOfZeroAreRefused)
     }
 }
 
-TEST(ImageWords, OfOpenCvAreReasonsOnesOfOtherThreadsPass)
+TEST(ImageMessages, OpenCvsBecomeReasonsAndThoseOfOtherThreadsPass)
 {
     testing::internal::CaptureStderr();
     std::atomic<bool> ends = false;
@@ -213,11 +213,11 @@ TEST(ImageWords, OfOpenCvAreReasonsOnesOfOtherThreadsPass)
     ends = true;
     other.join();
     std::cerr << "own words\n";
-    std::string heard = testing::internal::GetCapturedStderr();
-    for (std::size_t at = 0; at < heard.size(); at += 10) {
-        ASSERT_EQ(heard.substr(at, 10), "own words\n");
+    std::string captured = testing::internal::GetCapturedStderr();
+    for (std::size_t at = 0; at < captured.size(); at += 10) {
+        ASSERT_EQ(captured.substr(at, 10), "own words\n");
     }
-    EXPECT_GT(heard.size(), 0U);
+    EXPECT_GT(captured.size(), 0U);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@
 #include "droplet/error.h"
 #include "droplet/footprint/mask.h"
 
-// Image files of every kind that is read, written by the formats' own libraries, by OpenCV or by hand.
+// Image files of every supported format, written by the formats' own libraries, by OpenCV or by hand.
 
 namespace droplet::encoded {
 
@@ -51,7 +51,7 @@ inline void writeFile(const std::filesystem::path& path, const Bytes& bytes)
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// A folder of this test's own.
+/// Temporary folder of a test.
 class Folder {
 public:
     Folder()
@@ -89,7 +89,7 @@ struct Raster {
     [[nodiscard]] double level(int x, int y, int c) const { return at(x, y, c) / double(white()); }
 };
 
-/// Levels without order, both ends of the range among them; the sides are odd, so that padding shows.
+/// Random levels that include both ends of the range; the sides are odd, so that padding matters.
 inline Raster noise(int channels, int bits, int width = 13, int height = 7)
 {
     Raster raster{width, height, channels, bits, {}};
@@ -101,7 +101,7 @@ inline Raster noise(int channels, int bits, int width = 13, int height = 7)
     return raster;
 }
 
-/// One row, most significant bit first, 16 bits in the order asked for.
+/// One row, most significant bit first, 16 bits in the given byte order.
 inline std::vector<std::uint8_t> packedRow(const Raster& raster, int y, std::endian order = std::endian::big,
                                            int only_channel = -1)
 {
@@ -316,7 +316,7 @@ inline Bytes encodeTiff(const Raster& raster, const TiffKind& kind)
     return contentOf(path);
 }
 
-/// Fields of 8 × 8 pixels, the unit JPEG transforms: at quality 100 each keeps its colour.
+/// Fields of 8 × 8 pixels, the unit that JPEG transforms; at quality 100 each keeps its colour.
 inline Raster fields(int channels, int columns, int rows)
 {
     Raster raster{8 * columns, 8 * rows, channels, 8, {}};
@@ -334,7 +334,7 @@ struct JpegKind {
     bool progressive = false;
     bool adobe = true;
     int quality = 100;
-    std::vector<jpeg_scan_info> scans;  ///< if any, in place of the usual progression
+    std::vector<jpeg_scan_info> scans;  ///< scans instead of the usual progression; empty for the latter
 };
 
 inline Bytes encodeJpeg(const Raster& raster, const JpegKind& kind = {})
@@ -435,7 +435,7 @@ inline Bytes encodeWithOpenCv(const Raster& raster, const std::string& extension
     return encodeMat(image, extension, parameters);
 }
 
-/// OpenCV writes WebP without loss above quality 100. Pixels wholly transparent lose their colour there.
+/// OpenCV writes lossless WebP above quality 100. Fully transparent pixels lose their colour there.
 inline Bytes encodeWebp(const Raster& raster, int quality = 101)
 {
     return encodeWithOpenCv(raster, ".webp", {cv::IMWRITE_WEBP_QUALITY, quality});

@@ -22,7 +22,7 @@ using namespace encoded;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string complaintOf(const Bytes& file, std::size_t max_pixels = kMaxHeightMapPixels)
+std::string errorOf(const Bytes& file, std::size_t max_pixels = kMaxHeightMapPixels)
 {
     return messageOf([&] { (void)decodeHeightMap(file, max_pixels); });
 }
@@ -40,7 +40,7 @@ void expectLevels(const HeightMap& map, const Raster& raster, int channel = 0)
     }
 }
 
-/// Heights of 13 × 7 pixels, of which a half holds every bit.
+/// Heights of 13 × 7 pixels that a half represents exactly.
 std::vector<double> someHeights()
 {
     std::vector<double> heights;
@@ -61,7 +61,7 @@ struct FloatKind {
     std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
 };
 
-/// A half, exact for the heights above.
+/// Converts to a half; exact for the heights above.
 std::uint16_t halfOf(double value)
 {
     if (value == 0.0) {
@@ -137,7 +137,8 @@ Bytes floatTiff(const std::vector<double>& heights, const FloatKind& kind = {}, 
                     }
                 }
             }
-            // For this predictor libtiff's writer (4.5), unlike its reader, swaps samples of files in the other order.
+            // For this predictor libtiff's writer (4.5), unlike its reader, swaps the samples of files in the other
+            // byte order.
             if (kind.predictor == PREDICTOR_FLOATINGPOINT && std::string(kind.mode) == "wb") {
                 const auto size = static_cast<std::ptrdiff_t>(kind.bits / 8);
                 for (auto sample = bytes.begin(); sample != bytes.end(); sample += size) {
@@ -162,7 +163,7 @@ TEST(HeightMap, GreyIsAShareOfWhite)
         expectLevels(decodeHeightMap(encodePng(raster, {})), raster);
         expectLevels(decodeHeightMap(encodeTiff(raster, {})), raster);
     }
-    // Nothing of what a mask's Auto does with levels.
+    // Levels are not processed as by Channel::Auto of a mask.
     EXPECT_EQ(decodeHeightMap(bytesOf("P5 1 1 255 \x33")).levels, std::vector<float>{0.2F});
 }
 
@@ -214,7 +215,7 @@ TEST(HeightMap, FloatsAreAsStored)
     }
 }
 
-TEST(HeightMap, FloatsOfOpenExrAndHdrAreAsStoredColoursByTheirLuma)
+TEST(HeightMap, FloatsOfOpenExrAndHdrAreAsStoredAndColoursGiveLuma)
 {
     const cv::Mat grey = (cv::Mat_<float>(1, 3) << 0.25, 0.5, 768);
     cv::Mat colour;
@@ -243,7 +244,7 @@ TEST(HeightMap, FloatsAreTurnedUpright)
     }
 }
 
-TEST(HeightMap, RefusesWhatIsNoHeightWithItsPlace)
+TEST(HeightMap, RejectsNonFiniteHeightsWithTheirPlace)
 {
     for (const double wrong :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e300}) {
@@ -251,18 +252,18 @@ TEST(HeightMap, RefusesWhatIsNoHeightWithItsPlace)
         heights[2 * 13 + 5] = wrong;
         FloatKind kind;
         kind.bits = 64;
-        EXPECT_THAT(complaintOf(floatTiff(heights, kind)), HasSubstr("at pixel (5, 2)"));
+        EXPECT_THAT(errorOf(floatTiff(heights, kind)), HasSubstr("at pixel (5, 2)"));
     }
     FloatKind half;
     half.bits = 16;
-    EXPECT_THAT(complaintOf(floatTiff(someHeights(), half)), HasSubstr("unsupported TIFF image"));
-    EXPECT_THAT(complaintOf(floatTiff(someHeights()), 90), HasSubstr("13 x 7"));
-    EXPECT_THAT(complaintOf(bytesOf("heights")), Not(testing::IsEmpty()));
-    // Floats make no mask, as before.
+    EXPECT_THAT(errorOf(floatTiff(someHeights(), half)), HasSubstr("unsupported TIFF image"));
+    EXPECT_THAT(errorOf(floatTiff(someHeights()), 90), HasSubstr("13 x 7"));
+    EXPECT_THAT(errorOf(bytesOf("heights")), Not(testing::IsEmpty()));
+    // A TIFF of floats is still not accepted as a mask.
     EXPECT_THAT(messageOf(floatTiff(someHeights())), HasSubstr("not unsigned integers"));
 }
 
-TEST(HeightMap, CutAtEveryLengthIsReadWholeOrNotAtAllAndInSilence)
+TEST(HeightMap, CutFilesAreReadWholeOrRejectedWithoutOutput)
 {
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
@@ -302,7 +303,7 @@ TEST(HeightMap, CutAtEveryLengthIsReadWholeOrNotAtAllAndInSilence)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(HeightMap, FilesAreNamedInWhatIsWrongWithThem)
+TEST(HeightMap, ErrorsNameTheFile)
 {
     const Bytes good = floatTiff(someHeights());
     const Folder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every format, depth and colour type against the samples that were encoded.
+// Compares every format, depth and colour type with the samples that were encoded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 using LevelAt = std::function<double(int, int)>;
 
-/// Compares the luma over black and the alpha of an encoded image with the levels meant, to the bit.
+/// Compares the luma over black and the alpha of an encoded image exactly with expected levels.
 void expectLevels(const Bytes& encoded, int width, int height, const LevelAt& luma, const LevelAt& alpha = nullptr)
 {
     const Mask bright = decodeMask(encoded, only(Channel::Luma));
@@ -34,7 +34,7 @@ void expectLevels(const Bytes& encoded, int width, int height, const LevelAt& lu
     }
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            // Luma is rounded once, and once more where alpha takes a part of it.
+            // Luma is rounded once, and again if it is weighted by alpha.
             const double level = luma(x, y) * (alpha ? alpha(x, y) : 1.0);
             ASSERT_NEAR(bright.at(x, y), level * 65535, alpha ? 1.001 : 0.501) << x << ", " << y;
             if (alpha) {
@@ -49,7 +49,7 @@ double luma(double r, double g, double b)
     return 0.299 * r + 0.587 * g + 0.114 * b;
 }
 
-/// As above, for samples that are grey, grey+alpha, RGB or RGB+alpha.
+/// Compares an encoded image with samples of grey, grey+alpha, RGB or RGB+alpha.
 void expectRaster(const Bytes& encoded, const Raster& raster)
 {
     const LevelAt bright = [&](int x, int y) {
@@ -60,7 +60,7 @@ void expectRaster(const Bytes& encoded, const Raster& raster)
     expectLevels(encoded, raster.width, raster.height, bright, raster.channels % 2 == 0 ? alpha : nullptr);
 }
 
-/// Of colours that a decoder keeps with 8 bits: as near as that.
+/// Compares levels to 8 bits, for decoders that keep colours with 8 bits.
 void expectNearly(const Bytes& encoded, int width, int height, const LevelAt& luma)
 {
     const Mask mask = decodeMask(encoded, only(Channel::Luma));
@@ -116,7 +116,7 @@ TEST(ReadPng, PaletteWithAndWithoutTransparency)
                 kind.palette.push_back(
                     {static_cast<png_byte>(i * 7 + 3), static_cast<png_byte>(200 - i), static_cast<png_byte>(i * 31)});
                 if (transparent && i < 2) {
-                    kind.palette_alpha.push_back(static_cast<png_byte>(90 * i + 5));  // colours beyond are opaque
+                    kind.palette_alpha.push_back(static_cast<png_byte>(90 * i + 5));  // other colours are opaque
                 }
             }
             const LevelAt bright = [&](int x, int y) {
@@ -132,7 +132,7 @@ TEST(ReadPng, PaletteWithAndWithoutTransparency)
     }
 }
 
-TEST(ReadPng, OneGreyOrColourNamedTransparent)
+TEST(ReadPng, OneTransparentGreyOrColour)
 {
     for (const int bits : {1, 2, 4, 8, 16}) {
         const Raster grey = noise(1, bits);
@@ -232,12 +232,12 @@ TEST(ReadTiff, FourthSamplesAreAlphaOnlyIfTheFileSaysSo)
         const LevelAt seen = [&](int x, int y) { return colour(x, y) * raster.level(x, y, 3); };
         TiffKind kind;
         kind.photometric = PHOTOMETRIC_RGB;
-        expectRaster(encodeTiff(raster, kind), raster);  // without a word, as OpenCV writes them
+        expectRaster(encodeTiff(raster, kind), raster);  // no ExtraSamples field, as OpenCV writes them
 
         kind.extra_samples = {EXTRASAMPLE_UNSPECIFIED};
         expectLevels(encodeTiff(raster, kind), 13, 7, colour);
 
-        // Premultiplied: the luma stored is what is seen in front of black.
+        // Colours are premultiplied: the stored luma is the one in front of black.
         for (const int extra : {EXTRASAMPLE_ASSOCALPHA, EXTRASAMPLE_UNASSALPHA}) {
             kind.extra_samples = {static_cast<std::uint16_t>(extra)};
             const Bytes encoded = encodeTiff(raster, kind);
@@ -252,7 +252,7 @@ TEST(ReadTiff, FourthSamplesAreAlphaOnlyIfTheFileSaysSo)
     }
 }
 
-TEST(ReadTiff, Inks)
+TEST(ReadTiff, Cmyk)
 {
     const Raster raster = noise(4, 8);
     TiffKind kind;
@@ -263,8 +263,8 @@ TEST(ReadTiff, Inks)
     });
 }
 
-// Most of these OpenCV 4.6 would read wrongly, and say nothing.
-TEST(ReadTiff, KindsNotReadAreNamed)
+// OpenCV 4.6 would silently read most of these wrongly.
+TEST(ReadTiff, UnsupportedKindsAreNamed)
 {
     const auto refusal = [](int channels, int bits, const std::function<void(TiffKind&)>& set) {
         TiffKind kind;
@@ -281,7 +281,8 @@ TEST(ReadTiff, KindsNotReadAreNamed)
         }
     }
     for (const int channels : {3, 4}) {
-        EXPECT_THAT(refusal(channels, 16, [](TiffKind& kind) { kind.separate = true; }), HasSubstr("plane of its own"));
+        EXPECT_THAT(refusal(channels, 16, [](TiffKind& kind) { kind.separate = true; }),
+                    HasSubstr("separate colour planes"));
     }
     EXPECT_THAT(refusal(1, 16, [](TiffKind& kind) { kind.photometric = PHOTOMETRIC_MINISWHITE; }),
                 HasSubstr("photometric interpretation 0"));
@@ -311,14 +312,14 @@ TEST(ReadJpeg, GreyAndColourBaselineAndProgressive)
     }
 }
 
-TEST(ReadJpeg, Inks)
+TEST(ReadJpeg, Cmyk)
 {
     const Raster raster = fields(4, 4, 2);
     for (const bool adobe : {true, false}) {
         const Mask mask = decodeMask(encodeJpeg(raster, {false, adobe, 100, {}}), only(Channel::Luma));
         for (int y = 0; y < 16; ++y) {
             for (int x = 0; x < 32; ++x) {
-                // Adobe stores the paper that is left, others the ink.
+                // Adobe stores the remaining paper, others store the ink.
                 const auto paper = [&](int c) { return adobe ? raster.level(x, y, c) : 1 - raster.level(x, y, c); };
                 const double level = paper(3) * luma(paper(0), paper(1), paper(2));
                 ASSERT_NEAR(mask.at(x, y) / 65535.0, level, 2.5 / 255) << adobe;
@@ -344,9 +345,9 @@ TEST(ReadJpeg, EndMarkBeforeThePixelsEndIsAnError)
     EXPECT_THAT(messageOf(jpeg), HasSubstr("damaged JPEG"));
 }
 
-TEST(ReadJpeg, ProgressiveFileOfVeryManyScansIsRefused)
+TEST(ReadJpeg, ProgressiveFileOfVeryManyScansIsRejected)
 {
-    // Every coefficient alone, from its 10th bit down: the most that libjpeg writes.
+    // Every coefficient alone, from its 10th bit down: the largest number of scans that libjpeg writes.
     JpegKind kind;
     constexpr int kTopBit = 10;
     for (int coefficient = 0; coefficient < 64; ++coefficient) {
@@ -355,7 +356,7 @@ TEST(ReadJpeg, ProgressiveFileOfVeryManyScansIsRefused)
         }
     }
     EXPECT_THAT(messageOf(encodeJpeg(fields(1, 1, 1), kind)), HasSubstr("more than 500 scans"));
-    kind.scans.resize(11);  // the first coefficient is all these fields need
+    kind.scans.resize(11);  // the first coefficient is enough for these fields
     EXPECT_EQ(decodeMask(encodeJpeg(fields(1, 1, 1), kind), only(Channel::Luma)).at(3, 3),
               decodeMask(encodeJpeg(fields(1, 1, 1)), only(Channel::Luma)).at(3, 3));
 }
@@ -378,7 +379,7 @@ TEST(ReadBmp, PalettesRunLengthsAndTrueColour)
                 ElementsAre(25700, 25700, 25700, 25700, 25700, 65535, 65535, 65535, 0, 0));
 }
 
-TEST(ReadBmp, FourthByteIsRefusedIfItSaysAnything)
+TEST(ReadBmp, FourthByteIsRejectedIfItIsUsed)
 {
     for (const unsigned alpha : {0x00U, 0xffU}) {
         Bytes bmp = bmpHeader(2, 1, {40, 32, 0, false, 0, {}});
@@ -390,7 +391,7 @@ TEST(ReadBmp, FourthByteIsRefusedIfItSaysAnything)
     }
 }
 
-TEST(ReadWebp, WithoutLossToTheBit)
+TEST(ReadWebp, LosslessIsExact)
 {
     expectRaster(encodeWebp(noise(3, 8)), noise(3, 8));
     expectRaster(encodeWebp(noise(4, 8)), noise(4, 8));
@@ -407,7 +408,7 @@ TEST(ReadNetpbm, EveryKind)
     EXPECT_THAT(levels("P3 2 1 65535 65535 65535 65535 0 65535 0\n"), ElementsAre(65535, std::lround(0.587 * 65535)));
 }
 
-// OpenCV 4.6 takes most levels for shares of 255 or 65535, whatever white is.
+// OpenCV 4.6 treats most levels as shares of 255 or 65535, whatever the level of white is.
 TEST(ReadNetpbm, EveryLevelOfWhite)
 {
     const auto levels = [](std::string_view text) { return decodeMask(bytesOf(text), only(Channel::Luma)).coverage; };
@@ -422,7 +423,7 @@ TEST(ReadNetpbm, EveryLevelOfWhite)
 
 TEST(ReadJpeg2000, GreyColourAndAlpha)
 {
-    // OpenCV writes it with loss, but not of one colour.
+    // OpenCV writes it with loss, but one colour is exact.
     const auto read = [](int type, const cv::Scalar& colour, Channel channel) {
         const Mask mask = decodeMask(encodeMat(cv::Mat(40, 50, type, colour), ".jp2"), only(channel));
         EXPECT_EQ(mask.width, 50);
@@ -437,7 +438,7 @@ TEST(ReadJpeg2000, GreyColourAndAlpha)
     EXPECT_NEAR(read(CV_8UC4, blue_green_red_alpha, Channel::Alpha), 0.6, 1.0 / 255);
 }
 
-TEST(ReadFloats, LevelsOfAMaskAreCutToThoseBetweenBlackAndWhite)
+TEST(ReadFloats, MaskLevelsAreClippedToBlackAndWhite)
 {
     const cv::Mat grey = (cv::Mat_<float>(1, 5) << -1, 0, 0.5, 1, 7);
     cv::Mat colour;
@@ -449,7 +450,7 @@ TEST(ReadFloats, LevelsOfAMaskAreCutToThoseBetweenBlackAndWhite)
     EXPECT_THAT(levels(colour, ".exr"), ElementsAre(0, 0, 32768, 65535, 65535));
     EXPECT_THAT(levels(cv::Mat(colour.colRange(1, 5)), ".hdr"), ElementsAre(0, 32768, 65535, 65535));
 
-    // OpenEXR's colours are premultiplied.
+    // Colours of OpenEXR are premultiplied.
     const cv::Mat clear(1, 2, CV_32FC4, cv::Scalar(0.25, 0.25, 0.25, 0.5));
     const Bytes encoded = encodeMat(clear, ".exr");
     EXPECT_EQ(decodeMask(encoded, only(Channel::Luma)).at(0, 0), 16384);

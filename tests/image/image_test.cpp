@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-/// What a run becomes if every pixel is put alone.
+/// Stores every pixel of a run separately.
 template <class Sample>
 Image putOneByOne(const Image& blank, const PixelRun& run, const std::vector<Sample>& samples)
 {
@@ -30,9 +30,9 @@ class ImageOf : public ::testing::Test {
 using Samples = ::testing::Types<std::uint8_t, std::uint16_t>;
 TYPED_TEST_SUITE(ImageOf, Samples);
 
-// Runs of one colour are put by one look, which must not miss a pixel of another, wherever in the run and in whichever
-// channel it differs.
-TYPED_TEST(ImageOf, RunsArePutLikeTheirPixels)
+// Runs of one colour are converted once. The check for one colour must not miss another pixel, wherever in the run and
+// in whichever channel it differs.
+TYPED_TEST(ImageOf, RunsAreStoredLikeSinglePixels)
 {
     for (const int channels : {1, 2, 3, 4}) {
         for (const std::size_t pixels : {1U, 2U, 63U, 64U, 65U, 128U, 130U}) {

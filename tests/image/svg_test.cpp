@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SVG: what is drawn is what the drawing says, on the page it says; files that mean harm do none.
+// Tests that the drawing and page of an SVG are as the file states, and that malicious files do no harm.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -35,7 +35,7 @@ Bytes svg(const std::string& attributes, const std::string& content)
                    attributes + ">" + content + "</svg>");
 }
 
-/// On a page of 10 × 10.
+/// SVG with a page of 10 × 10.
 Bytes drawing(const std::string& content)
 {
     return svg(R"(viewBox="0 0 10 10")", content);
@@ -48,7 +48,7 @@ MaskOptions side(int pixels)
     return options;
 }
 
-/// Of the whole page.
+/// Covered share of the whole page.
 double coveredPart(const Mask& mask)
 {
     return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 /
@@ -60,7 +60,7 @@ double coveredPart(const Bytes& encoded, int pixels = 100)
     return coveredPart(decodeMask(encoded, side(pixels)));
 }
 
-/// The outline on a page one metre wide.
+/// Outline on a page one metre wide.
 Outline outlineOf(const Bytes& encoded, int pixels)
 {
     TraceOptions options;
@@ -95,7 +95,7 @@ Bytes gzipped(const Bytes& bytes)
 
 TEST(Svg, CircleEnclosesTheAreaOfADisc)
 {
-    // Renderers draw circles of cubic curves, which are up to 0.03 % larger, and cut those into chords.
+    // Renderers draw circles as cubic curves, which are up to 0.03 % larger, and then as chords.
     const Outline outline = outlineOf(drawing(R"(<circle cx="5.013" cy="4.987" r="4"/>)"), 1024);
     ASSERT_EQ(outline.loops.size(), 1U);
     EXPECT_TRUE(outline.anti_aliased);
@@ -136,7 +136,7 @@ TEST(Svg, FillRuleDecidesOverHoles)
     const Outline holed = outlineOf(drawing(R"(<path fill-rule="evenodd")" + squares), 200);
     EXPECT_EQ(holed.loops.size(), 2U);
     EXPECT_NEAR(areaOf(holed), 0.48, 1e-3);
-    // Non-zero, but the inner square runs the other way.
+    // The rule is non-zero, but the inner square runs the other way.
     const Outline wound = outlineOf(drawing(R"(<path d="M1,1H9V9H1zM3,3V7H7V3z"/>)"), 200);
     EXPECT_EQ(wound.loops.size(), 2U);
     EXPECT_NEAR(areaOf(wound), 0.48, 1e-3);
@@ -168,7 +168,7 @@ TEST(Svg, TextIsDrawnWhereThereAreFonts)
 
 TEST(Svg, TextIsDrawnAtAnyViewBox)
 {
-    // 2048 pixels of a page of 24 are the many where Pango asked for more than FreeType can.
+    // At 2048 pixels for a page of 24, Pango requests larger fonts than FreeType can make.
     const auto covered = [](double unit, int pixels) {
         const auto u = [unit](double length) { return std::to_string(length * unit); };
         return coveredPart(svg("viewBox='0 0 " + u(24) + " " + u(24) + "'",
@@ -210,11 +210,11 @@ struct PageCase {
     std::string attributes;
     int width;
     int height;
-    double page_px;                  ///< CSS px across
+    double page_px;                  ///< width [CSS px]
     std::optional<double> physical;  ///< [m]
 };
 
-TEST(Svg, PageIsWhatTheFileSaysItIs)
+TEST(Svg, PageHasTheStatedSize)
 {
     const std::vector<PageCase> cases{
         {R"(width="80" height="40")", 200, 100, 80, {}},
@@ -244,7 +244,7 @@ TEST(Svg, PageIsWhatTheFileSaysItIs)
     }
 }
 
-TEST(Svg, PageWithoutASizeIsAsLargeAsWhatIsDrawn)
+TEST(Svg, PageWithoutASizeHasTheBoundsOfTheDrawing)
 {
     for (const char* place : {"x='500' y='-80'", "x='0' y='0'"}) {
         const Mask mask = decodeMask(svg("", "<rect width='60' height='20' " + std::string(place) + "/>"),
@@ -255,7 +255,7 @@ TEST(Svg, PageWithoutASizeIsAsLargeAsWhatIsDrawn)
     }
 }
 
-TEST(Svg, ContentKeepsItsShapeOnAPageOfAnother)
+TEST(Svg, ContentKeepsItsAspectOnAPageOfAnotherAspect)
 {
     const std::string disc = R"(<circle cx="5" cy="5" r="5"/>)";
     const double fitted = coveredPart(svg(R"(width="40" height="20" viewBox="0 0 10 10")", disc), 400);
@@ -287,7 +287,7 @@ TEST(Svg, ResolutionStaysWithinItsBounds)
     EXPECT_EQ(small.width, 100);
     EXPECT_EQ(small.height, 100);
     EXPECT_EQ(decodeMask(drawing(rect)).width, 2048);
-    // A hair is drawn larger, so that it is more than a row of pixels.
+    // A very narrow page is drawn larger, so that it is more than a row of pixels.
     const Mask hair = decodeMask(svg(R"(viewBox="0 0 1000 2")", rect), side(2000));
     EXPECT_EQ(hair.height, 16);
     EXPECT_EQ(hair.width, 8000);
@@ -298,7 +298,7 @@ TEST(Svg, ResolutionStaysWithinItsBounds)
     }
 }
 
-TEST(Svg, CompressedAndInOtherEncodingsIsTheSamePicture)
+TEST(Svg, CompressionAndEncodingDoNotChangeThePicture)
 {
     const std::string text =
         R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><circle cx="5" cy="5" r="4"/></svg>)";
@@ -342,7 +342,7 @@ TEST(Svg, NothingOutsideTheFileIsRead)
     const std::string entity = "<!DOCTYPE svg [<!ENTITY x SYSTEM \"file://" + full + "\">]>";
     const Bytes outside = bytesOf(entity + R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">&x;</svg>)");
     EXPECT_THAT(messageOf(outside), HasSubstr("SVG"));
-    // What the file holds itself is drawn: a black pixel as a PNG.
+    // Embedded data are drawn: a black pixel as a PNG.
     const Bytes inside = drawing(
         dot +
         R"(<image x="5" y="5" width="5" height="5" xlink:href="data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAA)"
@@ -350,9 +350,9 @@ TEST(Svg, NothingOutsideTheFileIsRead)
     EXPECT_NEAR(coveredPart(inside), 0.26, 1e-3);
 }
 
-TEST(Svg, MoreThanCanBeDrawnIsRefused)
+TEST(Svg, TooLargeDrawingsAreRejected)
 {
-    // 10^7 squares, if every use were followed.
+    // 10^7 squares, if every reference were followed
     std::string bomb = R"(<defs><g id="a0"/>)";
     for (int i = 1; i <= 7; ++i) {
         bomb += "<g id='a" + std::to_string(i) + "'>";
@@ -393,14 +393,14 @@ TEST(Svg, MoreThanCanBeDrawnIsRefused)
     EXPECT_THAT(messageOf(drawing(nested)), HasSubstr("depth"));
 }
 
-/// Of this process.
+/// Number of open files of this process.
 std::size_t openFiles()
 {
     const std::filesystem::directory_iterator all("/proc/self/fd");
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-TEST(Svg, WhatDrawingTakesIsLimited)
+TEST(Svg, TimeAndMemoryOfADrawingAreLimited)
 {
     const std::size_t open_before = openFiles();
     std::size_t refused = 0;
@@ -418,7 +418,7 @@ TEST(Svg, WhatDrawingTakesIsLimited)
     }
     EXPECT_GT(refused, 10U);
     EXPECT_EQ(openFiles(), open_before);
-    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a child process is left";
 
     MaskOptions options = side(2048);
     options.vector_memory = std::size_t{100} << 20;
@@ -432,7 +432,7 @@ TEST(Svg, WhatDrawingTakesIsLimited)
 
 TEST(Svg, DrawingDoesNotDependOnTheSignalsOfItsHost)
 {
-    // Whoever ignores SIGCHLD has no children to wait for; what is blocked here would be blocked in the drawing, too.
+    // A host that ignores SIGCHLD cannot wait for children; signals blocked here must not be blocked in the drawing.
     const Bytes square = drawing("<rect width='5' height='10'/>");
     const auto before = std::signal(SIGCHLD, SIG_IGN);
     sigset_t all;
@@ -448,9 +448,9 @@ TEST(Svg, DrawingDoesNotDependOnTheSignalsOfItsHost)
     std::signal(SIGCHLD, before);
 }
 
-TEST(Svg, ElementsMayReferToOneAnotherAsDeepAsTheyLike)
+TEST(Svg, ElementsMayReferToOneAnotherDeeply)
 {
-    // Each would take the stack of an ordinary thread many times over.
+    // Each link needs stack; the chain would overflow the stack of an ordinary thread many times.
     const auto chain = [](const std::string& first, const std::string& link, const std::string& last) {
         std::string content = "<defs>" + first;
         const int links = 3000;
@@ -473,7 +473,7 @@ TEST(Svg, ElementsMayReferToOneAnotherAsDeepAsTheyLike)
     EXPECT_GT(coveredPart(patterns, 16), 0.1);
 }
 
-TEST(Svg, WhatIsBrokenIsRefusedInOneLine)
+TEST(Svg, BrokenFilesGiveAnErrorOfOneLine)
 {
     const Bytes whole = svg("width='8' height='8'", "<g transform='scale(2)'><path d='M1 1h2v2z'/></g>");
     for (std::size_t length = 0; length < whole.size(); length += 3) {
@@ -494,7 +494,7 @@ TEST(Svg, WhatIsBrokenIsRefusedInOneLine)
     EXPECT_THAT(messageOf(gzipped(gzipped(whole))), HasSubstr("without an SVG image"));
 }
 
-TEST(Svg, ThreadsDrawSideBySide)
+TEST(Svg, ThreadsCanDrawAtTheSameTime)
 {
     const Bytes encoded = drawing(
         "<filter id='f'><feGaussianBlur stdDeviation='.2'/></filter><circle cx='5' cy='5' r='4' filter='url(#f)'/>"

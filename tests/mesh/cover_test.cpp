@@ -20,17 +20,17 @@ namespace {
 using testing::domainOf;
 using testing::ellipseLoop;
 
-/// What a cover must be of any mesh.
+/// Checks the guarantees of a cover.
 void expectCovers(const PlanarMesh& ground, const PlanarMesh& mesh)
 {
     ASSERT_EQ(ground.loop_starts, mesh.loop_starts);
     const std::uint32_t rim = mesh.rimVertexCount();
     ASSERT_GE(ground.vertices.size(), rim);
     EXPECT_TRUE(std::equal(mesh.vertices.begin(), mesh.vertices.begin() + rim, ground.vertices.begin()))
-        << "the rim's vertices, bit by bit";
+        << "rim vertices must be equal";
 
-    // Counter-clockwise triangles, every inner edge once in each direction, every rim edge once in its own: together
-    // with the area, the polygon is covered once.
+    // Triangles are counter-clockwise, every inner edge occurs once in each direction, every rim edge once in its own.
+    // Together with the area, this proves that the polygon is covered once.
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     std::set<std::uint32_t> used;
     for (const Triangle& t : ground.triangles) {
@@ -38,10 +38,10 @@ void expectCovers(const PlanarMesh& ground, const PlanarMesh& mesh)
         for (std::size_t k = 0; k < 3; ++k) {
             ASSERT_LT(t[k], ground.vertices.size());
             used.insert(t[k]);
-            ASSERT_TRUE(edges.emplace(t[k], t[(k + 1) % 3]).second) << "an edge twice in one direction";
+            ASSERT_TRUE(edges.emplace(t[k], t[(k + 1) % 3]).second) << "edge occurs twice in one direction";
         }
     }
-    EXPECT_EQ(used.size(), ground.vertices.size()) << "vertices of no triangle";
+    EXPECT_EQ(used.size(), ground.vertices.size()) << "some vertices belong to no triangle";
     std::size_t single = 0;
     for (const auto& [a, b] : edges) {
         single += edges.contains({b, a}) ? 0 : 1;
@@ -55,7 +55,7 @@ void expectCovers(const PlanarMesh& ground, const PlanarMesh& mesh)
         }
     }
     EXPECT_NEAR(area(ground) / area(mesh), 1.0, 1e-12);
-    // Euler.
+    // Euler's formula
     const std::size_t holes = mesh.loopCount() - 1;
     EXPECT_EQ(ground.triangles.size(), 2 * (ground.vertices.size() - rim) + rim + 2 * holes - 2);
 }
@@ -97,9 +97,10 @@ TEST(Cover, NoOtherVertexIsOnTheRim)
     }
 }
 
-// In proportion to the rim, not to the area. Per rim vertex there are 1½ triangles in the strip along the rim, and of
-// every level, with ½, ¼, ⅛ … points, 2 between its layers and 1½ to the next: 5 in all, and up to 2/√3 times as many
-// where layers cut across the rows. Measured: at most 5.0 here, 5.3 at four million triangles.
+// The number of triangles is proportional to the rim, not to the area. Per rim vertex there are 1½ triangles in the
+// strip along the rim. Every level, with ½, ¼, ⅛ … points, has 2 between its layers and 1½ to the next level. That
+// gives 5 in all, and up to 2/√3 times as many where layers cut across the rows. Measured: at most 5.0 here, 5.3 at
+// four million triangles.
 TEST(Cover, TakesAtMostSixTrianglesPerRimVertex)
 {
     for (const auto& [name, domain] : testing::zoo()) {
@@ -112,9 +113,9 @@ TEST(Cover, TakesAtMostSixTrianglesPerRimVertex)
     }
 }
 
-TEST(Cover, IsTheSameForAnyInside)
+TEST(Cover, DependsOnTheRimAlone)
 {
-    // It depends on the rim alone: the lattice and the order of inner vertices are none of its business.
+    // The lattice and the order of triangles do not matter.
     PlanarMesh mesh = triangulate(domainOf(ellipseLoop(1, 0.8)), {.triangles = 2000, .edge = {}})[0];
     const PlanarMesh ground = cover(mesh);
     mesh.lattice = {};

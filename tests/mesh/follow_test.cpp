@@ -45,8 +45,8 @@ Footprint mapped(Footprint footprint, const std::function<Vec2(Vec2)>& map)
     return footprint;
 }
 
-/// The loop begins elsewhere.
-Loop rolled(Loop loop, std::size_t by)
+/// The same loop with another first point.
+Loop withOtherStart(Loop loop, std::size_t by)
 {
     const auto n = static_cast<std::ptrdiff_t>(by);
     std::rotate(loop.points.begin(), loop.points.begin() + n, loop.points.end());
@@ -68,7 +68,7 @@ double largestMove(const PlanarMesh& a, const PlanarMesh& b, Vec2 by)
     return max;
 }
 
-std::vector<Footprint> simpleOnes()
+std::vector<Footprint> simpleFootprints()
 {
     return {domainOf(ellipseLoop(1, 1)).droplets[0], domainOf(ellipseLoop(1, 0.5)).droplets[0],
             domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.3, 0.6))}).droplets[0],
@@ -77,7 +77,7 @@ std::vector<Footprint> simpleOnes()
 
 TEST(Follow, StaysWhereTheFootprintStays)
 {
-    for (const Footprint& footprint : simpleOnes()) {
+    for (const Footprint& footprint : simpleFootprints()) {
         const PlanarMesh mesh = meshOf(footprint);
         const auto moved = follow(mesh, mesh, footprint);
         ASSERT_TRUE(moved);
@@ -86,13 +86,13 @@ TEST(Follow, StaysWhereTheFootprintStays)
     }
 }
 
-TEST(Follow, TranslatesAsTheFootprintDoesWhereverItsLoopBegins)
+TEST(Follow, TranslatesWithTheFootprintWhereverItsLoopBegins)
 {
-    for (const Footprint& footprint : simpleOnes()) {
+    for (const Footprint& footprint : simpleFootprints()) {
         const PlanarMesh mesh = meshOf(footprint);
         const Vec2 by{0.7, -1.3};
         Footprint there = mapped(footprint, [&](Vec2 p) { return p + by; });
-        there.rim = rolled(there.rim, there.rim.points.size() / 3);
+        there.rim = withOtherStart(there.rim, there.rim.points.size() / 3);
         const auto moved = follow(mesh, mesh, there);
         ASSERT_TRUE(moved);
         EXPECT_EQ(moved->triangles, mesh.triangles);
@@ -103,7 +103,7 @@ TEST(Follow, TranslatesAsTheFootprintDoesWhereverItsLoopBegins)
 
 TEST(Follow, CornersGetAVertex)
 {
-    const Footprint l = simpleOnes()[3];
+    const Footprint l = simpleFootprints()[3];
     const PlanarMesh mesh = meshOf(l);
     const Footprint there = mapped(l, [](Vec2 p) { return Vec2{1.1 * p.x + 0.1 * p.y, 0.95 * p.y}; });
     const auto moved = follow(mesh, mesh, there);
@@ -118,7 +118,7 @@ TEST(Follow, CornersGetAVertex)
     EXPECT_NEAR(area(*moved), area(there), 1e-6);
 }
 
-TEST(Follow, AHoleThatShrinksIsFollowedStepByStepWithoutDrift)
+TEST(Follow, FollowsAShrinkingHoleWithoutDrift)
 {
     const auto ring = [](double hole) {
         return domainOf(ellipseLoop(1, 1), {mapped(reversed(ellipseLoop(hole, hole)),
@@ -144,7 +144,7 @@ TEST(Follow, AHoleThatShrinksIsFollowedStepByStepWithoutDrift)
     EXPECT_LT(largestMove(first, last, {}), 0.01);
 }
 
-TEST(Follow, HeightsAreThoseOfAFreshMeshToDiscretisationError)
+TEST(Follow, HeightsMatchThoseOfANewMesh)
 {
     const Footprint disc = domainOf(ellipseLoop(1, 1)).droplets[0];
     const Footprint ellipse = domainOf(ellipseLoop(1.15, 0.9)).droplets[0];
@@ -196,13 +196,13 @@ TEST(Follow, RealOutlinesAreFollowedInSmallSteps)
     }
 }
 
-TEST(Follow, GivesUpWhereAMeshWouldSuffer)
+TEST(Follow, ReturnsNoMeshIfItWouldBeBad)
 {
     const Footprint disc = domainOf(ellipseLoop(1, 1)).droplets[0];
     const PlanarMesh mesh = meshOf(disc);
     EXPECT_FALSE(follow(mesh, mesh, domainOf(ellipseLoop(2, 2)).droplets[0])) << "too large";
     EXPECT_FALSE(follow(mesh, mesh, domainOf(ellipseLoop(4, 0.25)).droplets[0])) << "too thin";
-    EXPECT_FALSE(follow(mesh, mesh, simpleOnes()[2])) << "another topology";
+    EXPECT_FALSE(follow(mesh, mesh, simpleFootprints()[2])) << "another topology";
     const auto toothed = testing::smoothLoop([] {
         std::vector<Vec2> points;
         for (int k = 0; k < 4000; ++k) {
@@ -212,13 +212,13 @@ TEST(Follow, GivesUpWhereAMeshWouldSuffer)
         }
         return points;
     }());
-    EXPECT_FALSE(follow(mesh, mesh, domainOf(toothed).droplets[0])) << "more detail than the rim can show";
+    EXPECT_FALSE(follow(mesh, mesh, domainOf(toothed).droplets[0])) << "more detail than the rim can follow";
     EXPECT_THROW(follow(mesh, meshOf(disc, 500), disc), Error);
 }
 
-TEST(WithRim, IsAffineWhereTheRimIs)
+TEST(WithRim, MovesAffinelyIfTheRimDoes)
 {
-    for (const Footprint& footprint : simpleOnes()) {
+    for (const Footprint& footprint : simpleFootprints()) {
         const PlanarMesh mesh = meshOf(footprint);
         const auto map = [](Vec2 p) { return Vec2{1.2 * p.x - 0.4 * p.y + 3, 0.3 * p.x + 0.7 * p.y}; };
         std::vector<Vec2> rim;

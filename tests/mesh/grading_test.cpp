@@ -78,8 +78,8 @@ TEST(Grading, NumberOfTrianglesIsMetWithinTenPercent)
     }
 }
 
-// Two layers per level take √3·(1 + 2 + … + grading/2) edges of room, less than a fifth of this disc's radius.
-TEST(Grading, EdgesAreAsManyTimesLongerInTheMiddle)
+// Two layers per level need √3·(1 + 2 + … + grading/2) edges of room, less than a fifth of this disc's radius.
+TEST(Grading, EdgesInTheMiddleAreGradingTimesLonger)
 {
     constexpr double kInTheMiddle = 0.1;
     for (const int grading : kGradings) {
@@ -101,7 +101,7 @@ TEST(Grading, TakesFewerTrianglesForTheSameRim)
     }
 }
 
-// What grading is for: the same edges along the rim for a share of the triangles that falls with every halving.
+// Purpose of grading: with the same edges along the rim, its share of triangles falls with every halving.
 TEST(Grading, TrianglesGrowWithTheRimNotWithTheArea)
 {
     const Domain disc = domainOf(ellipseLoop(1, 1));
@@ -115,9 +115,9 @@ TEST(Grading, TrianglesGrowWithTheRimNotWithTheArea)
     }
 }
 
-TEST(Grading, WhereThereIsNoRoomItChangesNothing)
+TEST(Grading, ChangesNothingIfThereIsNoRoom)
 {
-    // A ring four edges wide: nothing is two layers away from the rim.
+    // In a ring four edges wide, no point is two layers away from the rim.
     const Domain ring = domainOf(ellipseLoop(1, 1), {testing::reversed(ellipseLoop(0.8, 0.8))});
     const PlanarMesh two = triangulate(ring, {.edge = 0.05, .grading = 2})[0];
     const PlanarMesh max = triangulate(ring, {.edge = 0.05, .grading = 64})[0];
@@ -125,13 +125,13 @@ TEST(Grading, WhereThereIsNoRoomItChangesNothing)
     EXPECT_EQ(two.triangles, max.triangles);
 }
 
-TEST(Grading, OnlyPowersOfTwoUpTo64AreTaken)
+TEST(Grading, AcceptsOnlyPowersOfTwoUpTo64)
 {
     const Domain disc = domainOf(ellipseLoop(1, 1));
     for (const int grading : {0, -1, -2, 3, 6, 63, 65, 128, std::numeric_limits<int>::min()}) {
         try {
             (void)triangulate(disc, {.triangles = 100, .edge = {}, .grading = grading});
-            ADD_FAILURE() << grading << " is taken";
+            ADD_FAILURE() << grading << " is accepted";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_NE(std::string(error.what()).find("grading " + std::to_string(grading)), std::string::npos)

@@ -39,7 +39,7 @@ Ends ordered(std::uint32_t a, std::uint32_t b)
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// Corners opposite to every edge.
+/// Corners opposite to every edge
 std::map<Ends, std::vector<std::uint32_t>> oppositeCorners(const std::vector<Triangle>& triangles)
 {
     std::map<Ends, std::vector<std::uint32_t>> opposite;
@@ -51,7 +51,7 @@ std::map<Ends, std::vector<std::uint32_t>> oppositeCorners(const std::vector<Tri
     return opposite;
 }
 
-/// The zoo, coarse and fine, with and without grading.
+/// Meshes of the zoo, coarse and fine, with and without grading.
 std::vector<std::pair<std::string, PlanarMesh>> zooMeshes()
 {
     std::vector<std::pair<std::string, PlanarMesh>> meshes;
@@ -69,7 +69,7 @@ std::vector<std::pair<std::string, PlanarMesh>> zooMeshes()
     return meshes;
 }
 
-// Two angles that face an edge off the rim sum to 180° at most. So no off-diagonal entry of the stiffness matrix is
+// The two angles that face an edge off the rim sum to at most 180°. So no off-diagonal entry of the stiffness matrix is
 // positive, and without gravity no height is negative.
 TEST(LatticeCore, EveryEdgeOffTheRimIsDelaunay)
 {
@@ -98,7 +98,7 @@ TEST(LatticeCore, EveryEdgeOffTheRimIsDelaunay)
     }
 }
 
-// The circle around every triangle of the core is empty of all the mesh's vertices, and of the rim.
+// The circumcircle of every core triangle contains no vertex of the mesh and no part of the rim.
 TEST(LatticeCore, ItsTrianglesAreDelaunayInTheWholeMesh)
 {
     for (const auto& [name, domain] : testing::zoo()) {
@@ -140,7 +140,7 @@ TEST(LatticeCore, HoldsMostOfAFineMesh)
         const PlanarMesh mesh = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = triangles, .edge = {}})[0];
         const auto all = static_cast<double>(mesh.triangles.size());
         const double outside = mesh.lattice->first_regular_triangle / all;
-        // What is not regular is along the rim: its share falls like the edge.
+        // Irregular triangles lie along the rim, so their share falls like the edge length.
         if (last > 0.0) {
             EXPECT_NEAR(outside / last, 0.5, 0.05) << triangles;
         }
@@ -148,7 +148,7 @@ TEST(LatticeCore, HoldsMostOfAFineMesh)
     }
 }
 
-TEST(LatticeCore, LayersAndSeamAreWhatTheyAreCalled)
+TEST(LatticeCore, LayersAndSeamFollowTheirDefinitions)
 {
     for (const auto& [name, domain] : testing::zoo()) {
         for (const Footprint& footprint : domain.droplets) {
@@ -161,7 +161,7 @@ TEST(LatticeCore, LayersAndSeamAreWhatTheyAreCalled)
             core.appendTo(mesh);
             ASSERT_EQ(mesh.vertices.size(), core.fixedCount());
 
-            // Edges of one triangle only are the boundary, and their ends belong to the seam.
+            // Edges of only one triangle are the boundary, and their ends belong to the seam.
             std::set<Ends> wanted;
             for (const auto& [ends, corners] : oppositeCorners(mesh.triangles)) {
                 if (corners.size() == 1) {
@@ -171,7 +171,7 @@ TEST(LatticeCore, LayersAndSeamAreWhatTheyAreCalled)
             const std::vector<std::uint32_t> seam = core.seamNumbers();
             std::set<Ends> found;
             for (const auto& [a, b] : core.boundary()) {
-                EXPECT_TRUE(found.insert(ordered(seam[a], seam[b])).second) << "an edge twice";
+                EXPECT_TRUE(found.insert(ordered(seam[a], seam[b])).second) << "edge occurs twice";
             }
             EXPECT_EQ(found, wanted);
 
@@ -187,7 +187,7 @@ TEST(LatticeCore, LayersAndSeamAreWhatTheyAreCalled)
             for (const GridRun& run : regularRuns(mesh)) {
                 for (std::uint32_t k = 0; k < run.count; ++k) {
                     EXPECT_FALSE(on_seam.contains(run.first + k));
-                    // The neighbours are where the run says they are.
+                    // The neighbours are at the places that the run gives.
                     const Vec2 at = mesh.vertices[run.first + k];
                     for (const std::uint32_t other : {run.first + k - 1, run.first + k + 1, run.below + k,
                                                       run.below + k + 1, run.above + k, run.above + k + 1}) {
@@ -225,10 +225,10 @@ TEST(LatticeCore, GradedPointsKeepTheirDistance)
     }
 }
 
-/// The mesh that every broken one below is made of.
+/// Mesh from which every broken one below is made.
 PlanarMesh wholeMesh()
 {
-    // The hole parts some rows in two runs.
+    // The hole splits some rows into two runs.
     return triangulate(domainOf(ellipseLoop(1, 1), {testing::reversed(ellipseLoop(0.2, 0.3))}),
                        {.triangles = 3000, .edge = {}})[0];
 }
@@ -239,7 +239,7 @@ struct Defect {
     const char* complaint;
 };
 
-/// Another region for the lattice's grid.
+/// Replaces the region of the lattice's grid.
 void change(Lattice& lattice, const std::function<void(std::vector<RowInterval>&)>& edit)
 {
     std::vector<RowInterval> intervals = lattice.grid.region().intervals();
@@ -247,7 +247,7 @@ void change(Lattice& lattice, const std::function<void(std::vector<RowInterval>&
     lattice.grid = LatticeGrid(LatticeRegion(std::move(intervals)), lattice.grid.begin());
 }
 
-TEST(PlanarMesh, ValidateRefusesABrokenLattice)
+TEST(PlanarMesh, ValidateRejectsABrokenLattice)
 {
     const PlanarMesh whole = wholeMesh();
     ASSERT_NO_THROW(whole.validate());
@@ -338,7 +338,7 @@ TEST(PlanarMesh, ValidateRefusesABrokenLattice)
     }
 }
 
-TEST(PlanarMesh, ALatticeMayBeForgotten)
+TEST(PlanarMesh, MayHaveNoLattice)
 {
     PlanarMesh mesh = wholeMesh();
     mesh.lattice = {};

@@ -41,7 +41,7 @@ bool holds(const Points& points, Site site)
     return points.contains({site.row, site.column});
 }
 
-/// Intervals not empty, ascending, with gaps between.
+/// Whether intervals are not empty, ascending, and have gaps between them.
 bool isNormal(const LatticeRegion& region)
 {
     const std::vector<RowInterval>& intervals = region.intervals();
@@ -55,8 +55,8 @@ bool isNormal(const LatticeRegion& region)
     return true;
 }
 
-/// Points around zero, in every row each there with a probability of its own kind: gaps of one, full rows and empty
-/// ones occur.
+/// Random points around zero with a different density in every row, so that gaps of one point, full rows and empty rows
+/// occur.
 LatticeRegion randomRegion(std::mt19937& random)
 {
     const auto first = std::uniform_int_distribution<std::int32_t>(-6, 3)(random);
@@ -230,7 +230,7 @@ double distanceTo(Vec2 p, Vec2 a, Vec2 b)
     return length(p - (a + std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0) * ab));
 }
 
-/// Distance from the polygons, negative outside.
+/// Distance from the polygons; negative outside.
 double depth(const Polygons& polygons, Vec2 p)
 {
     double distance = std::numeric_limits<double>::infinity();
@@ -274,10 +274,10 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
         {around({-5.0, 7.0}, 10, [](int k) { return k % 2 == 0 ? 1.0 : 0.3; })},
         {around({0.0, 0.0}, 60, one), hole},
         {around({0.1, 0.0}, 40, [&](int k) { return radii[static_cast<std::size_t>(k)]; })},
-        // Flat sides on a lattice row, and a spike thinner than any clearance.
+        // Flat sides on a lattice row, and a spike thinner than any clearance
         {{{0, 0}, {1, 0}, {1, 0.01}, {2, 0.02}, {1, 0.03}, {1, 1}, {0, 1}}}};
     std::size_t found = 0;
-    std::size_t doubtful = 0;
+    std::size_t undecided = 0;
     for (const Polygons& polygons : shapes) {
         for (const double edge : {3.0, 0.4, 0.11, 0.037}) {
             for (const double clearance : {0.0, 0.3, 0.65, 1.7}) {
@@ -294,7 +294,7 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
                         const double deep = depth(polygons, latticePoint(edge, {r, c}));
                         count += region.contains({r, c}) ? 1 : 0;
                         if (std::abs(deep - clearance * edge) < 1e-12) {
-                            ++doubtful;  // to the last bit either way
+                            ++undecided;  // too close to decide
                             continue;
                         }
                         ASSERT_EQ(region.contains({r, c}), deep > clearance * edge) << edge << " " << r << " " << c;
@@ -306,15 +306,16 @@ TEST(LatticeRegion, PointsInsideAreThoseClearOfThePolygons)
         }
     }
     EXPECT_GT(found, 10'000U);
-    EXPECT_LT(doubtful, found / 50);
+    EXPECT_LT(undecided, found / 50);
 }
 
-// Rows and corners exactly on the lattice: a hexagon of n edges holds another of n − 1, whose rim is √3/2 edges away.
+// Rows and corners lie exactly on the lattice: a hexagon of n edges holds another of n − 1 edges, whose rim is √3/2
+// edges away.
 TEST(LatticeRegion, HexagonHoldsTheNextSmallerOne)
 {
     for (const std::int32_t n : {1, 2, 3, 10, 33}) {
         std::vector<Vec2> hexagon;
-        // Sides of n edges: rows n have 2n columns less n.
+        // The sides have n edges, so row n has n columns less than row 0.
         for (const Site s : {Site{0, n}, Site{n, (n + 1) / 2 - n % 2}, Site{n, (n + 1) / 2 - n % 2 - n}, Site{0, -n},
                              Site{-n, (n + 1) / 2 - n % 2 - n}, Site{-n, (n + 1) / 2 - n % 2}}) {
             hexagon.push_back(latticePoint(0.5, s));
@@ -335,7 +336,7 @@ TEST(LatticeRegion, ShapesBetweenRowsHoldNothing)
     EXPECT_EQ(pointsInside({sliver}, 1.0, 0.0).size(), 0U);
 }
 
-TEST(LatticeGrid, GivesEveryPointAnIndexAndBack)
+TEST(LatticeGrid, MapsPointsToIndicesAndBack)
 {
     std::mt19937 random(7);
     for (int round = 0; round < 200; ++round) {

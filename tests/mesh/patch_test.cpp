@@ -22,7 +22,7 @@ using testing::reversed;
 
 constexpr double kEdge = 0.05;
 
-/// A long bar with a bump on its right end.
+/// Long bar with a bump at its right end.
 Footprint bar(double bump)
 {
     return {polygonLoop({{0, 0}, {4, 0}, {4 + bump, 0.5}, {4, 1}, {0, 1}}), {}};
@@ -33,7 +33,7 @@ PlanarMesh meshOf(const Footprint& footprint)
     return triangulate(domainOf(footprint.rim, footprint.holes), {.edge = kEdge}).at(0);
 }
 
-/// How many of a mesh's vertices others have.
+/// Number of vertices that a mesh shares with others.
 std::size_t sharedWith(const std::vector<const PlanarMesh*>& before, const PlanarMesh& mesh)
 {
     std::set<std::pair<double, double>> places;
@@ -61,10 +61,10 @@ void expectPatch(const std::vector<const PlanarMesh*>& before, const Footprint& 
     EXPECT_GE(static_cast<double>(patched->kept), min_kept * static_cast<double>(mesh.vertices.size()));
     const std::size_t shared = sharedWith(before, mesh);
     EXPECT_GE(shared, patched->kept);
-    EXPECT_LE(shared, patched->kept + patched->kept / 20) << "lattice points may come back where they were";
+    EXPECT_LE(shared, patched->kept + patched->kept / 20) << "new lattice points may coincide with old ones";
 }
 
-TEST(Patch, KeepsWhatIsFarFromABump)
+TEST(Patch, KeepsTrianglesFarFromABump)
 {
     const PlanarMesh before = meshOf(bar(0.3));
     expectPatch({&before}, bar(0.6), 0.8);
@@ -72,7 +72,7 @@ TEST(Patch, KeepsWhatIsFarFromABump)
     expectPatch({&before}, bar(0.3), 1.0);
 }
 
-TEST(Patch, KeepsBothEndsOfWhatMergesAndOfWhatParts)
+TEST(Patch, KeepsBothEndsWhenDropletsMergeOrSplit)
 {
     const Loop left = polygonLoop({{-3, 0}, {-0.2, 0}, {-0.2, 1}, {-3, 1}});
     const Loop right = polygonLoop({{0.2, 0}, {3, 0}, {3, 1}, {0.2, 1}});
@@ -85,7 +85,7 @@ TEST(Patch, KeepsBothEndsOfWhatMergesAndOfWhatParts)
     expectPatch({&whole}, {right, {}}, 0.8);
 }
 
-TEST(Patch, HolesComeAndGo)
+TEST(Patch, HolesMayAppearAndDisappear)
 {
     const Loop rim = ellipseLoop(2.0, 1.5);
     const Footprint ring{rim, {reversed(ellipseLoop(0.4, 0.4))}};
@@ -95,7 +95,7 @@ TEST(Patch, HolesComeAndGo)
     expectPatch({&holed}, {rim, {}}, 0.7);
 }
 
-TEST(Patch, IsNoneWhereNothingCanBeKept)
+TEST(Patch, IsNoneIfNothingCanBeKept)
 {
     const PlanarMesh before = meshOf(bar(0.3));
     Footprint elsewhere = bar(0.3);

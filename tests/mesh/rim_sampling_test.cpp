@@ -22,9 +22,9 @@ double areaOf(const std::vector<Vec2>& polygon)
     return 0.5 * twice;
 }
 
-// Widths are left alone where the liquid is certainly wide enough. A sampler asked for longer edges than it was made
-// for always works them out: whether it looked or not must not show.
-TEST(RimSampler, SamplesTheSameWhetherItLooksAtWidthsOrNot)
+// A sampler skips local widths where the liquid is certainly wide enough. It always computes them if it is called with
+// longer edges than it was made for. Both ways must give the same samples.
+TEST(RimSampler, SamplesAreTheSameWithAndWithoutLocalWidths)
 {
     for (const auto& [name, domain] : testing::zoo()) {
         for (const Footprint& footprint : domain.droplets) {
@@ -56,7 +56,8 @@ TEST(RimSampler, PolygonsKeepTheLoopsAreaAndTheirOrder)
                 EXPECT_EQ(areaOf(polygons[k]) > 0.0, k == 0);
                 sum += areaOf(polygons[k]);
                 for (std::size_t i = 0; i < polygons[k].size(); ++i) {
-                    // Pieces between corners are cut in equal parts, so an edge may be a little longer than asked.
+                    // Pieces between corners are cut into equal parts, so an edge may be slightly longer than
+                    // requested.
                     EXPECT_LT(length(polygons[k][(i + 1) % polygons[k].size()] - polygons[k][i]), 1.5 * edge);
                 }
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much of a mesh stays where only a part of the rim changes: a drip that grows from a letter, droplets that merge,
-// a ring that closes.
+// Tests how many vertices of a mesh are kept if only a part of the rim changes: a drip that grows from a letter,
+// droplets that merge, a ring that closes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ SequenceOptions options(std::size_t triangles = 3000)
     return options;
 }
 
-std::vector<Frame> play(const std::vector<Inside>& masks, const SequenceOptions& options)
+std::vector<Frame> framesOf(const std::vector<Inside>& masks, const SequenceOptions& options)
 {
     std::vector<Frame> frames;
     for (const Inside& inside : masks) {
@@ -44,7 +44,7 @@ std::vector<Frame> play(const std::vector<Inside>& masks, const SequenceOptions&
     return frames;
 }
 
-/// An E with a drip below its foot.
+/// The letter E with a drip below its foot.
 Inside letterWithDrip(double drip)
 {
     return [=](Vec2 p) {
@@ -66,7 +66,7 @@ std::vector<Inside> drip()
     return masks;
 }
 
-/// Two discs at rest and one between them that grows until it meets both.
+/// Two discs at rest, and one between them that grows until it meets both.
 std::vector<Inside> merge()
 {
     std::vector<Inside> masks;
@@ -96,7 +96,7 @@ std::pair<std::size_t, std::size_t> topologyOf(const Frame& frame)
     return {frame.droplet.meshes.size(), loops};
 }
 
-/// As a step's vertices are counted by their places, those that continue apart.
+/// Share of vertices at places where the frame before had one.
 double sharedPlaces(const Frame& before, const Frame& frame)
 {
     std::set<std::pair<double, double>> places;
@@ -135,7 +135,7 @@ TEST(KeptVertices, AreMostOfThoseFarFromTheChange)
 {
     for (const Film& film : {Film{"drip", drip()}, Film{"merge", merge()}, Film{"ring", closingRing()}}) {
         SCOPED_TRACE(film.name);
-        const std::vector<Frame> frames = play(film.masks, options());
+        const std::vector<Frame> frames = framesOf(film.masks, options());
         double sum = 0.0;
         std::size_t continued = 0;
         std::size_t changes = 0;
@@ -155,25 +155,25 @@ TEST(KeptVertices, AreMostOfThoseFarFromTheChange)
             changes += same ? 0 : 1;
         }
         EXPECT_EQ(changes > 0, std::string(film.name) != "drip");
-        EXPECT_GT(sum, 0.95 * static_cast<double>(frames.size() - 1)) << "in the mean";
-        EXPECT_LT(continued, frames.size() - 1) << "or there was nothing to show";
+        EXPECT_GT(sum, 0.95 * static_cast<double>(frames.size() - 1)) << "mean share of kept vertices";
+        EXPECT_LT(continued, frames.size() - 1) << "some frame must not only be moved";
     }
 }
 
-TEST(KeptVertices, StandWhereTheyStoodIfTheLetterRests)
+TEST(KeptVertices, StayInPlaceIfTheLetterRests)
 {
-    const std::vector<Frame> frames = play({letterWithDrip(10.0), letterWithDrip(17.0)}, options());
+    const std::vector<Frame> frames = framesOf({letterWithDrip(10.0), letterWithDrip(17.0)}, options());
     ASSERT_FALSE(frames[1].continues);
     EXPECT_NEAR(sharedPlaces(frames[0], frames[1]), *frames[1].vertices_kept, 0.02);
 }
 
-TEST(KeptVertices, SurfacesAgreeWithFreshOnes)
+TEST(KeptVertices, SurfacesMatchNewOnes)
 {
     SequenceOptions fresh = options();
     fresh.keep_vertices = false;
     const std::vector<Inside> masks{letterWithDrip(4.0), letterWithDrip(9.0), letterWithDrip(14.0)};
-    const std::vector<Frame> kept = play(masks, options());
-    const std::vector<Frame> anew = play(masks, fresh);
+    const std::vector<Frame> kept = framesOf(masks, options());
+    const std::vector<Frame> anew = framesOf(masks, fresh);
     for (std::size_t k = 0; k < kept.size(); ++k) {
         const ShapeFigures& a = kept[k].droplet.total;
         const ShapeFigures& b = anew[k].droplet.total;

@@ -47,7 +47,7 @@ SequenceOptions optionsFor(VolumeMode mode)
     return options;
 }
 
-std::vector<Frame> play(const std::vector<Outline>& outlines, const SequenceOptions& options)
+std::vector<Frame> framesOf(const std::vector<Outline>& outlines, const SequenceOptions& options)
 {
     std::vector<Frame> frames;
     for (const Outline& outline : outlines) {
@@ -65,8 +65,8 @@ double volume(const Frame& frame)
                            [](double sum, const Ancestry& droplet) { return sum + droplet.volume; });
 }
 
-/// Nothing comes or goes that is not told, and what is prescribed is there.
-void expectLedger(const std::vector<Frame>& frames)
+/// Checks that volumes are those prescribed and change only by the reported gains and losses.
+void expectVolumesAddUp(const std::vector<Frame>& frames)
 {
     for (std::size_t k = 0; k < frames.size(); ++k) {
         SCOPED_TRACE(k);
@@ -84,7 +84,7 @@ void expectLedger(const std::vector<Frame>& frames)
     }
 }
 
-/// A ring whose hole closes from frame to frame; the last is without one.
+/// Ring whose hole closes from frame to frame; the last frame has no hole.
 std::vector<Outline> closingHole()
 {
     std::vector<Outline> outlines;
@@ -112,8 +112,8 @@ TEST(Sequence, TotalKeepsTheVolumeAndOnePressureWhateverTheTopology)
 {
     std::vector<Outline> outlines = closingHole();
     outlines.push_back(outlineOf([](Vec2 p) { return disc({20, 20}, 12)(p) || disc({45, 45}, 15)(p); }, 64, 64));
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Total));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Total));
+    expectVolumesAddUp(frames);
     for (const Frame& frame : frames) {
         EXPECT_NEAR(frame.droplet.total.volume / (2 * kMicrolitre), 1.0, 1e-9);
         EXPECT_EQ(frame.volume_gained, 0.0);
@@ -124,33 +124,33 @@ TEST(Sequence, TotalKeepsTheVolumeAndOnePressureWhateverTheTopology)
     EXPECT_NEAR(two[0].pressure / two[1].pressure, 1.0, 1e-9);
 }
 
-TEST(Sequence, TotalTakesTheVolumeOfTheFirstFrameWhereNoneIsGiven)
+TEST(Sequence, TotalKeepsTheVolumeOfTheFirstFrameIfNoneIsGiven)
 {
     SequenceOptions options = optionsFor(VolumeMode::Total);
     options.droplet.solve.fill = {FillBy::ContactAngle, 35 * kDegree, FillSharing::Total};
-    const std::vector<Frame> frames = play(closingHole(), options);
+    const std::vector<Frame> frames = framesOf(closingHole(), options);
     EXPECT_NEAR(frames[0].droplet.total.contact_angle.mean, 35 * kDegree, 1e-6);
     for (const Frame& frame : frames) {
         EXPECT_NEAR(frame.droplet.total.volume / frames[0].droplet.total.volume, 1.0, 1e-9);
     }
 }
 
-TEST(Sequence, AHoleThatClosesLetsThePressureFallAndTheHeightJump)
+TEST(Sequence, PressureFallsWhileAHoleCloses)
 {
-    const std::vector<Frame> frames = play(closingHole(), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> frames = framesOf(closingHole(), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_LT(frames[k].droplet.solution.droplets[0].pressure, frames[k - 1].droplet.solution.droplets[0].pressure);
         EXPECT_EQ(frames[k].continues, k + 1 < frames.size()) << k;
     }
-    // A pinhole, however small, holds the surface down: the last step is by far the largest.
+    // Even a tiny hole holds the surface down, so the last step is by far the largest.
     const auto pressure = [&](std::size_t k) { return frames[k].droplet.solution.droplets[0].pressure; };
     EXPECT_GT(pressure(4) / pressure(5), 1.5 * pressure(3) / pressure(4));
 }
 
-TEST(Sequence, ADiscThatMovesByWholePixelsKeepsEverythingButItsPlace)
+TEST(Sequence, DiscMovedByWholePixelsChangesOnlyItsPlace)
 {
     for (const VolumeMode mode : {VolumeMode::Total, VolumeMode::Track}) {
-        const std::vector<Frame> frames = play(movingDisc(3.0), optionsFor(mode));
+        const std::vector<Frame> frames = framesOf(movingDisc(3.0), optionsFor(mode));
         const Droplet& first = frames[0].droplet;
         for (std::size_t k = 1; k < frames.size(); ++k) {
             const Droplet& droplet = frames[k].droplet;
@@ -168,9 +168,9 @@ TEST(Sequence, ADiscThatMovesByWholePixelsKeepsEverythingButItsPlace)
     }
 }
 
-TEST(Sequence, ADiscThatMovesByPartsOfAPixelKeepsItsVertices)
+TEST(Sequence, DiscMovedByPartsOfAPixelKeepsItsVertices)
 {
-    const std::vector<Frame> frames = play(movingDisc(1.37), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> frames = framesOf(movingDisc(1.37), optionsFor(VolumeMode::Total));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_TRUE(frames[k].continues);
         EXPECT_NEAR(frames[k].droplet.solution.droplets[0].pressure / frames[0].droplet.solution.droplets[0].pressure,
@@ -178,13 +178,13 @@ TEST(Sequence, ADiscThatMovesByPartsOfAPixelKeepsItsVertices)
     }
 }
 
-TEST(Sequence, EqualFramesAreEqual)
+TEST(Sequence, EqualOutlinesGiveEqualFrames)
 {
     const std::vector<Outline> outlines(
         3, outlineOf([](Vec2 p) {
             return (disc({30, 32}, 20)(p) && !disc({27, 30}, 6)(p)) || testing::rectangle({70, 30}, {15, 9}, 0.3)(p);
         }));
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Track));
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Track));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         ASSERT_TRUE(frames[k].continues);
         for (std::size_t v = 0; v < frames[0].droplet.surface.positions.size(); ++v) {
@@ -194,7 +194,7 @@ TEST(Sequence, EqualFramesAreEqual)
     }
 }
 
-TEST(Sequence, TrackAddsUpVolumesThatMergeAndKeepsTheLargestsName)
+TEST(Sequence, TrackAddsVolumesThatMergeAndKeepsTheLargestOnesId)
 {
     const auto two = [](double gap) {
         return outlineOf([=](Vec2 p) {
@@ -202,8 +202,8 @@ TEST(Sequence, TrackAddsUpVolumesThatMergeAndKeepsTheLargestsName)
                    (gap < 1 && testing::rectangle({42, 32}, {12, 4}, 0.0)(p));
         });
     };
-    const std::vector<Frame> frames = play({two(4), two(2), two(0.5)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf({two(4), two(2), two(0.5)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     ASSERT_EQ(frames[1].droplets.size(), 2U);
     ASSERT_EQ(frames[2].droplets.size(), 1U);
     EXPECT_TRUE(frames[1].continues);
@@ -214,7 +214,7 @@ TEST(Sequence, TrackAddsUpVolumesThatMergeAndKeepsTheLargestsName)
     EXPECT_THAT(frames[2].droplets[0].from, UnorderedElementsAre(0U, 1U));
 }
 
-TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
+TEST(Sequence, PartsOfASplitDropletHaveOnePressure)
 {
     const auto dumbbell = [](bool bridge) {
         return outlineOf([=](Vec2 p) {
@@ -223,14 +223,14 @@ TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
         });
     };
     const std::vector<Frame> frames =
-        play({dumbbell(true), dumbbell(false), dumbbell(false), dumbbell(true)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+        framesOf({dumbbell(true), dumbbell(false), dumbbell(false), dumbbell(true)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     const std::vector<Ancestry>& parts = frames[1].droplets;
     ASSERT_EQ(parts.size(), 2U);
     EXPECT_NEAR((parts[0].volume + parts[1].volume) / frames[0].droplets[0].volume, 1.0, 1e-12);
     EXPECT_NEAR(frames[1].droplet.solution.droplets[0].pressure / frames[1].droplet.solution.droplets[1].pressure, 1.0,
                 1e-8);
-    // Without a bridge to speak of, the pressure hardly changes.
+    // The bridge is small, so the pressure hardly changes.
     EXPECT_NEAR(frames[1].droplet.solution.droplets[0].pressure / frames[0].droplet.solution.droplets[0].pressure, 1.0,
                 0.05);
     const std::size_t large = parts[0].volume > parts[1].volume ? 0 : 1;
@@ -243,7 +243,7 @@ TEST(Sequence, WhatSplitsHadOnePressureUntilItBroke)
     EXPECT_EQ(frames[3].droplets[0].volume, parts[0].volume + parts[1].volume);
 }
 
-TEST(Sequence, ManyToManyConservesTheGroup)
+TEST(Sequence, ManyToManyConservesTheVolumeOfTheGroup)
 {
     const auto blobs = [](const std::vector<Vec2>& centres, double radius) {
         return outlineOf([=](Vec2 p) {
@@ -255,7 +255,7 @@ TEST(Sequence, ManyToManyConservesTheGroup)
             return false;
         });
     };
-    // Two stripes that become two crossing them: everything hangs together.
+    // Two stripes become two that cross them, so all belong to one group.
     const auto stripes = [](bool upright) {
         return outlineOf([=](Vec2 p) {
             const double a = upright ? p.x - 48 : p.y - 32;
@@ -263,30 +263,31 @@ TEST(Sequence, ManyToManyConservesTheGroup)
             return std::abs(b) < 26 && (std::abs(a - 12) < 7 || std::abs(a + 14) < 9);
         });
     };
-    std::vector<Frame> frames = play({stripes(true), stripes(false)}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    std::vector<Frame> frames = framesOf({stripes(true), stripes(false)}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     ASSERT_EQ(frames[1].droplets.size(), 2U);
     EXPECT_EQ(frames[1].volume_gained, 0.0);
     EXPECT_EQ(frames[1].volume_lost, 0.0);
     for (const Ancestry& droplet : frames[1].droplets) {
         EXPECT_THAT(droplet.from, UnorderedElementsAre(0U, 1U));
     }
-    // Beads that move on into one another's places do not mix.
-    frames = play({blobs({{16, 30}, {44, 30}}, 11), blobs({{26, 30}, {54, 30}}, 11), blobs({{36, 30}, {64, 30}}, 11)},
-                  optionsFor(VolumeMode::Track));
+    // Beads that move into one another's places do not mix.
+    frames =
+        framesOf({blobs({{16, 30}, {44, 30}}, 11), blobs({{26, 30}, {54, 30}}, 11), blobs({{36, 30}, {64, 30}}, 11)},
+                 optionsFor(VolumeMode::Track));
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.droplets[0].volume, frames[0].droplets[0].volume);
         EXPECT_EQ(frame.droplets[0].id, 0U);
     }
 }
 
-TEST(Sequence, WhatComesFromNowhereIsFilledAndWhatGoesIsCounted)
+TEST(Sequence, NewDropletsAreFilledAndLostVolumeIsCounted)
 {
     const Outline one = outlineOf(disc({25, 32}, 15));
     const Outline both = outlineOf([](Vec2 p) { return disc({25, 32}, 15)(p) || disc({70, 20}, 10)(p); });
     const Outline other = outlineOf(disc({70, 20}, 10));
-    const std::vector<Frame> frames = play({one, both, other}, optionsFor(VolumeMode::Track));
-    expectLedger(frames);
+    const std::vector<Frame> frames = framesOf({one, both, other}, optionsFor(VolumeMode::Track));
+    expectVolumesAddUp(frames);
     EXPECT_GT(frames[1].volume_gained, 0.0);
     std::size_t fresh = frames[1].droplets[0].from.empty() ? 0 : 1;
     EXPECT_THAT(frames[1].droplets[fresh].from, IsEmpty());
@@ -303,7 +304,7 @@ Outline dryOutline()
     return outline;
 }
 
-TEST(Sequence, FramesWithoutLiquidAreFrames)
+TEST(Sequence, FramesWithoutLiquidAreValid)
 {
     const Outline dry = dryOutline();
     const Outline wide = outlineOf(disc({25, 32}, 15));
@@ -312,8 +313,8 @@ TEST(Sequence, FramesWithoutLiquidAreFrames)
         SequenceOptions options = optionsFor(mode);
         options.droplet.solve.fill.by = FillBy::ContactAngle;
         options.droplet.solve.fill.amount = 40 * kDegree;
-        const std::vector<Frame> frames = play({dry, wide, narrow, dry, dry, narrow, dry}, options);
-        expectLedger(frames);
+        const std::vector<Frame> frames = framesOf({dry, wide, narrow, dry, dry, narrow, dry}, options);
+        expectVolumesAddUp(frames);
         for (const std::size_t k : {0U, 3U, 4U, 6U}) {
             EXPECT_TRUE(frames[k].droplets.empty());
             EXPECT_TRUE(frames[k].droplet.surface.triangles.empty());
@@ -324,24 +325,25 @@ TEST(Sequence, FramesWithoutLiquidAreFrames)
         EXPECT_EQ(frames[1].volume_gained, volume(frames[1]));
         EXPECT_EQ(frames[3].volume_lost, volume(frames[2]));
         EXPECT_EQ(frames[1].droplets[0].id, 0U);
-        EXPECT_EQ(frames[5].droplets[0].id, 1U) << "ids are never given twice";
+        EXPECT_EQ(frames[5].droplets[0].id, 1U) << "ids are never reused";
         EXPECT_THAT(frames[5].droplets[0].from, IsEmpty());
         if (mode == VolumeMode::Total) {
-            EXPECT_NEAR(volume(frames[5]) / volume(frames[1]), 1.0, 1e-12) << "the reservoir is as it was";
+            EXPECT_NEAR(volume(frames[5]) / volume(frames[1]), 1.0, 1e-12) << "the reservoir is unchanged";
         } else {
-            EXPECT_NEAR(frames[5].droplet.total.contact_angle.mean, 40 * kDegree, 1e-6) << "new, filled as asked";
+            EXPECT_NEAR(frames[5].droplet.total.contact_angle.mean, 40 * kDegree, 1e-6)
+                << "new droplet, filled as requested";
         }
     }
 }
 
-TEST(Sequence, DropletsThatPassInTheOrderOfThePictureKeepTheirPlaces)
+TEST(Sequence, DropletsKeepTheirOrderWhenOutlinesFindThemInAnother)
 {
-    // The lower one rises past the upper one, beside it, so that outlines find it first.
+    // The lower disc rises past the upper one, beside it, so that outlines find it first.
     std::vector<Outline> outlines;
     for (const double y : {40.0, 34.0, 28.0, 22.0, 16.0}) {
         outlines.push_back(outlineOf([=](Vec2 p) { return disc({24, 28}, 14)(p) || disc({68, y}, 12)(p); }));
     }
-    const std::vector<Frame> frames = play(outlines, optionsFor(VolumeMode::Track));
+    const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Track));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         EXPECT_TRUE(frames[k].continues) << k;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -351,12 +353,12 @@ TEST(Sequence, DropletsThatPassInTheOrderOfThePictureKeepTheirPlaces)
     }
 }
 
-TEST(Sequence, FollowedSurfacesAgreeWithFreshOnes)
+TEST(Sequence, FollowedSurfacesMatchNewOnes)
 {
     SequenceOptions fresh = optionsFor(VolumeMode::Total);
     fresh.keep_vertices = false;
-    const std::vector<Frame> moved = play(closingHole(), optionsFor(VolumeMode::Total));
-    const std::vector<Frame> anew = play(closingHole(), fresh);
+    const std::vector<Frame> moved = framesOf(closingHole(), optionsFor(VolumeMode::Total));
+    const std::vector<Frame> anew = framesOf(closingHole(), fresh);
     for (std::size_t k = 0; k < moved.size(); ++k) {
         EXPECT_FALSE(anew[k].continues);
         const ShapeFigures& a = moved[k].droplet.total;
@@ -398,7 +400,7 @@ TEST(Sequence, IsTheSameAtAnyNumberOfThreads)
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         std::vector<Vec3> all;
-        for (const Frame& frame : play(closingHole(), optionsFor(VolumeMode::Track))) {
+        for (const Frame& frame : framesOf(closingHole(), optionsFor(VolumeMode::Track))) {
             all.insert(all.end(), frame.droplet.surface.positions.begin(), frame.droplet.surface.positions.end());
         }
         return all;
@@ -406,7 +408,7 @@ TEST(Sequence, IsTheSameAtAnyNumberOfThreads)
     EXPECT_TRUE(positions(1) == positions(2));
 }
 
-TEST(Sequence, RefusesWhatHasNoMeaningThere)
+TEST(Sequence, RejectsOptionsThatDoNotApply)
 {
     const auto refusal = [](SequenceOptions options) -> std::string {
         try {

@@ -8,26 +8,26 @@
 
 namespace droplet {
 
-/// What is done to a mask before it is traced. By default nothing.
+/// Changes made to a mask before it is traced; none by default.
 struct CleanOptions {
-    double smooth = 0.0;              ///< bends and spots narrower than this are smoothed away [m], ≥ 0
-    double fill_holes = 0.0;          ///< holes smaller than this are filled [m²], ≥ 0
-    std::optional<std::size_t> keep;  ///< only so many of the largest droplets stay, ≥ 1
+    double smooth = 0.0;              ///< width [m] below which bends and spots are smoothed away, ≥ 0
+    double fill_holes = 0.0;          ///< area [m²] below which holes are filled, ≥ 0
+    std::optional<std::size_t> keep;  ///< number of droplets to keep, the largest first, ≥ 1; empty keeps all
 
-    /// Whether anything is asked for.
+    /// Whether any change is requested.
     [[nodiscard]] bool any() const { return smooth > 0.0 || fill_holes > 0.0 || keep; }
-    /// @throws Error InvalidArgument
+    /// @throws Error InvalidArgument if a value is out of its range
     void validate() const;
 };
 
 /// Cleans a mask: smooths its rims, then fills small holes, then keeps the largest droplets.
 ///
-/// Smoothing averages the coverage by a Gaussian and takes what is more than half: straight rims and large droplets
-/// stay where they are, spots narrower than that length vanish. Rims keep fractional coverage throughout. A
-/// hole is dry that is 4-connected and does not reach the picture's border, a droplet is liquid that is 8-connected, as
-/// in trace; of droplets of one size the first in reading order is kept.
+/// Smoothing averages the coverage by a Gaussian; liquid is where the average is more than half. Straight rims and
+/// large droplets stay in place, and spots narrower than the smoothing width disappear. Rims keep fractional coverage.
+/// As in trace(), a hole is a 4-connected dry region that does not reach the picture's border, and a droplet is an
+/// 8-connected liquid region. Of droplets of equal size the first in reading order is kept.
 /// @param mask        valid
-/// @param options     what is done
+/// @param options     changes to make
 /// @param pixel_size  edge of a pixel [m], > 0
 /// @param threshold   coverage at which liquid begins, in (0, 1)
 /// @throws Error      InvalidArgument

@@ -8,17 +8,18 @@
 
 namespace droplet {
 
-/// A colour as style sheets write it, sRGB.
+/// Colour in sRGB, as in style sheets.
 struct CssColour {
-    std::uint8_t red = 0;
-    std::uint8_t green = 0;
-    std::uint8_t blue = 0;
+    std::uint8_t red = 0;    ///< 0 … 255
+    std::uint8_t green = 0;  ///< 0 … 255
+    std::uint8_t blue = 0;   ///< 0 … 255
 
+    /// Whether all three channels are equal.
     friend bool operator==(const CssColour&, const CssColour&) = default;
 };
 
 /// Reads `#rgb`, `#rrggbb` or one of the 148 names of CSS Color Module Level 4, in upper or lower case.
-/// @throws Error InvalidArgument, naming the text and what is allowed
+/// @throws Error InvalidArgument, with the text and the allowed forms
 CssColour parseCssColour(std::string_view text);
 
 /// The colour as `#rrggbb`.

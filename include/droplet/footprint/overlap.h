@@ -8,22 +8,26 @@
 
 namespace droplet {
 
-/// The ground that a droplet of one domain and one of another both cover.
+/// Ground that one droplet of each of two domains covers.
 struct Overlap {
     std::size_t first = 0;   ///< droplet of the first domain
     std::size_t second = 0;  ///< droplet of the second domain
     double area = 0.0;       ///< [m²], > 0
 
+    /// Whether both droplets and the area are equal.
     friend bool operator==(const Overlap&, const Overlap&) = default;
 };
 
-/// Which droplets of two domains lie over one another, and how much.
+/// Finds the droplets of two domains that overlap, and by how much.
 ///
-/// Areas are lengths of overlap along rows, exact, times the rows' distance: good to about a row's distance times the
-/// overlap's height. Time and memory grow with the loops' points and the rows they cross.
-/// @param row    distance of the rows, such as half a pixel [m], > 0
-/// @return       by ascending first, then second
-/// @throws Error InvalidArgument
+/// An area is the length of overlap along rows, which is exact, times the distance of the rows. Its error is about the
+/// distance of the rows times the height of the overlap. Time and memory grow with the loops' points and with the rows
+/// that they cross.
+/// @param first   its droplets do not overlap one another
+/// @param second  likewise
+/// @param row     distance of the rows [m], > 0; half a pixel is a good value
+/// @return        in ascending order of first, then of second
+/// @throws Error  InvalidArgument
 std::vector<Overlap> overlaps(const Domain& first, const Domain& second, double row);
 
 }  // namespace droplet

@@ -3,16 +3,16 @@
 
 namespace droplet {
 
-/// How the pixels of a picture are told into liquid and dry.
+/// Methods that sort the pixels of a picture into liquid and dry.
 enum class Segmentation {
-    Auto,       ///< Threshold, or Adaptive where that makes the better mask; a picture that is no mask is refused
-    Threshold,  ///< one level for the whole picture, or alpha: right for drawings, logos, type and scans
-    Adaptive,   ///< levels of dry and liquid that follow the light from place to place: right for photographs
-    GrabCut,    ///< colours of dry and liquid, learned from what Adaptive finds, with a short rim between them
-    Colour,     ///< what has the colour asked for
+    Auto,       ///< Threshold, or Adaptive if its mask is better; throws if neither gives a mask
+    Threshold,  ///< one level for the whole picture, or alpha; for drawings, logos, type and scans
+    Adaptive,   ///< levels of dry and liquid that follow the light across the picture; for photographs
+    GrabCut,    ///< colours of dry and liquid, learned from the result of Adaptive, with a short rim between them
+    Colour,     ///< everything of a given colour
 };
 
-/// `auto`, `threshold`, `adaptive`, `grabcut` or `colour`.
+/// Name of a method: `auto`, `threshold`, `adaptive`, `grabcut` or `colour`.
 const char* name(Segmentation segment);
 
 }  // namespace droplet

@@ -9,26 +9,27 @@
 
 namespace droplet {
 
-/// The same connections with the rim somewhere else: inner vertices move as the rim does, harmonically.
-/// @param mesh   to start from
-/// @param rim    where the rim's vertices are to stand, as many as the mesh has
-/// @return       the mesh there, its lattice forgotten; triangles may be turned over
-/// @throws Error InvalidArgument
+/// Moves the rim of a mesh; inner vertices follow harmonically, connections stay.
+/// @param mesh   mesh to start from
+/// @param rim    new places of the rim's vertices [m], as many as the mesh has
+/// @return       the moved mesh, without its lattice; triangles may be turned over
+/// @throws Error InvalidArgument if the number of places is wrong
 PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 
-/// Moves a mesh with a footprint that moves and changes little, so that vertices keep their identity.
+/// Moves a mesh to a footprint that moved and changed little, so that vertices keep their identity.
 ///
-/// The rim's vertices go where they would go by the nearest way once the loops' middles and sizes are made the same,
-/// evenly; corners of the new footprint get a vertex each; then the rim is widened or narrowed until it has the
-/// footprint's area. Inner vertices follow harmonically from where they stood in `first`, so nothing adds up over a run
-/// of frames.
+/// First, the old and new loops are brought to the same centre and size. Each rim vertex then goes to the nearest place
+/// on the new loop, and places that are too close or too far apart are evened out. Each corner of the new footprint
+/// gets a vertex. Finally the rim is widened or narrowed until its area is that of the footprint. Inner vertices move
+/// harmonically from their places in `first`, so errors do not add up over a run of frames.
 ///
-/// Guarantees: connections are those of `first`, triangles are not turned over and have angles of at least 15° or three
-/// quarters of the least of `first`, edges are between 2/3 and 3/2 as long in the mean, chords stand off their piece of
-/// the loop by less than a fifth of their length. Where that cannot be, there is no mesh: triangulate anew.
-/// @param first      the mesh a run of frames began with
-/// @param last       the same mesh where it stands now: connections of `first`
-/// @param footprint  to go to
+/// Guarantees: connections are those of `first`; no triangle is turned over; angles are at least 15°, or three quarters
+/// of the smallest angle of `first` if that is less; the mean edge is between 2/3 and 3/2 as long; chords lie off their
+/// piece of the loop by less than a fifth of their length.
+/// @param first      mesh with which the run of frames began
+/// @param last       the same mesh at its present place, with the connections of `first`
+/// @param footprint  footprint to move to
+/// @return           the moved mesh; empty if the guarantees cannot be met, then triangulate the footprint anew
 /// @throws Error     InvalidArgument if the meshes have different connections
 std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint);
 

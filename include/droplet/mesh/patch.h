@@ -10,24 +10,26 @@
 
 namespace droplet {
 
-/// A mesh that has vertices of older ones.
+/// Mesh that keeps vertices of older meshes.
 struct PatchedMesh {
-    PlanarMesh mesh;
-    std::size_t kept = 0;  ///< vertices that stand where an older mesh had them
+    PlanarMesh mesh;       ///< the new mesh
+    std::size_t kept = 0;  ///< number of vertices at the place they have in an older mesh
 };
 
-/// Triangulates a footprint, and keeps of older meshes what stands far from where rims changed: so liquid at rest does
-/// not flicker where a drip grows elsewhere, and droplets that meet keep their far ends.
+/// Triangulates a footprint, and keeps the old triangles that are far from changes of the rim. So liquid at rest does
+/// not flicker while a drip grows elsewhere, and droplets that meet keep their far ends.
 ///
-/// Vertices of old rims stay where the new rim runs along them, by less than a twentieth of an edge; triangles stay
-/// that are more than two edges and a half away from where it does not. What is left is triangulated anew.
+/// Old rim vertices stay where the new rim runs less than a twentieth of an edge away from them. Triangles stay if they
+/// are more than two and a half edges away from all other parts of the rim. The rest is triangulated anew.
 ///
-/// Guarantees: the invariants of PlanarMesh; a rim off the footprint's by less than a fiftieth of an edge in the mean,
-/// by area. Where that cannot be, or nothing can be kept, there is no mesh: triangulate anew. Angles of what is new are
-/// as those of triangulate(), wherever the old rim and triangles admit it: the caller may look.
-/// @param before     meshes that do not overlap
-/// @param footprint  to be covered; its loops do not cross
+/// Guarantees: the invariants of PlanarMesh; the rim lies off the footprint's rim by less than a fiftieth of an edge in
+/// the mean, by area. New triangles have the angles of triangulate() where the old rim and triangles allow it; the
+/// caller may check.
+/// @param before     old meshes, which do not overlap
+/// @param footprint  region to cover; its loops do not cross
 /// @param edge       length of a triangle's edge [m], > 0
+/// @return           the mesh; empty if the guarantees cannot be met or nothing can be kept, then triangulate the
+///                   footprint anew
 std::optional<PatchedMesh> patch(const std::vector<const PlanarMesh*>& before, const Footprint& footprint, double edge);
 
 }  // namespace droplet

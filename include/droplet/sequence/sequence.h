@@ -10,75 +10,79 @@
 
 namespace droplet {
 
-/// What is kept from frame to frame.
+/// Volume that is conserved from frame to frame.
 enum class VolumeMode {
-    Total,  ///< the volume of all droplets together, which share it as one reservoir (thesis 4.2.4); all of it is gone
-            ///< in frames without liquid and back after them
-    Track,  ///< the volume of every droplet, through merging and splitting
+    Total,  ///< total volume of all droplets, which share it as one reservoir (thesis 4.2.4); it is 0 in frames without
+            ///< liquid and restored after them
+    Track,  ///< volume of each droplet, through merging and splitting
 };
 
-/// How frames become droplets.
+/// Options of a sequence.
 struct SequenceOptions {
-    DropletOptions droplet;  ///< of every frame; how much liquid: of the first, and of droplets that come from nowhere
-    VolumeMode volume_mode = VolumeMode::Total;
-    bool keep_vertices = true;  ///< move a mesh with its footprint, or keep its triangles far from where the rim
-                                ///< changed, where that is possible; else triangulate every frame
+    DropletOptions droplet;  ///< options of every frame; the fill applies to the first frame and to new droplets
+    VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
+    bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
+                                ///< where possible; if false, triangulate every frame
 
-    /// @throws Error InvalidArgument also with a fill_range, volumes of each droplet, or with VolumeMode::Total unless
-    ///               fill.sharing is Total
+    /// @throws Error InvalidArgument if a value is out of its range, with a fill_range, with volumes of each droplet,
+    ///               or with VolumeMode::Total unless fill.sharing is Total
     void validate() const;
 };
 
-/// Where a droplet of a frame comes from, and what it holds.
+/// Origin of a droplet and its prescribed volume.
 struct Ancestry {
-    std::size_t id = 0;             ///< the same from frame to frame; never given twice
-    std::vector<std::size_t> from;  ///< ids in the frame before of what became this droplet; empty where it is new
-    double volume = 0.0;            ///< prescribed [m³]
+    std::size_t id = 0;             ///< the same in all frames; never reused
+    std::vector<std::size_t> from;  ///< ids of droplets of the frame before that became this one; empty if it is new
+    double volume = 0.0;            ///< prescribed volume [m³]
 };
 
-/// What the next frame needs to know of how a frame was made.
+/// Data about a frame that nextFrame() needs.
 struct FrameLineage;
 
-/// One frame of a sequence.
+/// Frame of a sequence.
 struct Frame {
-    Droplet droplet;                 ///< without meshes and surface where there is no liquid
+    Droplet droplet;                 ///< the droplets; without meshes and surface if the frame has no liquid
     std::vector<Ancestry> droplets;  ///< one per droplet
-    bool continues = false;  ///< the surface is that of the frame before, moved: vertex by vertex, same triangles
-    std::optional<double> vertices_kept;  ///< share of the meshes' vertices that the frame before had, there or moved;
-                                          ///< empty if there is no frame before, or no liquid in one of the two
-    double volume_gained = 0.0;  ///< by droplets that come from nowhere; with VolumeMode::Total only after a frame
-                                 ///< without liquid [m³]
-    double volume_lost = 0.0;    ///< by droplets that went nowhere; with VolumeMode::Total only into such a frame [m³]
-    std::shared_ptr<const FrameLineage> lineage;  ///< of firstFrame() and nextFrame(), for nextFrame()
+    bool continues = false;          ///< the surface has the triangles of the frame before; only its vertices moved
+    std::optional<double> vertices_kept;  ///< share of the meshes' vertices that the frame before had, in place or
+                                          ///< moved; empty if there is no frame before, or one of the two is dry
+    double volume_gained = 0.0;  ///< volume of new droplets [m³]; with VolumeMode::Total only after a dry frame
+    double volume_lost = 0.0;    ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame
+    std::shared_ptr<const FrameLineage> lineage;  ///< set by firstFrame() and nextFrame(), read by nextFrame()
 };
 
-/// The first frame: makeDroplet(), with one pressure for all if the total volume is to be kept.
-/// @param outline  without loops: a frame without liquid
-/// @throws Error as makeDroplet
+/// Makes the first frame: as makeDroplet(), with one pressure for all droplets if the total volume is conserved.
+/// @param outline   rims; none for a frame without liquid
+/// @param options   options of the sequence
+/// @param progress  called at every stage; may be empty
+/// @throws Error    as makeDroplet
 Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
-/// The next frame.
+/// Makes the next frame.
 ///
-/// Droplets belong together where their footprints overlap by a quarter of the smaller one, or where each overlaps none
-/// more than the other. What belongs together, directly or by way of others, is a group, whose volume is conserved. Of
-/// a group that ends as one droplet, that has all of it. One that ends as several was one liquid at one pressure until
-/// it broke, so they get what they held then: volumes in proportion to what one pressure would give them, by the linear
-/// model on level flat ground, which is exact for that, in proportion elsewhere. Of the parts of the droplet that gave
-/// the most, the one that covers most of its ground keeps its id. Overlap with nothing: a new droplet, filled as
-/// droplet.solve.fill says, or a lost one.
+/// Two droplets belong together if their footprints overlap by a quarter of the smaller one, or if each of the two
+/// overlaps no other droplet more. Droplets that belong together, directly or through others, form a group, and the
+/// volume of a group is conserved. If a group ends as one droplet, that droplet gets all of it. If it ends as several,
+/// they were one liquid at one pressure until it broke. So they get volumes in proportion to what one common pressure
+/// would give them by the linear model on level flat ground; there this is exact. Of the parts of the droplet that gave
+/// the most volume, the one that covers most of its ground keeps its id. A droplet that overlaps nothing is new, filled
+/// by droplet.solve.fill, or lost.
 ///
-/// Where every droplet goes on as one droplet with as many holes, meshes move along (mesh/follow.h), and droplets stand
-/// in the order they had. Elsewhere, with the linear model and without grading, droplets keep their triangles far from
-/// where their rims changed (mesh/patch.h), and the edge's length is that of the frames before, as long as that gives
-/// half to twice the triangles asked for.
+/// If every droplet continues as one droplet with the same number of holes, meshes move along (mesh/follow.h) and
+/// droplets keep their order. Else, with the linear model and without grading, droplets keep their triangles far from
+/// changes of their rims (mesh/patch.h). The length of an edge then stays the same as long as it gives half to twice
+/// the requested number of triangles.
 ///
-/// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next are new. The
-/// first droplets of all are filled as droplet.solve.fill says, whenever they come.
+/// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next frame are new.
+/// The first droplets of a sequence are filled by droplet.solve.fill, in whatever frame they appear.
 ///
-/// Guarantees: volumes are those of the frame before − lost + gained, and with VolumeMode::Total the same in every
-/// frame with liquid, to 1e-9.
-/// @param before   the frame before, as firstFrame() or nextFrame() made it, of a picture of the same extent
-/// @throws Error   as makeDroplet; InvalidInput if the extent is another; InvalidArgument if `before` has no lineage
+/// Guarantees: the volume is that of the frame before − lost + gained; with VolumeMode::Total it is the same in every
+/// frame with liquid; both to 1e-9.
+/// @param before    frame before, made by firstFrame() or nextFrame() from a picture of the same extent
+/// @param outline   rims; none for a frame without liquid
+/// @param options   options of the sequence
+/// @param progress  called at every stage; may be empty
+/// @throws Error    as makeDroplet; InvalidInput if the extent differs; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
 }  // namespace droplet

@@ -14,55 +14,55 @@
 
 namespace droplet {
 
-/// What of a frame is worth telling once it is made.
+/// Figures of one frame for the report.
 struct FrameReport {
-    std::string input;                    ///< its picture as given, or which of the video's frames
-    std::optional<std::string> output;    ///< its file, where every frame has its own
+    std::string input;                    ///< path of its picture as given, or the number of the video's frame
+    std::optional<std::string> output;    ///< path of its file, if every frame has its own
     bool continues = false;               ///< as in Frame
     std::optional<double> vertices_kept;  ///< as in Frame
     double volume_gained = 0.0;           ///< as in Frame [m³]
     double volume_lost = 0.0;             ///< as in Frame [m³]
-    ShapeFigures total;
-    std::optional<double> pressure;  ///< [Pa]; empty when droplets have pressures of their own
-    std::size_t vertices = 0;        ///< of the surface
-    std::size_t triangles = 0;       ///< of the surface
-    bool closed = false;
-    std::vector<Ancestry> ancestry;       ///< one per droplet
-    std::vector<DropletReport> droplets;  ///< one per droplet
+    ShapeFigures total;                   ///< of all droplets together
+    std::optional<double> pressure;       ///< pressure [Pa]; empty if droplets have different pressures
+    std::size_t vertices = 0;             ///< of the surface
+    std::size_t triangles = 0;            ///< of the surface
+    bool closed = false;                  ///< whether the surface is closed
+    std::vector<Ancestry> ancestry;       ///< origins, one per droplet
+    std::vector<DropletReport> droplets;  ///< figures, one per droplet
 };
 
-/// Measures what a frame's report tells.
+/// Measures the figures of a frame for its report; input and output stay empty.
 FrameReport reportOf(const Frame& frame, const SequenceOptions& options);
 
-/// What a sequence was made of and what came of it.
+/// Report on a sequence: its inputs, options and results.
 struct SequenceReport {
-    std::vector<std::string> inputs;  ///< as given
-    std::string output;               ///< as given
-    Format format = Format::Glb;
-    std::uint64_t bytes = 0;  ///< of all files
-    int width_px = 0;
-    int height_px = 0;
-    double pixel_size = 0.0;  ///< [m]
-    double frames_per_second = 24.0;
-    VolumeMode volume_mode = VolumeMode::Total;
-    SolveOptions physics;
-    GroundReport ground;
-    std::vector<FrameReport> frames;
-    std::vector<std::string> warnings;
-    std::size_t grave_warnings = 0;  ///< so many of the first are told even where only errors are
-    double time_total = 0.0;         ///< [s]
+    std::vector<std::string> inputs;             ///< paths of the pictures as given
+    std::string output;                          ///< path of the result as given
+    Format format = Format::Glb;                 ///< format of the files
+    std::uint64_t bytes = 0;                     ///< size of all files together
+    int width_px = 0;                            ///< width of a picture
+    int height_px = 0;                           ///< height of a picture
+    double pixel_size = 0.0;                     ///< edge of a pixel [m]
+    double frames_per_second = 24.0;             ///< frame rate of the animation [1/s]
+    VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
+    SolveOptions physics;                        ///< liquid and fill
+    GroundReport ground;                         ///< ground under the droplets
+    std::vector<FrameReport> frames;             ///< one per frame
+    std::vector<std::string> warnings;           ///< the grave ones first
+    std::size_t grave_warnings = 0;  ///< number of warnings, from the first, that are shown even in quiet mode
+    double time_total = 0.0;         ///< run time [s]
     std::uint64_t peak_memory = 0;   ///< [bytes]
 
-    /// Mean of the frames' vertices_kept; empty if no frame has it.
+    /// Mean vertices_kept of all frames that have it; empty if none has.
     [[nodiscard]] std::optional<double> meanKept() const;
-    /// How many frames have no liquid.
+    /// Number of frames without liquid.
     [[nodiscard]] std::size_t dry() const;
-    /// How many frames continue the one before.
+    /// Number of frames that continue the one before.
     [[nodiscard]] std::size_t kept() const;
 };
 
 /// Writes a report as JSON, schema `droplet-shape.sequence/1`, by the rules of writeReport.
-/// @throws Error NoSuchDroplet if a number is not finite, naming its key; nothing is written then
+/// @throws Error NoSuchDroplet if a number is not finite, with its key; then nothing is written
 void writeSequenceReport(std::ostream& out, const SequenceReport& report);
 
 }  // namespace droplet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The module that decodes images, and encodes OpenEXR, with OpenCV's imgcodecs, which loads over a hundred libraries:
-// so it is opened only when a file needs it.
+// Module that decodes images, and encodes OpenEXR, with OpenCV's imgcodecs. It loads over a hundred libraries, so it is
+// opened only when a file needs it.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -23,18 +23,18 @@ struct TooLarge {
     int height = 0;
 };
 
-/// What is decoded on a thread: how large it may be, and what OpenCV has said.
+/// Decoding on a thread: the size limit, and OpenCV's messages.
 struct Decoding {
     std::size_t max_pixels = 0;
-    std::string words;
+    std::string messages;
 };
 
 thread_local Decoding* decoding = nullptr;
 
-/// Refuses an image that is too large where OpenCV, having read the header, asks for its memory.
-class Gate : public cv::MatAllocator {
+/// Rejects an image that is too large at the moment when OpenCV, having read the header, allocates its memory.
+class SizeLimitAllocator : public cv::MatAllocator {
 public:
-    explicit Gate(const cv::MatAllocator* allocator) : allocator_(allocator) {}
+    explicit SizeLimitAllocator(const cv::MatAllocator* allocator) : allocator_(allocator) {}
 
     cv::UMatData* allocate(int dimensions, const int* sizes, int type, void* data, std::size_t* step,
                            cv::AccessFlag flags, cv::UMatUsageFlags usage) const override
@@ -55,10 +55,10 @@ private:
     const cv::MatAllocator* allocator_;
 };
 
-/// Keeps what OpenCV prints of a file from std::cerr; what other threads print passes.
-class Ear : public std::streambuf {
+/// Captures what OpenCV prints to std::cerr about a file; other threads' output passes.
+class MessageCapture : public std::streambuf {
 public:
-    explicit Ear(std::streambuf* out) : out_(out) {}
+    explicit MessageCapture(std::streambuf* out) : out_(out) {}
 
 protected:
     int_type overflow(int_type c) override
@@ -69,7 +69,7 @@ protected:
         if (decoding == nullptr) {
             return out_->sputc(traits_type::to_char_type(c));
         }
-        decoding->words += traits_type::to_char_type(c);
+        decoding->messages += traits_type::to_char_type(c);
         return c;
     }
     std::streamsize xsputn(const char* text, std::streamsize count) override
@@ -77,7 +77,7 @@ protected:
         if (decoding == nullptr) {
             return out_->sputn(text, count);
         }
-        decoding->words.append(text, static_cast<std::size_t>(count));
+        decoding->messages.append(text, static_cast<std::size_t>(count));
         return count;
     }
     int sync() override { return decoding == nullptr ? out_->pubsync() : 0; }
@@ -86,32 +86,32 @@ private:
     std::streambuf* out_;
 };
 
-/// Both stay to the end of the process.
+/// Installs both. They stay until the end of the process.
 bool install()
 {
-    static auto* const gate = new Gate(cv::Mat::getDefaultAllocator());
-    static auto* const ear = new Ear(std::cerr.rdbuf());
-    cv::Mat::setDefaultAllocator(gate);
-    std::cerr.rdbuf(ear);
+    static auto* const allocator = new SizeLimitAllocator(cv::Mat::getDefaultAllocator());
+    static auto* const capture = new MessageCapture(std::cerr.rdbuf());
+    cv::Mat::setDefaultAllocator(allocator);
+    std::cerr.rdbuf(capture);
     return true;
 }
 
-/// The reason in a message of OpenCV's: "…: error: (-2:Unspecified error) the reason in function 'name'", or
-/// "… error) in function 'name'", a line end, "> the reason:".
-std::string reasonIn(const std::string& words)
+/// Extracts the reason from an OpenCV message. Its forms are "…: error: (-2:Unspecified error) the reason in function
+/// 'name'" and "… error) in function 'name'", a line end, "> the reason:".
+std::string reasonIn(const std::string& messages)
 {
-    const auto error = words.rfind("error: (");
-    auto begin = error == std::string::npos ? error : words.find(") ", error);
+    const auto error = messages.rfind("error: (");
+    auto begin = error == std::string::npos ? error : messages.find(") ", error);
     if (begin == std::string::npos) {
         return "";
     }
     begin += 2;
-    if (words.compare(begin, 11, "in function") == 0) {
-        begin = words.find("> ", begin);
-        begin = begin == std::string::npos ? words.size() : begin + 2;
+    if (messages.compare(begin, 11, "in function") == 0) {
+        begin = messages.find("> ", begin);
+        begin = begin == std::string::npos ? messages.size() : begin + 2;
     }
-    const std::string reason = words.substr(
-        begin, std::min({words.find(" in function", begin), words.find('\n', begin), words.size()}) - begin);
+    const std::string reason = messages.substr(
+        begin, std::min({messages.find(" in function", begin), messages.find('\n', begin), messages.size()}) - begin);
     return reason.find("CV_IO_MAX_IMAGE") == std::string::npos ? reason : "over 2^20 pixels a side or 2^30 in all";
 }
 
@@ -142,7 +142,7 @@ DropletOutcome decode(const cv::Mat& encoded, Decoding& here, DropletPicture& pi
     try {
         auto image = std::make_unique<cv::Mat>(cv::imdecode(encoded, cv::IMREAD_UNCHANGED));
         if (image->empty() || !image->isContinuous()) {
-            return damaged(picture, reasonIn(here.words));
+            return damaged(picture, reasonIn(here.messages));
         }
         picture = {image->cols, image->rows, image->channels(), bitsOf(*image), image->data, nullptr, ""};
         picture.owner = image.release();
@@ -157,7 +157,7 @@ DropletOutcome decode(const cv::Mat& encoded, Decoding& here, DropletPicture& pi
     } catch (const std::bad_alloc&) {
         return DropletOutcome::OutOfMemory;
     } catch (const std::exception&) {
-        return damaged(picture, reasonIn(here.words));
+        return damaged(picture, reasonIn(here.messages));
     }
 }
 
@@ -185,7 +185,7 @@ DropletOutcome encodeExr(const Floats& floats, const Decoding& here, DropletPict
         }
         std::vector<std::uint8_t> bytes;
         if (!cv::imencode(".exr", image, bytes, {cv::IMWRITE_EXR_TYPE, cv::IMWRITE_EXR_TYPE_FLOAT}) || bytes.empty()) {
-            return damaged(picture, reasonIn(here.words));
+            return damaged(picture, reasonIn(here.messages));
         }
         auto file = std::make_unique<cv::Mat>(1, static_cast<int>(bytes.size()), CV_8UC1);
         std::copy(bytes.begin(), bytes.end(), file->data);
@@ -215,7 +215,7 @@ DropletOutcome dropletDecode(const void* encoded, std::size_t size, std::size_t 
         return damaged(*picture, "it is a file of 2 GiB or more");
     }
     Decoding here{max_pixels, {}};
-    // OpenCV reads alone: the const_cast is its interface's.
+    // OpenCV only reads; its interface requires the const_cast.
     const cv::Mat bytes(1, static_cast<int>(size), CV_8UC1, const_cast<void*>(encoded));
     decoding = &here;
     const DropletOutcome outcome = decode(bytes, here, *picture);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
 // After: Scalable Vector Graphics 2 (W3C), 8.2 and 8.12 (the size of a page); CSS Values and Units 3, 5.2.
 //
-// The program that draws SVG with librsvg; see image/svg_drawing.h. It stands alone, so that a drawing that breaks
-// librsvg, or takes more than it may, takes nothing else along.
+// Program that draws SVG with librsvg; see image/svg_drawing.h. It is separate, so that a drawing that crashes librsvg
+// or exceeds its limits affects nothing else.
 //
-// Without a base URI librsvg loads nothing but data: URLs, no file and nothing from the network; it runs no scripts.
+// Without a base URI librsvg loads only data: URLs, no file and nothing from the network; it runs no scripts.
 #include <dlfcn.h>
 #include <librsvg/rsvg.h>
 #include <pthread.h>
@@ -41,11 +42,11 @@ namespace {
 
 constexpr std::size_t kStackOfTag = 8 << 10;  // 7 kB were measured (patterns and masks)
 constexpr std::size_t kMinStack = 8 << 20;
-constexpr double kDotsPerInch = 96.0;  // of CSS
+constexpr double kDotsPerInch = 96.0;  // CSS
 constexpr double kInch = 25.4 * kMillimetre;
-constexpr int kLongestSide = 32767;  // of Cairo's images
+constexpr int kMaxSide = 32767;  // limit of Cairo's images
 
-/// What the library is told in place of a drawing.
+/// Reason reported to the library instead of a drawing.
 class Refusal : public std::runtime_error {
 public:
     Refusal(SvgOutcome outcome, const std::string& problem) : std::runtime_error(problem), outcome(outcome) {}
@@ -53,26 +54,27 @@ public:
     SvgOutcome outcome;
 };
 
-/// The fonts that were asked for.
+/// Fonts that were requested.
 struct Fonts {
-    struct Asked {
+    struct Request {
         double size;
         double place;
     };
-    std::vector<Asked> asked;
-    bool too_large = false;  ///< whether letters were wanted that FreeType cannot make
+    std::vector<Request> requested;
+    bool too_large = false;  ///< whether letters were requested that FreeType cannot make
 };
 
-/// Cairo's functions are called with no place for a state.
+/// Global state, because Cairo's functions have no parameter for one.
 Fonts& fonts()
 {
     static Fonts fonts;
     return fonts;
 }
 
-/// Pango (1.50) asks for the measures of a font by one that is scaled twice. FreeType refuses more than 65535 pixels
-/// an em, whereupon Cairo refuses the font face for good, at any size: letters 20 high on a page of 24 × 24 could not
-/// be drawn. Such a font is refused here, before the face is touched; letters are drawn without its measures.
+/// Creates a scaled font. Pango (1.50) measures a font by one that is scaled twice. FreeType rejects more than 65535
+/// pixels per em, and then Cairo rejects the font face permanently, at any size. So letters of 20 on a page of 24 × 24
+/// could not be drawn. Such a font is rejected here, before the face is touched, and letters are drawn without its
+/// measures.
 cairo_scaled_font_t* scaledFont(cairo_font_face_t* face, const cairo_matrix_t& size, const cairo_matrix_t& place,
                                 const cairo_font_options_t* options)
 {
@@ -82,25 +84,25 @@ cairo_scaled_font_t* scaledFont(cairo_font_face_t* face, const cairo_matrix_t& s
     const auto scale = [](const cairo_matrix_t& matrix) {
         return std::sqrt(std::abs(matrix.xx * matrix.yy - matrix.xy * matrix.yx));
     };
-    const Fonts::Asked now{scale(size), scale(place)};
+    const Fonts::Request now{scale(size), scale(place)};
     if (now.size * now.place < kMaxPixels) {
-        fonts().asked.push_back(now);
+        fonts().requested.push_back(now);
         return create(face, &size, &place, options);
     }
-    const auto has_measures_here = [&](const Fonts::Asked& before) {
-        constexpr double kMaxPangoSize = 1 << 21;  // pixels in its units, 1024 of them
+    const auto has_measures_here = [&](const Fonts::Request& before) {
+        constexpr double kMaxPangoSize = 1 << 21;  // Pango's largest size in pixels; its unit is 1/1024
         constexpr double kRounding = 1e-2;
         const double twice = std::min(before.size * before.place, kMaxPangoSize / now.place);
         return std::abs(before.place / now.place - 1.0) < kRounding && std::abs(twice / now.size - 1.0) < kRounding;
     };
     Fonts& all = fonts();
-    all.too_large = all.too_large || std::none_of(all.asked.begin(), all.asked.end(), has_measures_here);
-    // A face without a name is in error from the start, and so is its font.
+    all.too_large = all.too_large || std::none_of(all.requested.begin(), all.requested.end(), has_measures_here);
+    // A face without a name is in error, and so is its font.
     return create(cairo_toy_font_face_create(nullptr, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL), &size, &place,
                   options);
 }
 
-/// Where the page is as large as what is drawn on it, that is moved into place.
+/// Page of a document. With as_drawn it has the bounds of the drawing, which is moved onto it.
 struct Page {
     double width = 0.0;   ///< [CSS px]
     double height = 0.0;  ///< [CSS px]
@@ -108,7 +110,7 @@ struct Page {
     std::optional<double> physical_width;  ///< [m]
 };
 
-/// A grid of pixels over a page. It is exactly as wide as the page, and less than a pixel higher.
+/// Grid of pixels over a page. It is exactly as wide as the page, and less than a pixel higher.
 struct Raster {
     int width = 1;
     int height = 1;
@@ -122,7 +124,7 @@ public:
         GError* error = nullptr;
         handle_ = rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(text.data()), text.size(), &error);
         if (handle_ == nullptr) {
-            throw Refusal(SvgOutcome::Damaged, taken(error));
+            throw Refusal(SvgOutcome::Damaged, messageOf(error));
         }
         rsvg_handle_set_dpi(handle_, kDotsPerInch);
     }
@@ -145,7 +147,7 @@ public:
         if (rsvg_handle_get_intrinsic_size_in_pixels(handle_, &page.width, &page.height) != FALSE) {
             page.physical_width = metres(width);
         } else if (has_box != FALSE) {
-            // One of the two may be stated; the other, like both, is that of the box.
+            // Either size may be given; missing ones follow from the box.
             const double aspect = box.width / box.height;
             page.physical_width = metres(width);
             if (const auto physical_height = metres(height); physical_height && !page.physical_width) {
@@ -161,7 +163,7 @@ public:
             RsvgRectangle ink{};
             GError* error = nullptr;
             if (rsvg_handle_get_geometry_for_element(handle_, nullptr, &ink, nullptr, &error) == FALSE) {
-                throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + taken(error));
+                throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + messageOf(error));
             }
             page.width = ink.width;
             page.height = ink.height;
@@ -173,7 +175,7 @@ public:
         return page;
     }
 
-    /// Into premultiplied colours, row by row; the page lies at the top left and is `scale` times as large.
+    /// Draws into premultiplied colours, row by row. The page is at the top left, enlarged by `scale`.
     void draw(const Page& page, const Raster& raster, unsigned char* pixels)
     {
         cairo_surface_t* const surface = cairo_image_surface_create_for_data(pixels, CAIRO_FORMAT_ARGB32, raster.width,
@@ -188,7 +190,7 @@ public:
         cairo_destroy(context);
         cairo_surface_destroy(surface);
         if (!drawn || failed) {
-            throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + (drawn ? "Cairo fails" : taken(error)));
+            throw Refusal(SvgOutcome::Refused, "cannot be drawn: " + (drawn ? "Cairo fails" : messageOf(error)));
         }
         if (fonts().too_large) {
             throw Refusal(SvgOutcome::Refused, "has letters of more than 65535 pixels, larger than can be drawn");
@@ -196,14 +198,14 @@ public:
     }
 
 private:
-    /// What went wrong, in one line; the error is freed.
-    std::string taken(GError* error) const
+    /// Message of an error in one line; frees the error.
+    std::string messageOf(GError* error) const
     {
         std::string message = error == nullptr ? "unknown error" : error->message;
         if (error != nullptr) {
             g_error_free(error);
         }
-        // "Error domain 1 code 77 on line 1 column 134 of data: ..." is libxml2's.
+        // Remove libxml2's "Error domain 1 code 77 on line 1 column 134 of data: ...".
         if (const auto from = message.find("Error domain "), to = message.find("on line ", from);
             from != std::string::npos && to != std::string::npos) {
             message.erase(from, to - from);
@@ -240,23 +242,22 @@ private:
 
 Raster rasterOf(const Page& page, const SvgRequest& request)
 {
-    // A page as narrow as a hair is drawn larger than asked for rather than as a row of pixels.
+    // A very narrow page is drawn larger than requested instead of as a row of pixels.
     constexpr double kShortSide = 16.0;
     const double max = static_cast<double>(request.max_pixels);
-    const double long_side = std::clamp(request.long_side, 1, kLongestSide);
+    const double long_side = std::clamp(request.long_side, 1, kMaxSide);
     double scale = std::max(long_side / std::max(page.width, page.height),
                             std::min(kShortSide, long_side) / std::min(page.width, page.height));
-    scale =
-        std::min({scale, kLongestSide / std::max(page.width, page.height), std::sqrt(max / page.width / page.height)});
+    scale = std::min({scale, kMaxSide / std::max(page.width, page.height), std::sqrt(max / page.width / page.height)});
     double width = std::max(1.0, std::round(page.width * scale));
     const auto height = [&] {
         constexpr double kRounding = 1e-6;
         return std::max(1.0, std::ceil(page.height / page.width * width - kRounding));
     };
-    while (width > 1.0 && (width * height() > max || height() > kLongestSide)) {
+    while (width > 1.0 && (width * height() > max || height() > kMaxSide)) {
         width -= 1.0;
     }
-    if (!(height() <= kLongestSide && width * height() <= max)) {
+    if (!(height() <= kMaxSide && width * height() <= max)) {
         throw Refusal(SvgOutcome::Refused, "has a page of " + numberText(page.width) + " x " + numberText(page.height) +
                                                ", too narrow to be drawn in " + std::to_string(request.max_pixels) +
                                                " pixels");
@@ -264,7 +265,7 @@ Raster rasterOf(const Page& page, const SvgRequest& request)
     return {static_cast<int>(width), static_cast<int>(height()), width / page.width};
 }
 
-/// Draws the text on the request's page into the file that is our standard output.
+/// Draws the text into the file that is the standard output.
 void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing& drawing)
 {
     Document document(text);
@@ -282,7 +283,7 @@ void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing
     drawing = {SvgOutcome::Drawn, raster.width, raster.height, raster.scale, page.physical_width.value_or(0.0), {}};
 }
 
-/// What is asked for takes no more than it says, and ends with the thread that asks.
+/// Limits the process to the requested resources, and lets it end with the thread that started it.
 void limit(const SvgRequest& request)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -294,39 +295,39 @@ void limit(const SvgRequest& request)
     time.it_value.tv_sec = static_cast<time_t>(request.seconds);
     time.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (request.seconds - std::floor(request.seconds)));
     setitimer(ITIMER_PROF, &time, nullptr);
-    // Filters run in threads, each with a stack; on large machines those alone would be too much.
+    // Filters run in threads, each with a stack. On large machines the stacks alone would exceed the limit.
     setenv("RAYON_NUM_THREADS", "4", 0);
 }
 
-/// What there is to do.
+/// Input and output of the drawing thread.
 struct Task {
     const SvgRequest& request;
     std::span<const std::byte> text;
     SvgDrawing& drawing;
 };
 
-void tell(SvgDrawing& drawing, SvgOutcome outcome, const std::string& problem)
+void report(SvgDrawing& drawing, SvgOutcome outcome, const std::string& problem)
 {
     drawing.outcome = outcome;
     problem.copy(drawing.problem.data(), drawing.problem.size() - 1);
 }
 
-void* drawOrTell(void* argument)
+void* drawOrReport(void* argument)
 {
     const Task& task = *static_cast<const Task*>(argument);
     try {
         draw(task.text, task.request, task.drawing);
     } catch (const Refusal& refusal) {
-        tell(task.drawing, refusal.outcome, refusal.what());
+        report(task.drawing, refusal.outcome, refusal.what());
     } catch (const std::exception& error) {
-        tell(task.drawing, SvgOutcome::Refused, std::string("cannot be drawn: ") + error.what());
+        report(task.drawing, SvgOutcome::Refused, std::string("cannot be drawn: ") + error.what());
     }
     return nullptr;
 }
 
-/// Draws on a stack as deep as elements can refer to one another: none can refer to itself. Below it is a page that
-/// ends us.
-bool drawDeep(Task task)
+/// Draws on a stack that is deep enough for elements to refer to one another (none can refer to itself). The guard page
+/// below it ends the process.
+bool drawOnDeepStack(Task task)
 {
     constexpr std::size_t kGuard = 1 << 16;
     const std::size_t size =
@@ -341,7 +342,7 @@ bool drawDeep(Task task)
     pthread_t thread{};
     pthread_attr_init(&attributes);
     pthread_attr_setstack(&attributes, stack, size);
-    const bool started = pthread_create(&thread, &attributes, drawOrTell, &task) == 0;
+    const bool started = pthread_create(&thread, &attributes, drawOrReport, &task) == 0;
     pthread_attr_destroy(&attributes);
     return started && pthread_join(thread, nullptr) == 0;
 }
@@ -363,8 +364,8 @@ int start()
     auto& drawing = *new (to) SvgDrawing();
     limit(request);
     const std::span<const std::byte> whole(static_cast<const std::byte*>(from), static_cast<std::size_t>(size.st_size));
-    if (!drawDeep({request, whole.subspan(sizeof request), drawing})) {
-        tell(drawing, SvgOutcome::Refused, "needs more memory than there is");
+    if (!drawOnDeepStack({request, whole.subspan(sizeof request), drawing})) {
+        report(drawing, SvgOutcome::Refused, "needs more memory than is available");
     }
     return 0;
 }
@@ -372,7 +373,8 @@ int start()
 }  // namespace
 }  // namespace droplet
 
-// Cairo's own is called from here alone: a program's functions stand before those of its libraries.
+// Replaces Cairo's function, because a program's functions precede those of its libraries; only scaledFont() calls the
+// original.
 cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cairo_matrix_t* size,
                                               const cairo_matrix_t* place, const cairo_font_options_t* options)
 {
@@ -381,5 +383,5 @@ cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cai
 
 int main()
 {
-    _exit(droplet::start());  // without the destructors of what the libraries keep
+    _exit(droplet::start());  // without the destructors of static objects in libraries
 }
