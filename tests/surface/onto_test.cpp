@@ -352,7 +352,7 @@ TEST(Onto, DropletsOffOrAcrossChartsAreLeftOutWhole)
     EXPECT_NEAR(result.surface.positions.back().z, 1.0, 1e-12);
     EXPECT_NEAR(volume(result.surface) / (2.0 * enclosedVolume(left)), 1.0, 1e-9);
     EXPECT_THAT(result.report.warnings,
-                ::testing::ElementsAre(HasSubstr("not wholly on a chart"), HasSubstr("across a seam")));
+                ::testing::ElementsAre(HasSubstr("not completely on a chart"), HasSubstr("across a seam")));
 
     expectRefused(together(middle, off), halves(), kPicture, ErrorCode::NoSuchDroplet, "none of 2 droplets");
 }
