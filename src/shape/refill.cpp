@@ -46,7 +46,7 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
     requireRefillable(options);
     if (meshes.empty() || meshes.size() != fields.size()) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("{} fields must be as many as the {} meshes", fields.size(), meshes.size()));
+                    fmt::format("fields must have {} entries, one per mesh, not {}", meshes.size(), fields.size()));
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (fields[k].height.size() != meshes[k].vertices.size()) {

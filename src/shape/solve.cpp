@@ -165,7 +165,7 @@ void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
     }
     if (volumes.size() != meshes.size()) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("{} volumes must be as many as the {} meshes", volumes.size(), meshes.size()));
+                    fmt::format("volumes must have {} entries, one per mesh, not {}", meshes.size(), volumes.size()));
     }
     if (options.fill.sharing != FillSharing::Each) {
         throw Error(ErrorCode::InvalidArgument, "fill.sharing must be each if volumes are given");

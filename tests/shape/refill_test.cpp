@@ -172,7 +172,7 @@ TEST(RefillRefuses, WhatIsNotAffine)
     SolveOptions above;
     above.no_penetration = true;
     EXPECT_THAT(refusalOf(above, fields), HasSubstr("no_penetration"));
-    EXPECT_THAT(refusalOf(linear, {fields[0]}), HasSubstr("1 against 3"));
+    EXPECT_THAT(refusalOf(linear, {fields[0]}), HasSubstr("must have 3 entries, one per mesh, not 1"));
     EXPECT_THAT(refusalOf(linear, {fields[1], fields[0], fields[2]}), HasSubstr("field 0"));
 }
 
