@@ -148,10 +148,10 @@ TEST(Font, CollectionsHoldSeveralFonts)
 
 TEST(Font, WhatIsNoFontIsRefused)
 {
-    expectError(ErrorCode::InvalidInput, {"is no font"}, [] { decodeFont({}); });
+    expectError(ErrorCode::InvalidInput, {"is not a font"}, [] { decodeFont({}); });
     expectError(ErrorCode::InvalidInput, {"cannot read /no/such.ttf"}, [] { readFont("/no/such.ttf"); });
     expectError(ErrorCode::InvalidInput, {"cannot read /usr"}, [] { readFont("/usr"); });
-    expectError(ErrorCode::InvalidInput, {"CMakeLists.txt: is no font"},
+    expectError(ErrorCode::InvalidInput, {"CMakeLists.txt: is not a font"},
                 [] { readFont(testing::inSource("CMakeLists.txt")); });
 }
 
@@ -163,7 +163,7 @@ TEST(Font, FontsOfPicturesAreRefused)
         "FONTBOUNDINGBOX 8 8 0 0\nSTARTPROPERTIES 2\nFONT_ASCENT 8\nFONT_DESCENT 0\nENDPROPERTIES\nCHARS 1\n"
         "STARTCHAR A\nENCODING 65\nSWIDTH 1000 0\nDWIDTH 8 0\nBBX 8 1 0 0\nBITMAP\nFF\nENDCHAR\nENDFONT\n";
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    expectError(ErrorCode::InvalidInput, {"pictures of its glyphs, no outlines"}, [&] {
+    expectError(ErrorCode::InvalidInput, {"bitmaps of its glyphs, not outlines"}, [&] {
         decodeFont({first, text.size()});
     });
 }
@@ -235,7 +235,7 @@ TEST(Charset, IsRefusedWithAReason)
 {
     expectError(ErrorCode::InvalidArgument, {"charset is empty"}, [] { parseCharset(" "); });
     expectError(ErrorCode::InvalidArgument, {"U+005A 'Z' to U+0041 'A' runs backward"}, [] { parseCharset("Z-A"); });
-    expectError(ErrorCode::InvalidArgument, {"U+110000 is no character"}, [] { parseCharset("U+110000"); });
+    expectError(ErrorCode::InvalidArgument, {"U+110000 is not a character"}, [] { parseCharset("U+110000"); });
     for (const char* text : {"a\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82", "\x80"}) {
         expectError(ErrorCode::InvalidArgument, {"not UTF-8 at byte"}, [&] { parseCharset(text); });
     }
