@@ -64,7 +64,7 @@ void requireAnyPlaced(const OntoReport& report, std::size_t count)
 
 /// Counts charts with vertices of droplets on other charts, flipped charts with droplets, and results.
 void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& droplets,
-                 const std::vector<Placement>& placements, OntoReport& report)
+                 const std::vector<DropletPlacement>& placements, OntoReport& report)
 {
     std::vector<bool> overlapping(atlas.facing.size(), false);
     std::vector<bool> flipped(atlas.facing.size(), false);
@@ -75,7 +75,7 @@ void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& dro
             overlapping[hit.chart] = true;
         }
     }
-    for (const Placement& placement : placements) {
+    for (const DropletPlacement& placement : placements) {
         switch (placement.result) {
             case PlacementResult::Placed:
                 ++report.laid;
@@ -144,7 +144,7 @@ OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const On
     const DropletNumbers numbers = numberDroplets(droplets);
     const std::vector<std::uint32_t>& droplet = numbers.of;
     const Hits hits = findHits(droplets, atlas, flat);
-    std::vector<Placement> placements = placeDroplets(hits, numbers);
+    std::vector<DropletPlacement> placements = placeDroplets(hits, numbers);
 
     const auto is_placed = [&](std::size_t v) {
         return droplet[v] != DropletNumbers::kNone && placements[droplet[v]].result == PlacementResult::Placed;

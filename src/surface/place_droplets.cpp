@@ -56,15 +56,15 @@ Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2
     return hits;
 }
 
-std::vector<Placement> placeDroplets(const Hits& hits, const DropletNumbers& droplets)
+std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbers& droplets)
 {
-    std::vector<Placement> placements(droplets.count);
+    std::vector<DropletPlacement> placements(droplets.count);
     std::vector<std::optional<std::vector<std::uint32_t>>> common(droplets.count);
     for (std::size_t v = 0; v < droplets.of.size(); ++v) {
         if (droplets.of[v] == DropletNumbers::kNone) {
             continue;
         }
-        Placement& placement = placements[droplets.of[v]];
+        DropletPlacement& placement = placements[droplets.of[v]];
         auto& charts = common[droplets.of[v]];
         if (hits.at(v).empty()) {
             placement.result = PlacementResult::Outside;

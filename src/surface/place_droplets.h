@@ -48,12 +48,12 @@ Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2
 enum class PlacementResult { Placed, Outside, Across, Folded };
 
 /// Chart of a droplet.
-struct Placement {
+struct DropletPlacement {
     PlacementResult result = PlacementResult::Placed;
     std::uint32_t chart = 0;
 };
 
 /// Finds the first chart that contains all vertices, for every droplet.
-std::vector<Placement> placeDroplets(const Hits& hits, const DropletNumbers& droplets);
+std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbers& droplets);
 
 }  // namespace droplet
