@@ -66,7 +66,7 @@ struct Comparison {
     NormalDeviation normals_of_a;  ///< angles at the points of a
     NormalDeviation normals_of_b;  ///< angles at the points of b
     NormalDeviation normals;       ///< the larger of both angles; rms over both areas
-    bool same_topology = false;    ///< whether both are manifolds with the same counts
+    bool same_topology = false;    ///< whether all members of both topologies are equal
 
     /// Difference of the volumes, (b − a)/a; empty if a has no volume.
     [[nodiscard]] std::optional<double> relativeVolume() const;

@@ -59,7 +59,7 @@ struct SolveReport {
     std::size_t unknowns = 0;  ///< number of inner vertices of all droplets
     std::size_t iterations = 0;    ///< largest number for a linear system; 1 for a factorisation
     std::size_t newton_steps = 0;  ///< largest number for a droplet; 1 for the linear model
-    double residual = 0.0;  ///< largest relative residual of a droplet: ‖Ax − b‖/‖b‖, or that of the exact model's
+    double residual = 0.0;  ///< largest relative residual of a droplet: ‖Ax − b‖/‖b‖, or of the exact model's
                             ///< equations
     Termination termination = Termination::NotConverged;  ///< result
     std::size_t failed_droplet = 0;                       ///< index of the first droplet that failed
@@ -86,14 +86,14 @@ struct SolveOptions {
     double tilt_direction = -0.5 * std::numbers::pi;  ///< downhill in the plane, counter-clockwise from +x [rad]
     Model model = Model::Linear;                      ///< linear or exact area
     BaseSurface ground;                               ///< ground under the droplets
-    bool no_penetration = false;       ///< keep u ≥ h: the liquid leaves the ground dry where it would sink into it
-    Fill fill;                         ///< amount of liquid, unless volumes are given
-    std::vector<double> volumes = {};  ///< volume of each droplet, in the order of the meshes [m³]; replaces fill,
-                                       ///< whose sharing must be FillSharing::Each. Empty: fill is used
-    Solver solver = Solver::Auto;         ///< solver of the linear systems
-    std::size_t max_newton_steps = 400;   ///< limit per droplet, exact model; to prove that no droplet exists takes 100
-    std::optional<double> max_work = {};  ///< limit per droplet, exact model: sum over its linear systems of unknowns
-                                          ///< times iterations plus 16 per step. Empty: 6e7 plus 2000 per unknown
+    bool no_penetration = false;         ///< keep u ≥ h: the liquid leaves the ground dry where it would sink into it
+    Fill fill;                           ///< amount of liquid, unless volumes are given
+    std::vector<double> volumes = {};    ///< volume of each droplet, in the order of the meshes [m³]; replaces fill,
+                                         ///< whose sharing must be FillSharing::Each. Empty: fill is used
+    Solver solver = Solver::Auto;        ///< solver of the linear systems
+    std::size_t max_newton_steps = 400;  ///< limit per droplet, exact model; to prove that no droplet exists takes 100
+    std::optional<double> max_work = {};  ///< limit per droplet, exact model: sum of unknowns × (iterations + 16)
+                                          ///< over its linear systems. Empty: 6e7 plus 2000 per unknown
 
     /// Checks all options.
     /// @throws Error InvalidArgument

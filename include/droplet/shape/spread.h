@@ -16,8 +16,8 @@ namespace droplet {
 /// solution. At a contact angle of 85° the exact model converges with order 2 on such meshes, and with little more than
 /// order 1 on others.
 ///
-/// Guarantees: connections, rim and area stay; triangles keep their winding. A mesh with an expected
-/// mean contact angle of at most 60° does not change. The others lose their lattice.
+/// Guarantees: connections, rim and area stay; triangles keep their winding. A mesh with an expected mean
+/// contact angle of at most 60° does not change. The others lose their lattice.
 /// @param meshes   valid, at least one
 /// @param options  options of the solve that follows
 /// @throws Error   as solve

@@ -19,14 +19,14 @@ struct OntoOptions {
     void validate() const;
 };
 
-/// Result for each kind of droplet and chart.
+/// Counts of droplets and charts, and scales.
 struct OntoReport {
     std::size_t laid = 0;                ///< droplets on the object
     std::size_t outside = 0;             ///< droplets left out because a part lies beside all charts
     std::size_t across = 0;              ///< droplets left out because they cross from one chart to another
     std::size_t folded = 0;              ///< droplets left out because they are too high for the hollow below them
     std::size_t mirrored = 0;            ///< droplets on the object, on charts that mirror the picture
-    std::size_t flipped_charts = 0;      ///< charts with droplets that mirror the picture
+    std::size_t flipped_charts = 0;      ///< charts that mirror the picture and have droplets
     std::size_t overlapping_charts = 0;  ///< charts whose uv contain points of a droplet on an earlier chart
     double min_scale = 0.0;              ///< smallest length on the object per length in the picture, at a droplet
     double max_scale = 0.0;              ///< largest such ratio
@@ -56,9 +56,8 @@ struct OntoResult {
 /// @param droplets  valid; z = 0 is the ground, uv are those of the picture
 /// @param object    valid
 /// @param options   extent of the picture
-/// @throws Error    InvalidArgument; InvalidInput: no triangle of the object has an area in uv; NoSuchDroplet: no
-/// droplet
-///                  can be placed
+/// @throws Error    InvalidArgument; InvalidInput: no triangle of the object has an area in uv; NoSuchDroplet: all
+///                  droplets are left out
 OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options);
 
 /// Measures the length on the object per unit of uv [m]: √(area / area in uv), the median weighted by area, so that a

@@ -50,10 +50,9 @@ Surface refilled(const Surface& surface, double fill);
 
 /// Topology of a surface, with copies of a vertex welded. All numbers are 0 unless it is a manifold.
 struct Topology {
-    bool manifold =
-        false;            ///< whether every edge has at most two triangles, with one winding, and every vertex one fan
-    bool closed = false;  ///< whether it is a manifold without a boundary edge
-    long euler = 0;       ///< V − E + F over all components
+    bool manifold = false;           ///< every edge has at most two triangles, wound alike, and every vertex one fan
+    bool closed = false;             ///< manifold without a boundary edge
+    long euler = 0;                  ///< V − E + F over all components
     std::size_t components = 0;      ///< connected parts
     std::size_t boundary_loops = 0;  ///< closed loops of boundary edges
 };
