@@ -213,7 +213,7 @@ std::pair<double, double> Energy::contactAngle(std::uint32_t rim_vertex, double 
         derivative = sine == flux ? 1.0 / std::sqrt(1.0 - sine * sine) : 0.0;
     }
     // On level flat ground the liquid stays above it; a negative angle is an error of the recovery.
-    const bool above = physics_.no_penetration || (restsOnGround() && physics_.normal >= 0.0);
+    const bool above = physics_.no_penetration || (isLevelAndFlat() && physics_.normal >= 0.0);
     if (above && angle < 0.0) {
         return {0.0, 0.0};
     }
@@ -247,7 +247,7 @@ std::vector<std::uint32_t> Energy::dryRim(const std::vector<std::uint8_t>& held)
     return dry;
 }
 
-bool Energy::restsOnGround() const
+bool Energy::isLevelAndFlat() const
 {
     return ground_.empty() && physics_.along == Vec2{};
 }

@@ -54,7 +54,7 @@ public:
     [[nodiscard]] std::pair<double, double> contactAngle(std::uint32_t rim_vertex, double flux) const;
 
     /// Whether a sheet on the ground is in equilibrium without pressure: the ground is level and flat.
-    [[nodiscard]] bool restsOnGround() const;
+    [[nodiscard]] bool isLevelAndFlat() const;
 
     /// Rim vertices with all their triangles on the ground.
     [[nodiscard]] std::vector<std::uint32_t> dryRim(const std::vector<std::uint8_t>& held) const;

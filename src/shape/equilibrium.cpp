@@ -520,7 +520,7 @@ std::vector<std::vector<double>> gradientsOf(const std::vector<Member>& members)
     std::vector<std::vector<double>> gradients(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
         const bool empty = members[k].sheet->volume == 0.0 && members[k].sheet->pressure == 0.0;
-        if (!(empty && members[k].energy->restsOnGround())) {
+        if (!(empty && members[k].energy->isLevelAndFlat())) {
             gradients[k] = members[k].energy->gradient(members[k].sheet->height);
         }
     });

@@ -75,10 +75,10 @@ HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (isDegenerate(triangles[t]) ||
             !add_face(t, [](std::uint32_t v) { return OpenMesh::VertexHandle(static_cast<int>(v)); })) {
-            result.apart.push_back(t);
+            result.separate.push_back(t);
         }
     }
-    for (const std::uint32_t t : result.apart) {
+    for (const std::uint32_t t : result.separate) {
         add_face(t, [&](std::uint32_t v) { return add_vertex(places[v]); });
     }
     return result;
@@ -99,7 +99,7 @@ UnionFind joinedAcrossEdges(const HalfEdges& half_edges, const std::vector<Trian
         }
     }
     std::unordered_map<std::uint64_t, std::uint32_t> first;  // separate triangle at every edge
-    for (const std::uint32_t t : half_edges.apart) {
+    for (const std::uint32_t t : half_edges.separate) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
             joined.join(t, first.try_emplace(std::uint64_t{low} << 32 | high, t).first->second);
@@ -120,7 +120,7 @@ Topology topology(const HalfEdges& half_edges)
     Topology result;
     std::size_t vertices = 0;
     std::size_t around = 0;
-    bool manifold = half_edges.apart.empty();
+    bool manifold = half_edges.separate.empty();
     for (const auto v : mesh.vertices()) {
         vertices += mesh.is_isolated(v) ? 0 : 1;
         around += mesh.valence(v);

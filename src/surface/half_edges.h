@@ -23,7 +23,7 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
 struct HalfEdges {
     OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the given places
     std::vector<std::uint32_t> triangles;                 ///< triangle of every face
-    std::vector<std::uint32_t> apart;                     ///< triangles with vertices of their own
+    std::vector<std::uint32_t> separate;                  ///< triangles with vertices of their own
 };
 
 /// Makes half-edges.

@@ -105,7 +105,7 @@ TEST(Solvers, AgreeOnTheZoo)
                     const Solution solution = solved(meshes, gravity, solver);
                     ASSERT_TRUE(solution.report.usable());
                     EXPECT_LT(solution.report.residual, 1e-9);
-                    double apart = 0.0;
+                    double difference = 0.0;
                     std::size_t not_liquid = 0;
                     for (std::size_t k = 0; k < meshes.size(); ++k) {
                         const HeightField& field = solution.droplets[k];
@@ -113,11 +113,11 @@ TEST(Solvers, AgreeOnTheZoo)
                         EXPECT_NEAR(field.pressure / wanted.pressure, 1.0, 1e-8);
                         for (std::uint32_t v = 0; v < meshes[k].vertices.size(); ++v) {
                             const double h = field.height[v];
-                            apart = std::max(apart, std::abs(h - wanted.height[v]));
+                            difference = std::max(difference, std::abs(h - wanted.height[v]));
                             not_liquid += meshes[k].onRim(v) ? (h != 0.0) : !(h > 0.0);
                         }
                     }
-                    EXPECT_LT(apart, 1e-8 * 1e-3);
+                    EXPECT_LT(difference, 1e-8 * 1e-3);
                     EXPECT_EQ(not_liquid, 0U) << "heights that are not 0 on the rim and positive inside";
                 }
             }

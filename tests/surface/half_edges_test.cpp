@@ -70,12 +70,14 @@ TEST(HalfEdges, StoreEveryTriangleOfAnySoup)
 
 TEST(HalfEdges, StoreTrianglesThatDoNotFitSeparately)
 {
-    const auto apart = [](const std::vector<Triangle>& triangles) { return halfEdges(places(8), triangles).apart; };
-    EXPECT_THAT(apart({{0, 1, 2}, {1, 0, 3}}), ::testing::IsEmpty());
-    EXPECT_THAT(apart({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), ::testing::ElementsAre(2));
-    EXPECT_THAT(apart({{0, 1, 1}, {0, 1, 2}, {0, 1, 2}}), ::testing::ElementsAre(0, 2));
+    const auto separate = [](const std::vector<Triangle>& triangles) {
+        return halfEdges(places(8), triangles).separate;
+    };
+    EXPECT_THAT(separate({{0, 1, 2}, {1, 0, 3}}), ::testing::IsEmpty());
+    EXPECT_THAT(separate({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), ::testing::ElementsAre(2));
+    EXPECT_THAT(separate({{0, 1, 1}, {0, 1, 2}, {0, 1, 2}}), ::testing::ElementsAre(0, 2));
     // A closed vertex takes no more triangles.
-    EXPECT_THAT(apart({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), ::testing::ElementsAre(3));
+    EXPECT_THAT(separate({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), ::testing::ElementsAre(3));
 }
 
 TEST(HalfEdges, LeaveOpenMeshsMessagesAsTheyWere)

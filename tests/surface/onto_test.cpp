@@ -477,10 +477,10 @@ TEST(Onto, TrianglesWithoutAreaAreIgnored)
 TEST(Onto, SameBitsAtAnyNumberOfThreads)
 {
     const Surface droplet = roundDroplet({.outer = 8e-3, .rings = 100, .segments = 200});
-    const auto laid = [&] { return layOnto(droplet, meshOf(can(50)), kPicture).surface; };
-    const Surface parallel = laid();
+    const auto placed = [&] { return layOnto(droplet, meshOf(can(50)), kPicture).surface; };
+    const Surface parallel = placed();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Surface sequential = laid();
+    const Surface sequential = placed();
     EXPECT_EQ(parallel.positions, sequential.positions);
     EXPECT_EQ(parallel.normals, sequential.normals);
     EXPECT_EQ(parallel.triangles, sequential.triangles);
