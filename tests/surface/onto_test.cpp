@@ -459,7 +459,7 @@ TEST(Onto, DropletsThatWouldFoldAreLeftOut)
     EXPECT_EQ(result.report.laid, 1U);
     EXPECT_EQ(result.report.folded, 1U);
     EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("hollow")));
-    expectRefused(high, meshOf(tube), kPicture, ErrorCode::NoSuchDroplet, "1 thicker");
+    expectRefused(high, meshOf(tube), kPicture, ErrorCode::NoSuchDroplet, "1 too high");
 }
 
 TEST(Onto, TrianglesWithoutAreaAreIgnored)
