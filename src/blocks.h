@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// Long arrays are worked on in blocks of this length: long enough for a thread to be worth its while.
+/// Length of the blocks of long arrays: enough work to pay for a thread.
 inline constexpr std::size_t kBlock = 16384;
 
 /// Calls work(begin, end) for every block of [0, count), in parallel if there are several.
@@ -24,7 +24,7 @@ void forBlocks(std::size_t count, const Work& work, std::size_t length = kBlock)
                       [&](std::size_t b) { work(b * length, std::min(count, (b + 1) * length)); });
 }
 
-/// What map(begin, end) returns for every block of [0, count), in their order: summed up, the same at any number of
+/// Results of map(begin, end) for every block of [0, count), in their order. So their sum is the same at any number of
 /// threads.
 template <typename Result, typename Map>
 std::vector<Result> mapBlocks(std::size_t count, const Map& map, std::size_t length = kBlock)
@@ -41,7 +41,7 @@ std::vector<Result> mapBlocks(std::size_t count, const Map& map, std::size_t len
     return results;
 }
 
-/// Sum over blocks, each summed up by sum(begin, end), in their order.
+/// Sum of sum(begin, end) over all blocks, in their order.
 template <typename Sum>
 double sumOverBlocks(std::size_t count, const Sum& sum)
 {
@@ -57,7 +57,7 @@ template <typename A>
 double dotOf(const std::vector<A>& a, const std::vector<double>& b)
 {
     return sumOverBlocks(a.size(), [&](std::size_t begin, std::size_t end) {
-        // Four sums, so that they need not wait for one another.
+        // Four independent sums, so that no addition waits for the one before.
         double s0 = 0.0;
         double s1 = 0.0;
         double s2 = 0.0;

@@ -18,7 +18,7 @@ std::string rounded(double value)
     return numberText(value, 3);
 }
 
-/// A count as --triangles takes it, large ones rounded: 5300, 41.2k, 1.25M.
+/// Count in the notation of --triangles; large ones are rounded: 5300, 41.2k, 1.25M.
 std::string countText(std::size_t count)
 {
     constexpr std::size_t kThousands = 10'000;
@@ -32,17 +32,17 @@ std::string countText(std::size_t count)
 std::string percent(double share)
 {
     constexpr double kMin = 1e-3;
-    constexpr double kWhole = 0.1;  // from here on without a decimal, which two digits would write as 9.5e+02
+    constexpr double kWhole = 0.1;  // larger shares have no decimals; with two digits they would become 9.5e+02
     return share < kMin      ? "less than 0.1 %"
            : share >= kWhole ? numberText(std::round(100.0 * share)) + " %"
                              : numberText(100.0 * share, 2) + " %";
 }
 
-/// Share of the footprint that is too steep for the linear model, from which on that can be seen: heights differ by 2 %
-/// from those of the exact model, at the same volume, where it is 14 % of a letter.
+/// Share of the footprint too steep for the linear model above which the error is visible. At the same volume, heights
+/// of both models differ by 2 % if this share is 14 % of a letter.
 constexpr double kVisiblySteep = 0.05;
 
-/// How much of all rims liquid leaves at 89° or more, by length.
+/// Share of all rims, by length, with a contact angle of at least 89°.
 double uprightShare(const Droplet& droplet)
 {
     constexpr double kUpright = 89.0 * kDegree;
@@ -61,11 +61,11 @@ double uprightShare(const Droplet& droplet)
     return upright / droplet.total.rim_length;
 }
 
-/// How high a droplet may be before it is called a tower. Of droplets with one contact angle all along the rim round
-/// ones six capillary lengths wide are higher than an endless puddle, by 8 % for small angles, where (I₀(x) − 1)/I₁(x)
-/// has its maximum. Where a jagged rim has small angles the mean is small beside what holds up the middle: real
-/// drawings reach 33 %. The linear model's puddle is √(σ/ρg) tan θ high, which is to be believed up to 50°.
-double tallest(const ShapeFigures& figures, Model model)
+/// Largest height that is plausible. With one contact angle along the whole rim, round droplets six capillary lengths
+/// wide are the highest: by 8 % higher than an infinite puddle for small angles, where (I₀(x) − 1)/I₁(x) has its
+/// maximum. A jagged rim has small angles that lower the mean but not the height: real drawings reach 33 %. In the
+/// linear model a puddle is √(σ/ρg) tan θ high, which holds up to 50°.
+double maxPlausibleHeight(const ShapeFigures& figures, Model model)
 {
     constexpr double kRoundAndJagged = 1.4;
     const double angle = std::min(figures.contact_angle.mean, 50.0 * kDegree);
@@ -73,13 +73,13 @@ double tallest(const ShapeFigures& figures, Model model)
     return *figures.height_bound * kRoundAndJagged * (model == Model::Linear ? linear : 1.0);
 }
 
-/// What is said of droplets that are towers; empty if none is.
-std::string towers(const Droplet& droplet, Model model)
+/// Warning about droplets that are too high; empty if there are none.
+std::string heightWarning(const Droplet& droplet, Model model)
 {
     std::size_t count = 0;
     const ShapeFigures* worst = nullptr;
     for (const ShapeFigures& figures : droplet.figures) {
-        if (figures.height_bound && figures.height_max > tallest(figures, model)) {
+        if (figures.height_bound && figures.height_max > maxPlausibleHeight(figures, model)) {
             ++count;
             worst = worst == nullptr || figures.height_max > worst->height_max ? &figures : worst;
         }
@@ -94,8 +94,7 @@ std::string towers(const Droplet& droplet, Model model)
     return which + rounded(worst->height_max / kMillimetre) +
            " mm high, but a puddle of this liquid with a mean contact angle of " +
            rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
-           rounded(*worst->height_bound / kMillimetre) +
-           " mm; look whether its footprint is what was meant, or ask for less liquid";
+           rounded(*worst->height_bound / kMillimetre) + " mm; check its footprint, or ask for less liquid";
 }
 
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
@@ -111,7 +110,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     const double upright = options.solve.model == Model::Exact ? uprightShare(droplet) : 0.0;
     if (upright > 0.0) {
         warnings.push_back("the liquid stands upright along " + percent(upright) +
-                           " of its rim, where that bends into it; in truth it hangs over there");
+                           " of its rim; a real droplet would hang over there; ask for less liquid");
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +
@@ -129,7 +128,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     return warnings;
 }
 
-/// Why there is no droplet, and what to change.
+/// Message that says why there is no droplet, and what to change.
 std::string refusal(const SolveReport& report, const Droplet& droplet, const Fill& fill)
 {
     const bool one_of_several = droplet.meshes.size() > 1 && fill.sharing == FillSharing::Each;
@@ -140,15 +139,15 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
         case Termination::NoHeightField:
             return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
                    numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL, beyond it the liquid hangs over its rim; ask for less";
+                   " uL; more liquid would hang over its rim; ask for less";
         case Termination::OutOfSteps:
-            return which + std::to_string(report.newton_steps) + " steps of Newton's method went as far as " +
+            return which + std::to_string(report.newton_steps) + " steps of Newton's method reached only " +
                    numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL on this footprint, not to what was asked for; ask for less, or smooth the footprint";
+                   " uL on this footprint; ask for less, or smooth the footprint";
         case Termination::Unstable:
             return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
-                   ", and at most " + numberText(report.critical_bond_number, 4) +
-                   " holds on this footprint; ask for less --gravity or a smaller --width";
+                   ", but at most " + numberText(report.critical_bond_number, 4) +
+                   " can hang on this footprint; use a smaller --gravity or --width";
         case Termination::NotConverged:
         case Termination::Converged:
             break;
@@ -206,7 +205,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     }
     droplet.surface = loft(droplet.meshes, droplet.solution.droplets, lofting);
     droplet.warnings = warningsOf(droplet, options);
-    if (std::string tall = towers(droplet, options.solve.model); !tall.empty()) {
+    if (std::string tall = heightWarning(droplet, options.solve.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
         droplet.grave_warnings = 1;
     }

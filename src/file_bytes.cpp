@@ -52,7 +52,7 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::f
         if (count == 0 || !expected(bytes)) {
             break;
         }
-        std::error_code no_size;  // a pipe has none, and needs none
+        std::error_code no_size;  // a pipe has no size
         if (const auto size = std::filesystem::file_size(path, no_size); !no_size) {
             bytes.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, max)));
         }

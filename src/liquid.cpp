@@ -5,8 +5,8 @@
 // - ethanol, mercury: Jasper, "The surface tension of pure liquid compounds", J. Phys. Chem. Ref. Data 1 (1972) 841,
 //   γ = 24.05 − 0.0832 t and 490.6 − 0.2049 t; densities: CRC Handbook of Chemistry and Physics, 95th ed.
 // - glycerol: Miner and Dalton (eds.), "Glycerol" (1953).
-// - honey: Bogdanov, "Book of Honey" (2009), chapter 4, for 18 % water; of its surface tension of 50 to 60 mN/m the
-//   middle.
+// - honey: Bogdanov, "Book of Honey" (2009), chapter 4, for 18 % water; the middle of its range of surface tensions, 50
+//   to 60 mN/m.
 #include "droplet/liquid.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ const Liquid& liquidNamed(std::string_view name)
     for (const Liquid& liquid : known) {
         names += (names.empty() ? "" : ", ") + liquid.name;
     }
-    throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is no liquid known by name; known: " + names);
+    throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is not a known liquid; known: " + names);
 }
 
 std::optional<double> capillaryLength(const Liquid& liquid, double gravity)

@@ -7,7 +7,7 @@
 
 namespace droplet {
 
-/// How a number stands in a message: in its shortest form, rounded to that many significant digits, and never as −0.
+/// Number for a message: in its shortest form, with that many significant digits, never −0.
 inline std::string numberText(double value, int digits = 6)
 {
     return fmt::format("{:.{}g}", value + 0.0, digits);

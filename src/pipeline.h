@@ -7,17 +7,17 @@
 
 namespace droplet {
 
-/// The meshes of a droplet's domain, as its model wants them.
+/// Meshes of a domain, suited to the model.
 std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options);
 
-/// The stages from meshes on: solve, measure, loft.
+/// Runs the stages after meshing: solve, measure, loft.
 /// @param droplet  with outline, domain and meshes
-/// @param bases    cover() of every mesh, where known; else empty
+/// @param bases    cover() of every mesh, if known; otherwise empty
 /// @throws Error   NoSuchDroplet if the solver failed
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress);
 
-/// Guarantees: returns only when the options of every stage but trace are valid.
+/// Checks the options of all stages but trace.
 /// @throws Error InvalidArgument
 void validateStages(const DropletOptions& options);
 

@@ -9,8 +9,8 @@
 
 namespace droplet {
 
-/// Refuses a field's value: "field is value, must be constraint".
-/// @param field       of any type that libfmt takes, with its owner: "wiper.stroke"
+/// Throws an error about a field: "field is value, must be constraint".
+/// @param field       name with its owner: "wiper.stroke"; any type that libfmt takes
 /// @param constraint  what the value must be, with its unit: "finite and more than 0 s"
 template <typename Field, typename Value, typename Constraint>
 [[noreturn]] void refuseValue(const Field& field, const Value& value, const Constraint& constraint)
@@ -25,7 +25,7 @@ template <typename Field, typename Value, typename Constraint>
     throw Error(ErrorCode::InvalidArgument, fmt::format("{} is {}, must be {}", field, text(value), constraint));
 }
 
-/// Refuses the value unless the condition holds. See refuseValue.
+/// Throws refuseValue() unless the condition holds.
 template <typename Value>
 void require(bool holds, const char* field, const Value& value, const char* constraint)
 {
@@ -34,7 +34,7 @@ void require(bool holds, const char* field, const Value& value, const char* cons
     }
 }
 
-/// Refuses a number that is not from `min` to `max`.
+/// Throws refuseValue() unless the value is from `min` to `max`.
 inline void requireWithin(const char* field, int value, int min, int max)
 {
     if (value < min || value > max) {

@@ -11,14 +11,14 @@
 
 namespace droplet {
 
-/// Disjoint sets of the numbers below a count, each named by its smallest member.
+/// Disjoint sets of the numbers below a count. The smallest member of a set is its name.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    /// @param parent  for each number one of its own set, itself or a smaller one
+    /// @param parent  for each number itself or a smaller one of the same set
     explicit UnionFind(std::vector<std::uint32_t> parent) : parent_(std::move(parent)) {}
 
-    /// The name of a number's set.
+    /// Name of a number's set.
     std::uint32_t find(std::uint32_t a)
     {
         while (parent_[a] != a) {
@@ -27,7 +27,7 @@ public:
         return a;
     }
 
-    /// Makes two sets one; false where they are already.
+    /// Joins two sets. Returns false if they are one already.
     bool join(std::uint32_t a, std::uint32_t b)
     {
         a = find(a);

@@ -14,7 +14,7 @@
 namespace droplet {
 namespace {
 
-/// A unit as a fraction: dividing by an exact power of ten rounds once, where multiplying by 1e-3 would round twice.
+/// Unit as a fraction. Division by an exact power of ten rounds once; multiplication by 1e-3 would round twice.
 struct Unit {
     std::string_view name;
     double numerator;
@@ -71,7 +71,7 @@ Kind kindOf(Dimension dimension)
     throw Error(ErrorCode::InvalidArgument, "dimension: no such kind of quantity");
 }
 
-/// The unit with the typographic signs people paste written as the plain characters of the tables.
+/// Replaces typographic signs of a unit by the plain characters of the tables.
 std::string plainUnit(std::string_view unit)
 {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSigns{{
@@ -91,10 +91,10 @@ std::string plainUnit(std::string_view unit)
     return plain;
 }
 
-/// The text in quotes, fit for one line of a message.
+/// Quotes a text for a message of one line.
 std::string quoted(std::string_view text)
 {
-    constexpr std::size_t kLongest = 40;  // a quantity takes a dozen characters; more is not one
+    constexpr std::size_t kLongest = 40;  // a quantity takes about twelve characters
     std::string result = "'";
     for (const char c : text.substr(0, kLongest)) {
         const auto byte = static_cast<unsigned char>(c);
@@ -131,7 +131,7 @@ double parseQuantity(std::string_view text, Dimension dimension)
     if (failure == std::errc::invalid_argument) {
         refuse(text, "is not " + std::string(kind.noun), dimension);
     }
-    // from_chars also knows "inf" and "nan".
+    // from_chars also reads "inf" and "nan".
     if (failure == std::errc::result_out_of_range || !std::isfinite(value)) {
         refuse(text, "is not a finite number", dimension);
     }

@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-/// How many bytes follow a first one; more than 3 if it cannot be one.
+/// Number of bytes that follow a first byte; 4 if it is not a valid first byte.
 std::size_t following(unsigned char first)
 {
     if (first < 0x80) {
@@ -43,7 +43,7 @@ std::u32string decodeUtf8(std::string_view text, const std::string& subject)
             good = (next & 0xc0U) == 0x80U;
             c = (c << 6U) | (next & 0x3fU);
         }
-        // The shortest form alone.
+        // Only the shortest form is valid.
         constexpr char32_t kMin[] = {0, 0x80, 0x800, 0x10000};
         if (!good || c < kMin[count] || !isScalarValue(c)) {
             throw Error(ErrorCode::InvalidArgument, subject + " is not UTF-8 at byte " + std::to_string(i + 1));

@@ -6,13 +6,16 @@
 
 namespace droplet {
 
-/// @throws Error InvalidArgument, `subject` before its complaint: not UTF-8, with the first byte that is not
+/// Decodes UTF-8.
+/// @param subject  start of the error message
+/// @throws Error   InvalidArgument: not UTF-8; the message gives the first wrong byte
 std::u32string decodeUtf8(std::string_view text, const std::string& subject);
 
+/// Encodes a character as UTF-8.
 /// @param character  a Unicode scalar value
 std::string encodeUtf8(char32_t character);
 
-/// A code point as Unicode writes it: `U+0041`.
+/// Code point in the notation of Unicode: `U+0041`.
 std::string codePointOf(char32_t character);
 
 }  // namespace droplet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Surfaces that fill and drain, against the river run again with that much liquid.
+// Surfaces that fill and drain are compared with droplets solved for that amount of liquid.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A ring and a bar askew.
+/// A ring and an inclined bar.
 Mask sceneMask()
 {
     const testing::Inside ring = [](Vec2 p) {
@@ -55,7 +55,7 @@ class DropletRefill : public ::testing::TestWithParam<DropletOptions> {};
 
 INSTANTIATE_TEST_SUITE_P(Everywhere, DropletRefill, ::testing::ValuesIn(kinds()));
 
-TEST_P(DropletRefill, ShowsAtEveryFillWhatTheRiverMakesOfIt)
+TEST_P(DropletRefill, EqualsASolvedDropletAtEveryFill)
 {
     const Surface surface = makeDroplet(sceneMask(), GetParam()).surface;
     for (const double fill : {0.25, 1.0, 2.0}) {
@@ -71,7 +71,7 @@ TEST_P(DropletRefill, ShowsAtEveryFillWhatTheRiverMakesOfIt)
             place = std::max(place, length(found.positions[v] - wanted.positions[v]));
             normal = std::max(normal, length(found.normals[v] - wanted.normals[v]));
         }
-        EXPECT_LT(place, 1e-11) << "at fill " << fill;  // of a millimetre and more
+        EXPECT_LT(place, 1e-11) << "at fill " << fill;  // for sizes of a millimetre and more
         EXPECT_LT(normal, 1e-6) << "at fill " << fill;
         EXPECT_NEAR(found.mean_height / wanted.mean_height, 1.0, 1e-9);
     }
@@ -89,7 +89,7 @@ TEST_P(DropletRefill, VolumeIsLinearInTheFillAndTheSurfaceStaysWhole)
     }
 }
 
-TEST(DropletRefill, IsMadeOnlyWhenAskedForAndChangesNothingElse)
+TEST(DropletRefill, IsOptionalAndChangesNothingElse)
 {
     DropletOptions without = options(FillSharing::Each);
     without.fill_range.reset();

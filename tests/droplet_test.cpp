@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All stages together: exact shapes, balances, relations between runs.
+// All stages together: exact shapes, balances of forces, relations between runs.
 #include "droplet/droplet.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ using testing::smoothMask;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A ring, a bar askew and a small disc on 96 × 72 pixels; no symmetry at all.
+/// A ring, an inclined bar and a small disc on 96 × 72 pixels, without any symmetry.
 Inside scene(double scale = 1.0)
 {
     const Inside outer = disc(scale * Vec2{34.0, 38.0}, scale * 25.0);
@@ -53,7 +53,7 @@ Mask sceneMask(int scale = 1)
     return smoothMask(96 * scale, 72 * scale, scene(scale));
 }
 
-/// What the tests start from: little work, no gravity, pixels of a fifth of a millimetre.
+/// Options for most tests: few triangles, no gravity, pixels of a fifth of a millimetre.
 DropletOptions plain()
 {
     DropletOptions options;
@@ -109,8 +109,8 @@ TEST(Droplet, DiscIsTheParaboloidOfItsContactAngle)
     const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, kRadius)), options);
     const double radius = kRadius * *options.trace.pixel_size;
     const double slope = std::tan(40.0 * kDegree);
-    // Coverage in 256 levels places the rim to a few 1/1000 px, 1e-4 of the radius; 6000 triangles have h/R = 1/31, and
-    // linear elements fall short by about h²/R² = 1e-3 in volume.
+    // With 256 levels of coverage the rim is exact to a few 1/1000 px, 1e-4 of the radius. 6000 triangles have h/R =
+    // 1/31, and the volume of linear elements is too small by about h²/R² = 1e-3.
     EXPECT_THAT(droplet.warnings, IsEmpty());
     expectSound(droplet);
     expectRelative(droplet.total.footprint_area, kPi * radius * radius, 5e-4, "area");
@@ -157,7 +157,7 @@ TEST(Droplet, OutlineGivesTheSameDropletAsItsMask)
 
 TEST(Droplet, ConvergesAsTheMaskGetsFiner)
 {
-    // The same scene on finer and finer masks and meshes; the area is known, the volume from the finest.
+    // The same scene on ever finer masks and meshes. The area is known; the volume is that of the finest one.
     const double radii = 25.0 * 25.0 - 8.0 * 8.0 + 7.0 * 7.0;
     const double pixel = 0.2 * kMillimetre;
     const double exact = (kPi * radii + 4.0 * 13.0 * 8.0) * pixel * pixel;
@@ -178,7 +178,7 @@ TEST(Droplet, ConvergesAsTheMaskGetsFiner)
     EXPECT_LT(std::abs(volumes[2] / volumes[1] - 1.0), 3e-3);
 }
 
-TEST(Droplet, HardMasksComeNearTheSmoothOnes)
+TEST(Droplet, MasksWithHardEdgesGiveSimilarDroplets)
 {
     const Droplet smooth = makeDroplet(sceneMask(2), plain());
     const Droplet hard = makeDroplet(hardMask(192, 144, scene(2.0)), plain());
@@ -186,14 +186,14 @@ TEST(Droplet, HardMasksComeNearTheSmoothOnes)
     EXPECT_FALSE(hard.outline.anti_aliased);
     expectSound(hard);
     ASSERT_EQ(hard.figures.size(), 3U);
-    // A hard rim is known to a fraction of a pixel, of radii from 14 pixels up.
+    // A hard rim is exact to a fraction of a pixel; radii are at least 14 pixels.
     expectRelative(hard.total.footprint_area, smooth.total.footprint_area, 1e-2, "area");
     expectRelative(hard.total.volume, smooth.total.volume, 2e-2, "volume");
 }
 
-TEST(Droplet, ThresholdTakesTheMasksLevelThere)
+TEST(Droplet, ThresholdSetsTheLevelOfTheRim)
 {
-    // Coverage falls evenly from the middle to nothing at 40 px, so that level t is a circle of (1 − t) · 40 px.
+    // Coverage falls linearly from the middle to 0 at 40 px, so level t is a circle with a radius of (1 − t) · 40 px.
     Mask mask;
     mask.width = 91;
     mask.height = 91;
@@ -214,7 +214,7 @@ TEST(Droplet, ThresholdTakesTheMasksLevelThere)
     }
 }
 
-// How much liquid.
+// Amount of liquid.
 
 struct Sharing {
     FillSharing sharing;
@@ -276,7 +276,7 @@ TEST_P(FillTest, ContactAngleIsMet)
     EXPECT_NEAR(droplet.total.contact_angle.mean, wanted, 1e-9);
 }
 
-TEST_P(FillTest, PressureIsSharedWithTheReservoirAlone)
+TEST_P(FillTest, OnlyAReservoirSharesItsPressure)
 {
     const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::ContactAngle, 30.0 * kDegree, GetParam().sharing));
     const std::vector<HeightField>& fields = droplet.solution.droplets;
@@ -312,7 +312,7 @@ TEST(Droplet, HeightsAreProportionalToTheVolume)
 
 // Physics.
 
-TEST(Droplet, PressureCarriesTheWeightAndThePullOfTheRim)
+TEST(Droplet, PressureBalancesTheWeightAndThePullOfTheRim)
 {
     for (const double gravity : {0.0, kStandardGravity, 100.0}) {
         SCOPED_TRACE(gravity);
@@ -332,7 +332,7 @@ TEST(Droplet, PressureCarriesTheWeightAndThePullOfTheRim)
                 }
             }
             const double weight = liquid.density * gravity * droplet.figures[k].volume;
-            // Exact on any mesh: the equations of all vertices, the rim's among them, add up to this.
+            // Exact on any mesh: this is the sum of the equations of all vertices, including the rim.
             expectRelative(liquid.surface_tension * pull + weight, field.pressure * area(mesh), 1e-10, "force");
         }
     }
@@ -348,13 +348,13 @@ TEST(Droplet, PressureTimesVolumeIsTwiceTheLinearEnergy)
         const std::vector<double>& u = droplet.solution.droplets[k].height;
         double stretching = 0.0;  // ∫|∇u|²
         for (const auto& [a, b, c] : mesh.triangles) {
-            // The gradient is the sum of heights times opposite edges, turned by a right angle, over twice the area.
+            // Gradient: sum of heights times opposite edges, turned by 90°, divided by twice the area.
             const Vec2 turned = u[a] * (mesh.vertices[c] - mesh.vertices[b]) +
                                 u[b] * (mesh.vertices[a] - mesh.vertices[c]) +
                                 u[c] * (mesh.vertices[b] - mesh.vertices[a]);
             stretching += 0.5 * dot(turned, turned) / doubleArea(mesh, {a, b, c});
         }
-        // The equations times the solution: exact on any mesh.
+        // Product of the equations with the solution: exact on any mesh.
         expectRelative(options.solve.liquid.surface_tension * stretching + 2.0 * droplet.figures[k].gravity_energy,
                        droplet.solution.droplets[k].pressure * droplet.figures[k].volume, 1e-10, "energy");
     }
@@ -396,7 +396,7 @@ TEST(Droplet, OnlyTheRatioOfWeightToTensionShapes)
     options.solve.liquid.surface_tension *= 4.0;
     options.solve.liquid.density *= 4.0;
     const Droplet more = makeDroplet(sceneMask(), options);
-    // Exact in binary, the square roots of a factorisation included.
+    // Exact in binary, including the square roots of a factorisation.
     EXPECT_EQ(heights(more), heights(once));
     EXPECT_EQ(more.solution.droplets[2].pressure, 4.0 * once.solution.droplets[2].pressure);
     EXPECT_EQ(more.total.surface_energy, 4.0 * once.total.surface_energy);
@@ -409,7 +409,7 @@ TEST(Droplet, WithoutGravityShapesScale)
     const Droplet once = makeDroplet(sceneMask(), options);
     *options.trace.pixel_size *= 4.0;
     const Droplet large = makeDroplet(sceneMask(), options);
-    // Powers of two are exact in binary: nothing in the river knows a length of its own.
+    // Powers of two are exact in binary, and no stage uses an absolute length.
     EXPECT_EQ(heights(large), scaled(4.0, heights(once)));
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(large.solution.droplets[k].pressure, once.solution.droplets[k].pressure / 4.0);
@@ -418,7 +418,7 @@ TEST(Droplet, WithoutGravityShapesScale)
         EXPECT_EQ(large.figures[k].contact_angle.max, once.figures[k].contact_angle.max);
         EXPECT_EQ(large.figures[k].slope_max, once.figures[k].slope_max);
     }
-    // Other factors round: at worst an edge of the triangulation flips somewhere.
+    // Other factors round; at worst a few edges of the triangulation flip.
     options.trace.pixel_size = 3.7 * *plain().trace.pixel_size;
     const Droplet odd = makeDroplet(sceneMask(), options);
     expectRelative(odd.total.volume, std::pow(3.7, 3) * once.total.volume, 1e-4, "volume");
@@ -426,7 +426,7 @@ TEST(Droplet, WithoutGravityShapesScale)
     expectRelative(odd.solution.droplets[0].pressure, once.solution.droplets[0].pressure / 3.7, 1e-4, "pressure");
 }
 
-// The mask turned, mirrored, moved.
+// Turned, mirrored and shifted masks.
 
 Mask rearranged(const Mask& mask, bool transpose, bool flip_x, bool flip_y)
 {
@@ -445,7 +445,7 @@ Mask rearranged(const Mask& mask, bool transpose, bool flip_x, bool flip_y)
     return result;
 }
 
-/// Droplets in order of area: turning a mask reorders them.
+/// Droplets by area, because turning a mask changes their order.
 std::vector<std::size_t> byArea(const Droplet& droplet)
 {
     std::vector<std::size_t> order(droplet.figures.size());
@@ -467,7 +467,7 @@ struct Turn {
 
 class TurnTest : public ::testing::TestWithParam<Turn> {};
 
-TEST_P(TurnTest, LeavesEveryFigureAsItWas)
+TEST_P(TurnTest, ChangesNoFigure)
 {
     const Turn& turn = GetParam();
     DropletOptions options = plain();
@@ -483,11 +483,11 @@ TEST_P(TurnTest, LeavesEveryFigureAsItWas)
         SCOPED_TRACE(k);
         const ShapeFigures& was = upright.figures[a[k]];
         const ShapeFigures& is = turned.figures[b[k]];
-        // A corner's tip depends on where the tracing began, by 0.01 px here, and the bar's rim is 84 px long.
+        // The tip of a corner depends on the start of tracing, by 0.01 px here; the bar's rim is 84 px long.
         expectRelative(is.footprint_area, was.footprint_area, 5e-4, "area");
         expectRelative(is.rim_length, was.rim_length, 1e-3, "rim length");
-        // The lattice lies otherwise: linear elements are off by (edge / half width)² = (0.5 px / 8 px)² = 4e-3 at
-        // most, in heights, which are read at vertices; figures that are integrals gain from averaging.
+        // The lattice has another position. Heights, read at vertices, have errors up to
+        // (edge / half width)² = (0.5 px / 8 px)² = 4e-3; integrals have smaller ones.
         expectRelative(is.height_max, was.height_max, 4e-3, "height");
         expectRelative(is.volume, was.volume, 2e-3, "volume");
         expectRelative(is.surface_energy, was.surface_energy, 1e-3, "surface energy");
@@ -506,9 +506,9 @@ INSTANTIATE_TEST_SUITE_P(Mask, TurnTest,
                                            Turn{"TurnedRight", true, false, true}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(Droplet, PlaceInTheImageDoesNotMatter)
+TEST(Droplet, PositionInTheImageDoesNotMatter)
 {
-    // Ten pixels of dry frame on the left and the top: the same scene elsewhere on the lattice.
+    // Ten dry pixels on the left and the top move the scene on the lattice.
     Mask wide;
     wide.width = 106;
     wide.height = 82;
@@ -526,11 +526,11 @@ TEST(Droplet, PlaceInTheImageDoesNotMatter)
     expectRelative(there.total.volume, here.total.volume, 1e-3, "volume");
 }
 
-TEST(Droplet, NoDropletKnowsOfAnother)
+TEST(Droplet, OtherDropletsDoNotMatter)
 {
     const Droplet both = makeDroplet(sceneMask(), plain());
     DropletOptions options = plain();
-    // Mesh size is shared; given as a length it stays what it was.
+    // Droplets share the mesh size, so it is given as a length.
     options.mesh.edge = 0.2 * kMillimetre;
     const Droplet all = makeDroplet(sceneMask(), options);
     const Inside bar = rectangle({76.0, 22.0}, {13.0, 8.0}, 0.4);
@@ -542,7 +542,7 @@ TEST(Droplet, NoDropletKnowsOfAnother)
     expectRelative(both.figures[byArea(both)[1]].volume, alone.figures[0].volume, 1e-2, "volume at another mesh size");
 }
 
-// The surface.
+// Surface.
 
 TEST(Droplet, ClosedAndOpenSurfacesHaveTheTopologyOfTheirRims)
 {
@@ -561,7 +561,7 @@ TEST(Droplet, TextureCoordinatesLeadBackToLiquidPixels)
 {
     const Mask mask = sceneMask();
     const Droplet droplet = makeDroplet(mask, plain());
-    // The rim itself may fall a hair beyond the edge of a pixel.
+    // The rim itself may lie slightly beyond the edge of a pixel.
     const auto wet = [&](Vec2 uv, Vec2 aside) {
         const int x = static_cast<int>(uv.x * mask.width + aside.x);
         const int y = static_cast<int>(uv.y * mask.height + aside.y);
@@ -575,7 +575,7 @@ TEST(Droplet, TextureCoordinatesLeadBackToLiquidPixels)
     EXPECT_EQ(dry, 0U);
 }
 
-TEST(Droplet, TopOfTheImageIsTheFarSide)
+TEST(Droplet, TopOfTheImageIsAtPositiveY)
 {
     // A small disc in the upper left quarter.
     const Droplet droplet = makeDroplet(smoothMask(64, 64, disc({16.0, 12.0}, 8.0)), plain());
@@ -608,9 +608,9 @@ TEST(Droplet, NormalsAreThoseOfTheShape)
     EXPECT_LT(worst, 2.0 * kDegree);
 }
 
-// Words.
+// Warnings and errors.
 
-TEST(Droplet, WarnsOfSlopesBeyondTheModel)
+TEST(Droplet, WarnsOfSlopesTooSteepForTheModel)
 {
     const Mask mask = smoothMask(64, 64, disc({32.0, 32.0}, 24.0));
     DropletOptions options = plain();
@@ -631,7 +631,7 @@ TEST(Droplet, WarnsOfSlopesBeyondTheModel)
     EXPECT_THAT(makeDroplet(mask, options).warnings, IsEmpty());
 }
 
-/// White noise: six pixels of ten are liquid.
+/// White noise: 60 % of the pixels are liquid.
 Mask noiseMask(std::uint32_t seed)
 {
     return hardMask(64, 64, [&](Vec2) {
@@ -640,8 +640,8 @@ Mask noiseMask(std::uint32_t seed)
     });
 }
 
-// On these rims recovered angles fall to -1 degree at single vertices.
-TEST(Droplet, HasNoAngleBelowTheGroundWhereItIsNowhereBelow)
+// Recovered angles fall to -1 degree at some vertices of these rims.
+TEST(Droplet, HasNoNegativeAngleIfItIsAboveTheGround)
 {
     for (const std::uint32_t seed : {9U, 11U}) {
         DropletOptions options = plain();
@@ -660,7 +660,7 @@ TEST(Droplet, HasNoAngleBelowTheGroundWhereItIsNowhereBelow)
     }
 }
 
-TEST(Droplet, WarnsOfTowersAndStatesHowHighAPuddleIs)
+TEST(Droplet, WarnsOfImpossibleHeights)
 {
     DropletOptions options = plain();
     options.solve.gravity = 9.81;
@@ -680,7 +680,7 @@ TEST(Droplet, WarnsOfTowersAndStatesHowHighAPuddleIs)
     ASSERT_EQ(tower.grave_warnings, 1U);
     EXPECT_THAT(tower.warnings.front(), HasSubstr("30 mm high, but a puddle of this liquid"));
 
-    // Nothing holds a droplet down without weight; on a slope it gathers at the lower end.
+    // Without weight nothing limits the height; on a slope liquid collects at the lower end.
     options.solve.gravity = 0.0;
     EXPECT_FALSE(makeDroplet(mask, options).total.height_bound);
     options.solve.gravity = 9.81;
@@ -690,7 +690,7 @@ TEST(Droplet, WarnsOfTowersAndStatesHowHighAPuddleIs)
     EXPECT_EQ(inclined.grave_warnings, 0U);
 }
 
-TEST(Droplet, RefusesWhatDoesNotExist)
+TEST(Droplet, RefusesDropletsThatDoNotExist)
 {
     const Mask mask = smoothMask(256, 256, disc({128.0, 128.0}, 100.0));
     DropletOptions options = plain();
@@ -730,11 +730,11 @@ TEST(Droplet, WarnsOfATriangleCountOutOfReach)
     const Droplet droplet = makeDroplet(sceneMask(), options);
     expectSound(droplet);
     EXPECT_THAT(droplet.warnings, ElementsAre(HasSubstr("not the 3 asked for")));
-    options.mesh.edge = 10.0;  // a length is no count
+    options.mesh.edge = 10.0;  // a length sets no count
     EXPECT_THAT(makeDroplet(sceneMask(), options).warnings, IsEmpty());
 }
 
-TEST(Droplet, TellsOfEveryStageInOrder)
+TEST(Droplet, ReportsEveryStageInOrder)
 {
     std::vector<Stage> stages;
     makeDroplet(sceneMask(), plain(), [&](Stage stage) { stages.push_back(stage); });
@@ -764,7 +764,7 @@ TEST(Droplet, RefusesBadOptionsBeforeAnyWork)
     EXPECT_FALSE(refused(plain()));
 }
 
-// Same input, same bytes.
+// The same input gives the same bytes.
 
 TEST(Droplet, IsTheSameEveryTimeAtAnyNumberOfThreads)
 {

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(Liquids, BeginWithWaterAsTheDefaultHasIt)
+TEST(Liquids, BeginWithWaterWhichIsTheDefault)
 {
     const Liquid water;
     ASSERT_FALSE(liquids().empty());
@@ -27,7 +27,7 @@ TEST(Liquids, BeginWithWaterAsTheDefaultHasIt)
 
 TEST(Liquids, HaveCapillaryLengthsOfRealLiquids)
 {
-    // √(σ/ρg): water 2.73 mm, ethanol 1.70 mm, mercury 1.91 mm in any textbook; a slip in a unit shows here.
+    // √(σ/ρg): textbooks have 2.73 mm for water, 1.70 mm for ethanol, 1.91 mm for mercury. This finds wrong units.
     const auto capillary_length = [](const char* name) {
         return capillaryLength(liquidNamed(name), kStandardGravity).value_or(0.0);
     };
@@ -45,13 +45,13 @@ TEST(Liquids, HaveNoCapillaryLengthWithoutWeight)
     EXPECT_EQ(capillaryLength({"light", 0.07, 0.0}, kStandardGravity), std::nullopt);
 }
 
-TEST(Liquids, AreValidAndFoundByTheirOwnNames)
+TEST(Liquids, AreValidAndFoundByTheirNames)
 {
     std::set<std::string> names;
     for (const Liquid& liquid : liquids()) {
         EXPECT_NO_THROW(liquid.validate()) << liquid.name;
         EXPECT_EQ(&liquidNamed(liquid.name), &liquid);
-        EXPECT_TRUE(names.insert(liquid.name).second) << liquid.name << " stands twice";
+        EXPECT_TRUE(names.insert(liquid.name).second) << liquid.name << " is in the list twice";
     }
 }
 

@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-TEST(NumberText, IsShortAndNeverLessThanNothing)
+TEST(NumberText, IsShortAndNeverMinusZero)
 {
     EXPECT_EQ(numberText(40.0), "40");
     EXPECT_EQ(numberText(0.1 + 0.2), "0.3");

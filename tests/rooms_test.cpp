@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rooms of the house include one another as the table in docs/architecture.md says, and in no other way.
+// Rooms of the source tree include each other only as the table in docs/architecture.md allows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,10 +26,10 @@ using ::testing::Not;
 
 struct Room {
     std::string name;
-    std::string includes;  ///< its table cell
+    std::string includes;  ///< cell of the table
 };
 
-/// The table's rows, the ground first.
+/// Rows of the table, with the ground first.
 std::vector<Room> roomsOfTable()
 {
     const std::string page = testing::readFile(inSource("docs/architecture.md"));
@@ -47,10 +47,10 @@ std::vector<Room> roomsOfTable()
     return rooms;
 }
 
-/// What each room may include. "all but X" means every room above it but X.
+/// Rooms that each room may include. "all but X" means every room above it but X.
 std::map<std::string, std::set<std::string>> allowed()
 {
-    std::map<std::string, std::set<std::string>> arrows;
+    std::map<std::string, std::set<std::string>> includes;
     std::set<std::string> above;
     for (const Room& room : roomsOfTable()) {
         std::set<std::string> named;
@@ -58,7 +58,8 @@ std::map<std::string, std::set<std::string>> allowed()
         const bool all_but = room.includes.starts_with("all but ");
         for (std::string word; words >> word;) {
             if (word != "all" && word != "but") {
-                EXPECT_THAT(above, Contains(word)) << room.name << " stands below what it may include";
+                EXPECT_THAT(above, Contains(word))
+                    << room.name << " must be in a row below the rooms that it may include";
                 named.insert(word);
             }
         }
@@ -68,13 +69,13 @@ std::map<std::string, std::set<std::string>> allowed()
                                 std::inserter(rest, rest.end()));
             named = rest;
         }
-        arrows[room.name] = named;
+        includes[room.name] = named;
         above.insert(room.name);
     }
-    return arrows;
+    return includes;
 }
 
-/// The room of a header or source, by its path below src/ or include/droplet/.
+/// Room of a header or source, from its path below src/ or include/droplet/.
 std::string roomOf(const fs::path& file)
 {
     if (file.has_parent_path()) {
@@ -84,17 +85,17 @@ std::string roomOf(const fs::path& file)
     return stem == "droplet" || stem == "pipeline" ? "droplet" : "ground";
 }
 
-struct Arrow {
+struct Include {
     std::string from;
     std::string to;
     std::string where;  ///< file and header
     bool is_public = false;
 };
 
-/// Every include from one room into another.
-std::vector<Arrow> arrowsOfSources()
+/// All includes from one room into another.
+std::vector<Include> includesOfSources()
 {
-    std::vector<Arrow> arrows;
+    std::vector<Include> includes;
     const std::regex include("#include [<\"]([^>\"]+)[>\"]");
     for (const std::string top : {"include/droplet", "src", "cli"}) {
         const fs::path root = inSource(top);
@@ -117,44 +118,44 @@ std::vector<Arrow> arrowsOfSources()
                 if (is_public || is_private) {
                     const std::string to = roomOf(is_public ? header.substr(8) : header);
                     if (to != from) {
-                        arrows.push_back({from, to, (top / below).string() + " includes " + header, is_public});
+                        includes.push_back({from, to, (top / below).string() + " includes " + header, is_public});
                     }
                 }
             }
         }
     }
-    return arrows;
+    return includes;
 }
 
-TEST(Rooms, IncludeWhatTheTableAllowsAndNothingElse)
+TEST(Rooms, IncludeOnlyWhatTheTableAllows)
 {
     const auto table = allowed();
     ASSERT_GT(table.size(), 15U);
-    for (const Arrow& arrow : arrowsOfSources()) {
-        ASSERT_THAT(table, Contains(Key(arrow.from))) << arrow.where;
-        EXPECT_THAT(table.at(arrow.from), Contains(arrow.to)) << arrow.where;
-        EXPECT_TRUE(arrow.from != "cli" || arrow.is_public)
-            << arrow.where << ": the command needs public headers alone";
+    for (const Include& inclusion : includesOfSources()) {
+        ASSERT_THAT(table, Contains(Key(inclusion.from))) << inclusion.where;
+        EXPECT_THAT(table.at(inclusion.from), Contains(inclusion.to)) << inclusion.where;
+        EXPECT_TRUE(inclusion.from != "cli" || inclusion.is_public)
+            << inclusion.where << ": the command may only include public headers";
     }
 }
 
-TEST(Rooms, NeedAllThatTheTableAllows)
+TEST(Rooms, UseAllThatTheTableAllows)
 {
     std::map<std::string, std::set<std::string>> used;
-    for (const Arrow& arrow : arrowsOfSources()) {
-        used[arrow.from].insert(arrow.to);
+    for (const Include& inclusion : includesOfSources()) {
+        used[inclusion.from].insert(inclusion.to);
     }
     for (const auto& [room, may] : allowed()) {
         if (room == "cli") {
             continue;
         }
         for (const std::string& other : may) {
-            EXPECT_THAT(used[room], Contains(other)) << room << " does not include what its row names";
+            EXPECT_THAT(used[room], Contains(other)) << room << " does not include a room of its row";
         }
     }
 }
 
-// The linker takes one of two types of a name for both, and the program breaks at run time.
+// If two types have one name, the linker uses one for both, and the program fails at run time.
 TEST(Rooms, NoTwoTypesHaveOneName)
 {
     std::map<std::string, std::string> places;

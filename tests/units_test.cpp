@@ -26,7 +26,7 @@ struct Case {
     double expected;
 };
 
-TEST(ParseQuantity, KnowsEveryUnitToTheLastBit)
+TEST(ParseQuantity, ConvertsEveryUnitToTheLastBit)
 {
     const std::vector<Case> cases{
         {"7nm", Dimension::Length, 7e-9},
@@ -86,7 +86,7 @@ TEST(ParseQuantity, RoundsDecimalsOnce)
     }
 }
 
-TEST(ParseQuantity, ReadsNumbersAsPeopleWriteThem)
+TEST(ParseQuantity, ReadsUsualNotations)
 {
     EXPECT_DOUBLE_EQ(parseQuantity("4 mm", Dimension::Length), 4e-3);
     EXPECT_DOUBLE_EQ(parseQuantity(".5mm", Dimension::Length), 5e-4);
@@ -118,14 +118,14 @@ std::string refusal(const std::string& text, Dimension dimension)
     return "";
 }
 
-TEST(ParseQuantity, RefusesBareNumbersAndSaysWhatToWrite)
+TEST(ParseQuantity, RefusesNumbersWithoutUnitAndSaysWhatToWrite)
 {
     EXPECT_THAT(refusal("30", Dimension::Volume),
                 AllOf(HasSubstr("'30' has no unit"), HasSubstr("nL, uL, mL, L, mm3, cm3 or m3"), HasSubstr("30uL")));
     EXPECT_THAT(refusal("0", Dimension::Acceleration), HasSubstr("no unit"));
 }
 
-TEST(ParseQuantity, RefusesWhatIsNotTheQuantityAskedFor)
+TEST(ParseQuantity, RefusesOtherQuantities)
 {
     EXPECT_THAT(refusal("4mm", Dimension::Volume), HasSubstr("is not a volume"));
     for (const char* text : {"", "mm", "four mm", "4  mm", " 4mm", "4mm ", "4mm3", "4MM", "4km", "1,5mm", "0x4mm",
@@ -135,7 +135,7 @@ TEST(ParseQuantity, RefusesWhatIsNotTheQuantityAskedFor)
     EXPECT_THAT(refusal(std::string("4mm\0", 4), Dimension::Length), HasSubstr("is not a length"));
 }
 
-TEST(ParseQuantity, RefusesWhatIsNotFinite)
+TEST(ParseQuantity, RefusesNumbersThatAreNotFinite)
 {
     for (const char* text : {"nan", "nanmm", "inf mm", "-infmm", "infinitymm", "1e999mm"}) {
         EXPECT_THAT(refusal(text, Dimension::Length), HasSubstr("is not a finite number")) << text;
@@ -143,12 +143,12 @@ TEST(ParseQuantity, RefusesWhatIsNotFinite)
     EXPECT_THAT(refusal("1e308g/cm3", Dimension::Density), HasSubstr("is not a finite number"));
 }
 
-TEST(ParseQuantity, KeepsItsMessageToOneShortLine)
+TEST(ParseQuantity, ReportsErrorsInOneShortLine)
 {
     EXPECT_LT(refusal(std::string(100'000, 'x'), Dimension::Length).size(), 200U);
 }
 
-TEST(UnitsOf, ListsOnlyUnitsThatAreRead)
+TEST(UnitsOf, ListsUnitsThatParseQuantityReads)
 {
     for (const Dimension dimension :
          {Dimension::Length, Dimension::Volume, Dimension::Angle, Dimension::SurfaceTension, Dimension::Density,

@@ -20,40 +20,40 @@
 /// The library's names.
 namespace droplet {
 
-/// Every stage's options on the way from a mask to a surface.
+/// Options of all stages from a mask to a surface.
 struct DropletOptions {
-    TraceOptions trace;
-    TriangulateOptions mesh;
-    SolveOptions solve;
+    TraceOptions trace;                        ///< from the mask to its outline
+    TriangulateOptions mesh;                   ///< from the outline to meshes
+    SolveOptions solve;                        ///< liquid, forces, ground and fill
     bool open = false;                         ///< leave out the base
-    std::optional<FillRange> fill_range = {};  ///< makes a surface that can be filled and drained; of the linear model
-                                               ///< alone, without no_penetration
+    std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; needs the linear
+                                               ///< model without no_penetration
 };
 
-/// What every stage made.
+/// Results of all stages.
 struct Droplet {
-    Outline outline;
-    Domain domain;
-    std::vector<PlanarMesh> meshes;  ///< one per droplet
-    Solution solution;
+    Outline outline;                    ///< rims of the mask
+    Domain domain;                      ///< footprints
+    std::vector<PlanarMesh> meshes;     ///< one per droplet
+    Solution solution;                  ///< height fields
     std::vector<ShapeFigures> figures;  ///< one per droplet
-    ShapeFigures total;
-    Surface surface;
-    std::vector<std::string> warnings;  ///< one line each; empty when all is well
-    std::size_t grave_warnings = 0;     ///< so many of the first say that the droplet cannot be right
+    ShapeFigures total;                 ///< figures of all droplets together
+    Surface surface;                    ///< surface in space
+    std::vector<std::string> warnings;  ///< one line each, the grave ones first
+    std::size_t grave_warnings = 0;     ///< number of warnings that say that the droplet cannot be right
 };
 
-/// All stages in one call: trace, split, triangulate, solve, measure, loft.
+/// Runs all stages: trace, split, triangulate, solve, measure, loft.
 /// @param mask      valid
-/// @param options   of every stage
-/// @param progress  told of every stage; may be empty
+/// @param options   options of all stages
+/// @param progress  called at the start of every stage; may be empty
 /// @throws Error    InvalidInput: no liquid; InvalidArgument: options; NoSuchDroplet: the solver failed
 Droplet makeDroplet(const Mask& mask, const DropletOptions& options = {}, const Progress& progress = {});
 
-/// The stages from an outline on, wherever that comes from: split, triangulate, solve, measure, loft.
+/// Runs the stages after tracing, with an outline from any source: split, triangulate, solve, measure, loft.
 /// @param outline   loops that do not cross, and an extent
-/// @param options   of every stage but trace
-/// @param progress  told of every stage but Trace; may be empty
+/// @param options   options of all stages; trace is not used
+/// @param progress  called at the start of every stage but Trace; may be empty
 /// @throws Error    InvalidInput: no loop encloses liquid; InvalidArgument: options, crossing loops; NoSuchDroplet: the
 ///                  solver failed
 Droplet makeDroplet(Outline outline, const DropletOptions& options = {}, const Progress& progress = {});

@@ -6,22 +6,24 @@
 
 namespace droplet {
 
-/// What kind of thing went wrong; the command maps each kind to one exit code.
+/// Kind of an error; the command has one exit code for each kind.
 enum class ErrorCode {
-    InvalidArgument,  ///< a value the caller passed is outside its documented range
+    InvalidArgument,  ///< an argument is outside its documented range
     InvalidInput,     ///< the footprint cannot be read, or holds no liquid
-    OutputFailed,     ///< a file cannot be written whole
-    NoSuchDroplet,    ///< the asked-for droplet does not exist, or the solver failed
+    OutputFailed,     ///< a file cannot be written completely
+    NoSuchDroplet,    ///< the requested droplet does not exist, or the solver failed
 };
 
-/// The one exception this library throws.
-/// Guarantees: the message is a single line that names the field, its value and the constraint.
+/// The only exception type that this library throws.
+/// Guarantees: the message is one line that names the field, its value and the constraint.
 class Error : public std::runtime_error {
 public:
-    /// @param code     kind of failure
-    /// @param message  one line, no trailing full stop or line break
+    /// Makes an error.
+    /// @param code     kind of the error
+    /// @param message  one line, without a full stop or line break at its end
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
 
+    /// Kind of the error.
     [[nodiscard]] ErrorCode code() const noexcept { return code_; }
 
 private:

@@ -8,29 +8,30 @@
 
 namespace droplet {
 
-inline constexpr double kStandardGravity = 9.81;  ///< [m/s²], the house's default, not the CODATA 9.80665
+inline constexpr double kStandardGravity = 9.81;  ///< default gravity [m/s²]; the CODATA value is 9.80665
 
 /// A liquid in air.
 struct Liquid {
-    std::string name = "water";
+    std::string name = "water";       ///< name in reports
     double surface_tension = 0.0728;  ///< σ [N/m], > 0
     double density = 998.2;           ///< ρ [kg/m³], ≥ 0
 
-    /// Guarantees: returns only when every field is in its documented range.
+    /// Checks that every field is in its documented range.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// The liquids known by name, water first; values at 20 °C, their sources beside them in the source file.
+/// All liquids known by name, water first; values at 20 °C, with their sources in src/liquid.cpp.
 const std::vector<Liquid>& liquids();
 
-/// The liquid of that name.
+/// Finds a liquid by its name.
 /// @param name    lower case, as in liquids()
-/// @throws Error  InvalidArgument, listing the names known
+/// @throws Error  InvalidArgument, with the list of known names
 const Liquid& liquidNamed(std::string_view name);
 
-/// √(σ/(ρ|g|)), the length beyond which gravity tells [m]; empty where the liquid weighs nothing.
-/// @param gravity  of either sign [m/s²]
+/// Capillary length √(σ/(ρ|g|)) [m]: gravity flattens droplets that are larger. Empty for a liquid without weight.
+/// @param liquid   valid
+/// @param gravity  any sign [m/s²]
 std::optional<double> capillaryLength(const Liquid& liquid, double gravity);
 
 }  // namespace droplet

@@ -5,14 +5,14 @@
 
 namespace droplet {
 
-/// The stages from a picture to a file, in order.
+/// Stages from a picture to a file, in order.
 enum class Stage { Read, Trace, Triangulate, Assemble, Solve, Loft, Write };
 
-/// The name a stage has in reports.
+/// Name of a stage in reports.
 const char* name(Stage stage);
 
-/// Called from the calling thread whenever a stage begins. Whoever wants to know how long
-/// stages take reads a clock there; the library reads none.
+/// Callback at the start of every stage, on the calling thread. The library reads no clock; a callback that reads one
+/// can measure the stages.
 using Progress = std::function<void(Stage stage)>;
 
 }  // namespace droplet

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quadrature: D. A. Dunavant, "High degree efficient symmetrical Gaussian quadrature rules for the triangle" (1985),
-// the rule of degree 4. Sides of a surface: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle
+// rule of degree 4. Sides of a surface: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle
 // weighted pseudonormal" (2005).
 //
-// All is done in a frame of its own, in which both surfaces lie within [−1, 1]³: moved by the middle of the box around
-// them, and scaled by a power of two, so that scaling rounds nothing.
+// All computations use a frame in which both surfaces lie within [−1, 1]³. Its origin is the middle of their bounding
+// box, and its scale a power of two, so that scaling has no round-off.
 #include "droplet/compare/compare.h"
 
 #include <tbb/blocked_range.h>
@@ -27,8 +27,8 @@
 namespace droplet {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // in the frame: triangles this near to a point meet there
-constexpr std::size_t kChunk = 256;  // triangles, or vertices, a thread takes at once
+constexpr double kSamePlace = 1e-9;  // in the frame; triangles this near to a point meet there
+constexpr std::size_t kChunk = 256;  // triangles or vertices per task
 
 struct Box {
     Vec3 lowest;
@@ -55,7 +55,7 @@ Box boxAround(const Box& a, const Box& b)
         {std::max(a.highest.x, b.highest.x), std::max(a.highest.y, b.highest.y), std::max(a.highest.z, b.highest.z)}};
 }
 
-/// The frame in which both surfaces are about as large as 1.
+/// Coordinates in which both surfaces have a size of about 1.
 class Frame {
 public:
     explicit Frame(const Box& box) : middle_(box.lowest + 0.5 * (box.highest - box.lowest))
@@ -67,14 +67,14 @@ public:
         }
         int exponent = 0;
         std::frexp(largest, &exponent);
-        // Its inverse must be finite, too.
+        // The inverse of the scale must be finite, too.
         scale_ = largest > 0.0 ? std::ldexp(1.0, std::max(exponent, -1000)) : 1.0;
         size_ = 2.0 * largest / scale_;
     }
 
     [[nodiscard]] Vec3 in(Vec3 p) const { return (1.0 / scale_) * (p - middle_); }
     [[nodiscard]] Vec3 out(Vec3 p) const { return middle_ + scale_ * p; }
-    /// The longest side of the box, in the frame.
+    /// Longest side of the box, in the frame.
     [[nodiscard]] double size() const { return size_; }
     /// Metres per unit of the frame.
     [[nodiscard]] double scale() const { return scale_; }
@@ -98,10 +98,10 @@ std::vector<Corners3> cornersIn(const Frame& frame, const Surface& surface)
 
 double angleBetween(Vec3 a, Vec3 b)
 {
-    return std::atan2(length(cross(a, b)), dot(a, b));  // unlike acos exact for small angles
+    return std::atan2(length(cross(a, b)), dot(a, b));  // exact for small angles, unlike acos
 }
 
-/// How much of a triangle's point belongs to each corner; of triangles without area, to the nearest corner all.
+/// Barycentric coordinates of a point of a triangle; without area, the nearest corner has all weight.
 Vec3 weightsAt(Vec3 p, const Corners3& triangle, Vec3 facet)
 {
     const auto& [a, b, c] = triangle;
@@ -142,11 +142,11 @@ struct Side {
     NearestTriangles tree;
 };
 
-/// The least angle between a normal and those the other side has at a place.
+/// Smallest angle between a normal and the normals of the other side at a point.
 double angleAt(const Side& other, Vec3 normal, const NearestTriangles::Found& found)
 {
     double min = angleBetween(normal, other.normal(found.triangle, found.point));
-    constexpr double kAlike = 1e-6;  // crisp edges are no matter of so little
+    constexpr double kAlike = 1e-6;  // below it, other normals at the point do not matter
     if (min > kAlike) {
         for (const std::uint32_t triangle : other.tree.within(found.point, kSamePlace)) {
             min = std::min(min, angleBetween(normal, other.normal(triangle, found.point)));
@@ -200,20 +200,20 @@ std::array<Node, 6> quadrature()
 }
 
 struct IntegralOptions {
-    double reach = 0.0;    ///< how far a triangle that faces the same way is looked for
-    double longest = 0.0;  ///< side of a triangle that is not cut
+    double reach = 0.0;    ///< largest distance of a triangle that faces the same way
+    double longest = 0.0;  ///< longest side of a triangle that is not cut
 };
 
 using Halves = std::array<Corners3, 2>;
 
-/// A triangle cut in the middle of its longest side; nothing where that is short enough.
+/// Triangle, cut at the middle of its longest side; empty if that is short enough.
 std::optional<Halves> halved(const Corners3& corners, double short_enough)
 {
     std::size_t longest = 0;
     double size = -1.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double side = length(corners[(k + 1) % 3] - corners[k]);
-        constexpr double kTie = 1.0 + 1e-9;  // round-off must not choose between sides of one length
+        constexpr double kTie = 1.0 + 1e-9;  // round-off must not choose between sides of equal length
         if (side > kTie * size) {
             size = side;
             longest = k;
@@ -229,7 +229,7 @@ std::optional<Halves> halved(const Corners3& corners, double short_enough)
     return Halves{Corners3{a, middle, c}, Corners3{middle, b, c}};
 }
 
-/// How many pieces a triangle is cut into, up to a limit.
+/// Number of pieces of a triangle, up to a limit.
 std::size_t countPieces(const Corners3& corners, double longest, std::size_t limit)
 {
     const std::optional<Halves> halves = limit > 1 ? halved(corners, longest) : std::nullopt;
@@ -240,12 +240,12 @@ std::size_t countPieces(const Corners3& corners, double longest, std::size_t lim
     return first >= limit ? first : first + countPieces((*halves)[1], longest, limit - first);
 }
 
-/// Pieces that are looked at whatever the triangles are; and for every triangle of both surfaces.
+/// Limit of pieces: a constant, and a number per triangle of both surfaces.
 constexpr std::size_t kPieces = std::size_t{1} << 14;
 constexpr std::size_t kPiecesOfTriangle = 16;
 
-/// The length of a side that is not cut: longer where many large triangles, one through the other, as in broken files,
-/// would be cut into pieces without end.
+/// Longest side that is not cut. It grows until the number of pieces is in the limit: damaged files may have many large
+/// triangles that intersect each other.
 double longestSide(const std::vector<Corners3>& triangles, double longest, std::size_t max)
 {
     for (;; longest *= 2.0) {
@@ -262,7 +262,7 @@ double longestSide(const std::vector<Corners3>& triangles, double longest, std::
     }
 }
 
-/// Integrals over triangles of one side, of what lies between it and the other.
+/// Integrals of distances and angles over triangles of one side.
 class Integrator {
 public:
     Integrator(const Side& side, const Side& other, const IntegralOptions& options)
@@ -343,7 +343,8 @@ Sums integrals(const Side& side, const Side& other, const IntegralOptions& optio
     return total;
 }
 
-/// The rim's edges are those of triangles with two vertices on the rim and one inside: no inner edge joins two.
+/// Contact angles along the rim. Its edges belong to triangles with two vertices on the rim and one inside, because no
+/// inner edge joins two rim vertices.
 std::optional<ContactAngleRange> contactAngles(const Surface& surface)
 {
     std::optional<ContactAngleRange> range;
@@ -406,7 +407,7 @@ void check(const CompareOptions& options)
         throw Error(ErrorCode::InvalidArgument, "compare options: " + what);
     };
     if (!(options.share > 0.0 && options.share < 1.0)) {
-        refuse("share = " + numberText(options.share) + " must be over 0 and under 1");
+        refuse("share = " + numberText(options.share) + " must be more than 0 and less than 1");
     }
     if (options.tolerance && !(*options.tolerance >= 0.0 && std::isfinite(*options.tolerance))) {
         refuse("tolerance = " + numberText(*options.tolerance) + " must be finite and not negative");
@@ -438,7 +439,7 @@ NormalDeviation deviationOf(const Sums& sums, const Frame& frame)
     return result;
 }
 
-/// How far round a point a triangle reaches: a corner's angle, π on a side, 2π inside.
+/// Angle of a triangle around a point: that of a corner, π on a side, 2π inside.
 double angleAround(Vec3 p, const Corners3& triangle)
 {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -482,14 +483,14 @@ Comparison compare(const Surface& a, const Surface& b, const CompareOptions& opt
     }
     const HausdorffBounds from_a = hausdorff(side_a.tree.triangles(), side_b.tree, search);
     const HausdorffBounds from_b = hausdorff(side_b.tree.triangles(), side_a.tree, search);
-    constexpr double kLongest = 1.0 / 25.0;  // of the box around both
+    constexpr double kLongest = 1.0 / 25.0;  // share of the box around both
     const double reach = 2.0 * std::max(from_a.upper, from_b.upper) + kSamePlace;
     const auto integral = [&](const Side& side, const Side& other) {
         return integrals(side, other, {reach, longestSide(side.tree.triangles(), kLongest * frame.size(), enough)});
     };
     const Sums over_a = integral(side_a, side_b);
     const Sums over_b = integral(side_b, side_a);
-    // Of both, in either order the same.
+    // Sums of both, which do not depend on the order.
     Sums over_both;
     over_both.area = over_a.area + over_b.area;
     over_both.distance = over_a.distance + over_b.distance;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The names are the contract of the schema droplet-shape.compare/1: keys may be added, none renamed or left out.
+// Keys are the contract of the schema droplet-shape.compare/1: they may be added, but not renamed or removed.
 #include "droplet/compare/comparison_report.h"
 
 #include <cmath>
@@ -74,7 +74,7 @@ std::optional<double> share(double a, double b)
 std::string inWords(const Topology& topology)
 {
     if (!topology.manifold) {
-        return "no manifold";
+        return "not a manifold";
     }
     return std::to_string(topology.components) + (topology.closed ? " closed" : "") +
            (topology.components == 1 ? " component" : " components") + " of Euler number " +
@@ -100,8 +100,8 @@ std::vector<std::string> exceeded(const Comparison& comparison, const Tolerances
         volume ? !(std::abs(*volume) <= tolerances.volume.value_or(0.0)) : comparison.b.volume != 0.0;
     if (tolerances.volume && volumes_differ) {
         lines.push_back("the difference in volume of " +
-                        (volume ? numberText(100.0 * *volume) + " %" : "something from nothing") + " is over " +
-                        numberText(100.0 * *tolerances.volume) + " %");
+                        (volume ? numberText(100.0 * *volume) + " %" : "a surface from one without volume") +
+                        " is over " + numberText(100.0 * *tolerances.volume) + " %");
     }
     if (tolerances.normals && !(comparison.normals.rms <= *tolerances.normals)) {
         lines.push_back("the rms angle between normals of " + numberText(comparison.normals.rms / kDegree) +

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// M. Tang, M. Lee, Y. J. Kim, "Interactive Hausdorff distance computation for general polygonal models" (2009): the
-// distance of a point p from one triangle U is a convex function of p, so that on a piece of the first surface it is
-// largest at a corner, and no point of the piece is farther from the second surface than the farthest corner is from
-// U. Pieces whose bound is over what some point is known to have are cut, the largest bound first.
+// M. Tang, M. Lee, Y. J. Kim, "Interactive Hausdorff distance computation for general polygonal models" (2009). The
+// distance of a point p from one triangle U is a convex function of p. So on a piece of the first surface it is largest
+// at a corner, and no point of the piece is farther from the second surface than the farthest corner is from U. Pieces
+// with a bound above the largest known distance are cut, the largest bound first.
 //
-// Where to cut is ours: pieces of one surface are laid over the other's triangles, seen along their normal, for the
-// bound is nearly exact on pieces that have their nearest points in one triangle. Halving alone needs pieces as small
-// as the distance where two sheets lie close to each other. CGAL (5.5) follows the same paper; for two meshes of 40k
-// triangles it takes 8.4 s, where all of a comparison takes 2.3 s, and says neither bounds nor points.
+// The choice of cuts is not from the paper: a piece is cut along the other surface's triangles, projected along its
+// normal. The bound is almost exact on pieces with their nearest points in one triangle. For two sheets close to each
+// other, halving alone would need pieces as small as their distance. CGAL (5.5) implements the same paper; for two
+// meshes of 40k triangles it takes 8.4 s, where a whole comparison takes 2.3 s, and returns neither bounds nor points.
 #include "compare/hausdorff.h"
 
 #include <tbb/blocked_range.h>
@@ -22,8 +22,8 @@
 namespace droplet {
 namespace {
 
-constexpr double kRoundOff = 1e-12;   // of distances between points within [−1, 1]³, with three digits to spare
-constexpr std::size_t kBatch = 4096;  // pieces cut between two looks at the bounds, whatever the number of threads
+constexpr double kRoundOff = 1e-12;   // for distances between points within [−1, 1]³, with a margin of three digits
+constexpr std::size_t kBatch = 4096;  // pieces cut between two updates of the bounds, at any number of threads
 
 struct Sample {
     Vec3 at;
@@ -34,7 +34,7 @@ struct Piece {
     std::array<Sample, 3> corners;
     Sample centre;
     double upper = 0.0;
-    bool overlaid = false;  ///< was cut along the other surface's triangles
+    bool overlaid = false;  ///< whether it was cut along the other surface's triangles
 };
 
 Sample sampled(Vec3 at, const NearestTriangles& to, std::uint32_t guess)
@@ -51,7 +51,7 @@ double largestFrom(const Piece& piece, const Corners3& triangle)
     return largest;
 }
 
-// Lowers the piece's bound; its centre is asked for only where that might pay.
+// Lowers the bound of a piece; computes its centre only if needed.
 void bound(Piece& piece, const NearestTriangles& to, double settled)
 {
     const auto& corners = piece.corners;
@@ -72,7 +72,7 @@ void bound(Piece& piece, const NearestTriangles& to, double settled)
     piece.upper = std::min(piece.upper, piece.centre.found.distance + radius);
 }
 
-/// A convex polygon in space.
+/// Convex polygon in space.
 struct Polygon {
     static constexpr std::size_t kMax = 16;
     std::array<Vec3, kMax> corners;
@@ -85,7 +85,7 @@ struct Polygon {
         }
         ++count;
     }
-    /// Round-off can make more corners than there should be.
+    /// Whether the corners fit; round-off can add too many.
     [[nodiscard]] bool fits() const { return count <= kMax; }
 };
 
@@ -127,8 +127,8 @@ Halves split(const Polygon& polygon, Vec3 origin, Vec3 outward)
     return halves;
 }
 
-/// Whether a side of one triangle, both seen along a direction that both face, has all of the other beyond it.
-bool apart(const Corners3& a, const Corners3& b, Vec3 direction)
+/// Whether a side of triangle a separates it from triangle b, projected along a direction that both face.
+bool separates(const Corners3& a, const Corners3& b, Vec3 direction)
 {
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 outward = cross(a[(k + 1) % 3] - a[k], direction);
@@ -145,12 +145,12 @@ bool beyond(const Polygon& polygon, Vec3 origin, Vec3 outward)
                        [&](Vec3 p) { return dot(p - origin, outward) >= 0.0; });
 }
 
-/// Cuts a piece along the other surface's triangles under and over it. Calls meet(polygon, bound, triangle) for parts
-/// that make up the whole piece; false, without a call, where there are too many triangles.
-template <typename Meet>
-bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
+/// Cuts a piece along the other surface's triangles below and above it. Calls visit(polygon, bound, triangle) for parts
+/// that cover the whole piece. Returns false without a call if there are too many triangles.
+template <typename Visit>
+bool overlay(const Piece& piece, const NearestTriangles& to, const Visit& visit)
 {
-    constexpr std::size_t kMaxTriangles = 48;  // opposite the piece: else it is halved first
+    constexpr std::size_t kMaxTriangles = 48;  // opposite to the piece; with more, it is halved first
     constexpr std::size_t kMaxNear = 1024;
     const auto& [a, b, c] = piece.corners;
     const Vec3 normal = cross(b.at - a.at, c.at - a.at);
@@ -170,7 +170,8 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
     std::vector<std::uint32_t> opposite;
     std::copy_if(near.begin(), near.end(), std::back_inserter(opposite), [&](std::uint32_t t) {
         const Corners3& triangle = to.triangles()[t];
-        return dot(to.facet(t), normal) > 0.0 && !apart(corners, triangle, normal) && !apart(triangle, corners, normal);
+        return dot(to.facet(t), normal) > 0.0 && !separates(corners, triangle, normal) &&
+               !separates(triangle, corners, normal);
     });
     if (opposite.size() > kMaxTriangles) {
         return false;
@@ -205,12 +206,12 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
                 polygon = halves.inside;
             }
             if (polygon.count > 2) {
-                meet(polygon, largestFrom(polygon, triangle), t);
+                visit(polygon, largestFrom(polygon, triangle), t);
             }
         }
         uncovered.swap(rest);
     }
-    // What is opposite nothing, or a sliver that round-off left between two triangles.
+    // Parts without an opposite triangle, and slivers that round-off left between two triangles.
     opposite.push_back(piece.centre.found.triangle);
     for (const Sample& corner : piece.corners) {
         opposite.push_back(corner.found.triangle);
@@ -225,12 +226,12 @@ bool overlay(const Piece& piece, const NearestTriangles& to, const Meet& meet)
                 nearest = t;
             }
         }
-        meet(polygon, min, nearest);
+        visit(polygon, min, nearest);
     }
     return true;
 }
 
-/// The bound that the overlay gives, where it is better.
+/// Lowers the bound of a piece to that of the overlay.
 void boundByOverlay(Piece& piece, const NearestTriangles& to)
 {
     double largest = 0.0;
@@ -243,11 +244,11 @@ void boundByOverlay(Piece& piece, const NearestTriangles& to)
 
 struct Cut {
     std::vector<Piece> pieces;
-    double dismissed = 0.0;  ///< the largest bound of parts that need no further look
+    double dismissed = 0.0;  ///< largest bound of parts that need not be cut
     Sample farthest;
 };
 
-/// Two halves of a piece, by the middle of its longest side.
+/// Cuts a piece at the middle of its longest side.
 void halve(const Piece& piece, const NearestTriangles& to, double settled, Cut& result)
 {
     std::size_t longest = 0;
@@ -321,12 +322,12 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
     };
     Sample farthest;
     farthest.found.distance = -1.0;
-    const auto meet = [&farthest](const Sample& sample) {
+    const auto update = [&farthest](const Sample& sample) {
         if (sample.found.distance > farthest.found.distance) {
             farthest = sample;
         }
     };
-    double dismissed = 0.0;  // the largest bound that was good enough
+    double dismissed = 0.0;  // largest bound of pieces that need not be cut
     const auto settled = [&] {
         const double lower = std::max(farthest.found.distance, 0.0);
         double line = lower / (1.0 - options.share);
@@ -345,7 +346,7 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
         }
     };
 
-    // Corners first, all of them: what is known of the lower bound spares work on the upper one.
+    // All corners come first: a high lower bound saves work on the upper one.
     for (std::size_t begin = 0; begin < from.size(); begin += 16 * kBatch) {
         const std::size_t count = std::min(16 * kBatch, from.size() - begin);
         std::vector<Piece> pieces(count);
@@ -360,7 +361,7 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
             }
         });
         for (const Piece& piece : pieces) {
-            std::for_each(piece.corners.begin(), piece.corners.end(), meet);
+            std::for_each(piece.corners.begin(), piece.corners.end(), update);
         }
         const double line = settled();
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -370,7 +371,7 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
             }
         });
         for (const Piece& piece : pieces) {
-            meet(piece.centre);
+            update(piece.centre);
         }
         const double later_line = settled();
         for (const Piece& piece : pieces) {
@@ -394,7 +395,7 @@ HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriang
         cuts.assign(batch.size(), {});
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) { cuts[i] = cut(batch[i], to, line); });
         for (const Cut& one : cuts) {
-            meet(one.farthest);
+            update(one.farthest);
             looked_at += one.pieces.size();
             dismissed = std::max(dismissed, one.dismissed);
         }

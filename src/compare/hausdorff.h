@@ -11,11 +11,11 @@
 
 namespace droplet {
 
-/// When the search for the largest distance may end.
+/// Conditions to end the search for the largest distance.
 struct HausdorffOptions {
-    double share = 0.01;              ///< upper − lower, as a share of the upper bound
-    std::optional<double> tolerance;  ///< also, whether the distance is over this must be certain
-    std::size_t max_pieces = 0;       ///< looked at; then the bounds stay as they are
+    double share = 0.01;              ///< largest difference of both bounds, as a share of the upper one
+    std::optional<double> tolerance;  ///< distance that both bounds must be on one side of
+    std::size_t max_pieces = 0;       ///< limit of pieces; then the bounds are returned as they are
 };
 
 /// Bounds of the largest distance of a surface's points from another.
@@ -23,10 +23,10 @@ struct HausdorffBounds {
     double lower = 0.0;  ///< distance of `at`
     double upper = 0.0;
     Vec3 at;
-    Vec3 nearest;  ///< on the other surface
+    Vec3 nearest;  ///< point of the other surface nearest to `at`
 };
 
-/// The largest distance of points of triangles from other triangles, the same at any number of threads.
+/// Largest distance of points of triangles from other triangles; the same at any number of threads.
 /// @param from  coordinates within [−1, 1]
 HausdorffBounds hausdorff(const std::vector<Corners3>& from, const NearestTriangles& to,
                           const HausdorffOptions& options);

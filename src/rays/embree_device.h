@@ -10,7 +10,7 @@
 
 namespace droplet {
 
-/// Embree, started. Scenes must be released before it.
+/// Running Embree device. Its scenes must be released first.
 class EmbreeDevice {
 public:
     struct Release {
@@ -28,7 +28,8 @@ public:
 
     [[nodiscard]] RTCDevice get() const { return device_.get(); }
     [[nodiscard]] Scene newScene() const { return Scene(rtcNewScene(get())); }
-    /// @throws std::bad_alloc where something failed: all else that can is a mistake of ours
+    /// Checks for errors; the only one that correct calls can have is lack of memory.
+    /// @throws std::bad_alloc
     void check() const
     {
         if (rtcGetDeviceError(get()) != RTC_ERROR_NONE) {

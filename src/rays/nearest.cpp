@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nearest point of a triangle: C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, with the sides taken
-// one by one, which also does for triangles without area.
+// Nearest point of a triangle: C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5. Sides are examined
+// one by one, which also handles triangles without area.
 //
-// Embree's tree of boxes is in floats, what is asked of the triangles in doubles: boxes are rounded outward, and every
-// search reaches farther by more than floats can be wrong. A query takes 2 µs among 100k triangles, where CGAL's
-// AABB_tree takes 6 µs for the same answers, and hands over every triangle in reach, so that ties can be settled.
+// Embree's tree of boxes has floats, and triangles have doubles. So boxes are rounded outward, and the radius of every
+// search is enlarged by more than the round-off of floats. A query takes 2 µs for 100k triangles; CGAL's AABB_tree
+// takes 6 µs for the same answers. Embree visits every triangle within the radius, so that ties can be decided.
 #include "rays/nearest.h"
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace droplet {
 namespace {
 
-// Rounding a point within [−1, 1]³ moves it by at most 1.1e-7, and the boxes' distances are good to some 1e-6.
+// Rounding a point within [−1, 1]³ moves it by at most 1.1e-7; distances of boxes have errors of about 1e-6.
 constexpr double kReach = 2e-6;
 
-// A triangle is taken for its sides when its area is this share of its longest side squared: round-off of coordinates.
+// Ratio of area to the square of the longest side at which a triangle counts as its sides: round-off of coordinates.
 constexpr double kSliver = 1e-12;
 
 Vec3 nearestOnSide(Vec3 p, Vec3 a, Vec3 b)
@@ -104,7 +104,7 @@ NearestTriangles::NearestTriangles(std::vector<Corners3> triangles)
 
 NearestTriangles::~NearestTriangles() = default;
 
-// Calls visit(triangle) for every triangle that may be within the radius; it returns the radius from then on.
+// Calls visit(triangle) for every triangle that may be within the radius. visit returns the new radius.
 template <typename Visit>
 void NearestTriangles::visit(Vec3 p, double radius, Visit& visit) const
 {

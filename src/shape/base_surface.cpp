@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Between pixels: R. G. Keys, "Cubic convolution interpolation for digital image processing" (1981), a = −1/2, which is
-// the spline of Catmull and Rom (1974): once differentiable, third order.
+// Interpolation between pixels: R. G. Keys, "Cubic convolution interpolation for digital image processing" (1981), with
+// a = −1/2, the spline of Catmull and Rom (1974). It is once differentiable and of third order.
 #include "droplet/shape/base_surface.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string millimetres(double length)
     return numberText(length / kMillimetre) + " mm";
 }
 
-/// What a ground of one radius is.
+/// Shape of a ground with one radius.
 enum class Body { Sphere, Cylinder };
 
 const char* nameOf(Body body)
@@ -42,16 +42,17 @@ void checkRadius(double radius, Body body)
 
 [[noreturn]] void throwBeyond(double radius, double distance, Body body)
 {
-    throw Error(ErrorCode::InvalidArgument,
-                fmt::format("radius {} of the ground's {} must exceed {}, how far the footprint reaches from its {}",
-                            millimetres(std::abs(radius)), nameOf(body), millimetres(distance),
-                            body == Body::Sphere ? "top" : "line"));
+    throw Error(
+        ErrorCode::InvalidArgument,
+        fmt::format("radius {} of the ground's {} must exceed {}, the largest distance of the footprint from its {}",
+                    millimetres(std::abs(radius)), nameOf(body), millimetres(distance),
+                    body == Body::Sphere ? "top" : "line"));
 }
 
-/// A circle that touches the plane, at a distance from there.
+/// Circle that touches the plane, at a distance from that point.
 struct Arc {
     double height = 0.0;
-    double slope = 0.0;  ///< over the distance
+    double slope = 0.0;  ///< derivative by the distance
 };
 
 Arc arcAt(double radius, double distance, Body body)
@@ -66,7 +67,7 @@ Arc arcAt(double radius, double distance, Body body)
     return {sign * distance * distance / (size + root), sign / root};
 }
 
-/// Cubic convolution at t of the way from the second of four neighbours to the third: weights, and their derivatives.
+/// Weights of cubic convolution, and their derivatives, at t between the second and third of four neighbours.
 struct Weights {
     std::array<double, 4> value{};
     std::array<double, 4> slope{};
@@ -80,16 +81,16 @@ Weights weightsAt(double t)
              0.5 * t * (3.0 * t - 2.0)}};
 }
 
-/// The four pixels in a row around a place, those beyond the picture replaced by the last.
+/// Four pixels of a row around a place. Pixels beyond the picture are replaced by the last one.
 struct Taps {
     std::array<std::size_t, 4> index{};
     Weights weights;
 };
 
-/// @param place  [px], 0 the first pixel's centre
+/// @param place  [px]; 0 is the centre of the first pixel
 Taps tapsAt(double place, int count)
 {
-    // Farther out nothing changes any more, and every double fits an int.
+    // The result is constant farther out, and an int holds these values.
     const double within = std::clamp(place, -3.0, static_cast<double>(count) + 2.0);
     const double left = std::floor(within);
     Taps taps;

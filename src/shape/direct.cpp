@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One factorisation of A serves the system bordered with the volume: x = A⁻¹right + λA⁻¹m. Whether A is positive
-// definite where it has to be, its inertia tells: N. Gould, "On practical conditions for the existence and uniqueness
+// One factorisation of A solves the system bordered with the volume: x = A⁻¹right + λA⁻¹m. Its inertia shows whether A
+// is positive definite on functions without volume: N. Gould, "On practical conditions for the existence and uniqueness
 // of solutions to the general equality quadratic programming problem" (1985).
 
 #include <Eigen/SparseCholesky>
@@ -26,23 +26,23 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 using Llt = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower>;
 using Ldlt = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 
-/// Corners of a triangle whose entries lie in the lower triangle, whichever of them is the row: it is symmetric.
+/// Pairs of a triangle's corners with an entry in the lower triangle of the symmetric matrix.
 constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-/// Steps of refinement, and the residual at which a second or third is not needed.
+/// Largest number of refinements, and the residual at which no further one is needed.
 constexpr int kMaxRefinements = 3;
 constexpr double kGoodResidual = 1e-11;
 
-/// Stands for a pair that has no entry, because one of its vertices lies on the rim.
+/// Marks a pair without an entry, because one of its vertices is on the rim.
 constexpr std::uint32_t kNoEntry = std::numeric_limits<std::uint32_t>::max();
 
-/// The lower triangle of a mesh's matrices: which entries there are, and where those of every triangle go.
+/// Sparsity pattern of the lower triangle of a mesh's matrices, and the entries of every mesh triangle.
 class Pattern {
 public:
     explicit Pattern(const PlanarMesh& mesh) : rim_(mesh.rimVertexCount()), matrix_(unknowns(mesh), unknowns(mesh))
     {
         const std::size_t count = mesh.vertices.size() - rim_;
-        // Every edge is met once or twice, in the column of its lower end.
+        // Every edge occurs once or twice, in the column of its lower vertex.
         std::vector<std::uint32_t> starts(count + 1, 0);
         const auto for_each_edge = [&](const auto& visit) {
             for (const Triangle& t : mesh.triangles) {
@@ -82,7 +82,7 @@ public:
 
     [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
 
-    /// The operator's entries; the rows of held vertices are the identity's.
+    /// Fills in the operator. Rows of held vertices are those of the identity.
     void fill(const PlanarMesh& mesh, const Operator& op)
     {
         double* const values = matrix_.valuePtr();
@@ -111,7 +111,7 @@ private:
         return static_cast<Eigen::Index>(mesh.vertices.size() - mesh.rimVertexCount());
     }
 
-    /// Finds every triangle's entries.
+    /// Finds the entries of every triangle.
     void locate(const PlanarMesh& mesh)
     {
         const int* const outer = matrix_.outerIndexPtr();
@@ -142,7 +142,7 @@ std::vector<std::uint8_t> heldOf(const PlanarMesh& mesh, const Operator& op)
     return op.held.empty() ? std::vector<std::uint8_t>(mesh.vertices.size() - mesh.rimVertexCount(), 0) : op.held;
 }
 
-/// m, 0 at held vertices.
+/// m, with 0 at held vertices.
 Eigen::VectorXd loadOf(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
@@ -176,8 +176,8 @@ public:
         if (usable_) {
             unit_ = divided(load_);
             unit_volume_ = load_.dot(unit_);
-            // A may have one direction in which it is negative, a function with volume: it is positive on those without
-            // if and only if mᵀA⁻¹m < 0, by the inertia of the bordered matrix.
+            // A may be negative in one direction, a function with volume. By the inertia of the bordered matrix, A is
+            // then positive on functions without volume if and only if mᵀA⁻¹m < 0.
             const Eigen::Index negative = negativePivots();
             usable_ = (negative == 0 && unit_volume_ > 0.0) || (negative == 1 && unit_volume_ < 0.0);
         }
@@ -195,8 +195,8 @@ public:
         }
         double lambda = problem.volume / unit_volume_;
         Eigen::VectorXd x = lambda * unit_;
-        // Makes up for what a factorisation loses on a fine mesh, and where A by itself is nearly singular, so that two
-        // terms nearly cancel. The first step solves for the right side, if there is one.
+        // Refinement corrects round-off on a fine mesh, and cancellation if A itself is nearly singular. The first step
+        // solves for the right side, if there is one.
         const auto refine = [&](const Eigen::VectorXd& residual) {
             x += divided(residual);
             const double more = (problem.volume - load_.dot(x)) / unit_volume_;
@@ -230,7 +230,7 @@ public:
     }
 
 private:
-    /// Unknowns are ordered when a kind of factorisation is first asked for.
+    /// Orders the unknowns on the first use of a kind of factorisation.
     template <typename Factor>
     void factorize()
     {

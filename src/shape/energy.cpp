@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, chapter 4: energy (4.1)–(4.3) over P1 finite elements, with in-plane gravity as a potential linear in x
-// and the ground as rim values and lower limit of the gravity integral.
+// The thesis, chapter 4: energy (4.1)–(4.3) over P1 finite elements. In-plane gravity is a potential linear in x. The
+// ground gives the rim values and the lower limit of the gravity integral.
 
 #include "shape/energy.h"
 
@@ -19,12 +19,12 @@
 namespace droplet {
 namespace {
 
-/// Sine of 89.9°. What leaves the rim more steeply is taken for that: recovered fluxes pass 1 by their error.
+/// Sine of 89.9°, the upper limit for fluxes: recovered ones may exceed 1 by their error.
 constexpr double kSteepestFlux = 0.9999985;
 
-/// Single vertices' forces swing about the true ones with the lengths of edges beside them: by 1.7° of angle on a disc
-/// of 3000 triangles at 60°; evened out four times, by 0.1°.
-constexpr int kEvenings = 4;
+/// Number of smoothing passes. Forces on single vertices oscillate with the lengths of the edges beside them: by 1.7°
+/// of angle on a disc of 3000 triangles at 60°; after four passes by 0.1°.
+constexpr int kSmoothingPasses = 4;
 
 std::vector<double> rimWeightsOf(const PlanarMesh& mesh)
 {
@@ -40,10 +40,10 @@ std::vector<double> rimWeightsOf(const PlanarMesh& mesh)
     return weights;
 }
 
-/// Whether the rim turns by less than a corner's angle at a vertex and at the next.
+/// Whether neither a rim vertex nor the next is a corner.
 std::vector<std::uint8_t> openEdgesOf(const PlanarMesh& mesh)
 {
-    constexpr double kCorner = 0.5;  // sin 30°: a smooth rim turns by less between vertices
+    constexpr double kCorner = 0.5;  // sin 30°; a smooth rim turns by less at a vertex
     std::vector<std::uint8_t> smooth(mesh.rimVertexCount(), 0);
     std::vector<std::uint8_t> open(mesh.rimVertexCount(), 0);
     for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
@@ -81,7 +81,7 @@ std::vector<double> loadOf(const PlanarMesh& mesh)
     return load;
 }
 
-/// Triangles that touch the rim, of those that are not regular: none of the others does.
+/// Triangles that touch the rim; all of them are irregular.
 std::vector<std::uint32_t> rimTrianglesOf(const PlanarMesh& mesh)
 {
     std::vector<std::uint32_t> triangles;
@@ -107,13 +107,13 @@ Energy::Energy(const PlanarMesh& mesh, const BaseSurface& ground, const Physics&
 {
     area_ = std::accumulate(load_.begin(), load_.end(), 0.0);
     rim_length_ = std::accumulate(rim_weights_.begin(), rim_weights_.end(), 0.0);
-    evened_weights_ = evenedOut(rim_weights_, kEvenings);
+    smoothed_weights_ = smoothed(rim_weights_, kSmoothingPasses);
     if (!ground.flat()) {
         sampleGround(ground);
     }
 }
 
-std::vector<double> Energy::evenedOut(std::vector<double> forces, int times) const
+std::vector<double> Energy::smoothed(std::vector<double> forces, int times) const
 {
     const PlanarMesh& mesh = *mesh_;
     std::vector<double> next;
@@ -137,16 +137,16 @@ std::vector<double> Energy::evenedOut(std::vector<double> forces, int times) con
 std::vector<double> Energy::fluxOf(const std::vector<double>& forces) const
 {
     const PlanarMesh& mesh = *mesh_;
-    std::vector<double> flux = evenedOut(forces, kEvenings);
+    std::vector<double> flux = smoothed(forces, kSmoothingPasses);
     for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
         double missing = 0.0;
         double rim_length = 0.0;
         for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
-            flux[v] /= evened_weights_[v];
+            flux[v] /= smoothed_weights_[v];
             missing += forces[v] - flux[v] * rim_weights_[v];
             rim_length += rim_weights_[v];
         }
-        // The whole loop's force is what counts in balances.
+        // Balances need the total force of the loop.
         for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
             flux[v] += missing / rim_length;
         }
@@ -207,13 +207,13 @@ std::pair<double, double> Energy::contactAngle(std::uint32_t rim_vertex, double 
         angle = std::atan(rise) - ground;
         derivative = 1.0 / (stretch * (1.0 + rise * rise));
     } else {
-        // The flux is (∂u/∂n) / √(1 + (∂u/∂t)² + (∂u/∂n)²), the sine of that angle.
+        // The flux (∂u/∂n) / √(1 + (∂u/∂t)² + (∂u/∂n)²) is the sine of that angle.
         const double sine = std::clamp(flux, -kSteepestFlux, kSteepestFlux);
         angle = std::asin(sine) - ground;
         derivative = sine == flux ? 1.0 / std::sqrt(1.0 - sine * sine) : 0.0;
     }
-    // On level flat ground the liquid stays above it: only the recovery's error takes the angle below.
-    const bool above = physics_.no_penetration || (restsOnGround() && physics_.normal >= 0.0);
+    // On level flat ground the liquid stays above it; a negative angle is an error of the recovery.
+    const bool above = physics_.no_penetration || (isLevelAndFlat() && physics_.normal >= 0.0);
     if (above && angle < 0.0) {
         return {0.0, 0.0};
     }
@@ -247,7 +247,7 @@ std::vector<std::uint32_t> Energy::dryRim(const std::vector<std::uint8_t>& held)
     return dry;
 }
 
-bool Energy::restsOnGround() const
+bool Energy::isLevelAndFlat() const
 {
     return ground_.empty() && physics_.along == Vec2{};
 }
@@ -262,7 +262,7 @@ std::vector<double> Energy::gradient(const std::vector<double>& u) const
         const Vec2 slope = u[t[0]] * hats[0] + u[t[1]] * hats[1] + u[t[2]] * hats[2];
         const double stretch = physics_.model == Model::Exact ? 1.0 / std::sqrt(1.0 + dot(slope, slope)) : 1.0;
         const Vec2 flux = area * stretch * slope;
-        // ∫(wu − s·x)φ of what is linear on a triangle: A/12 (its sum + its value at the vertex).
+        // ∫fφ for a linear f = wu − s·x on a triangle: A/12 (sum over its corners + value at the vertex).
         std::array<double, 3> head{};
         for (std::size_t k = 0; k < 3; ++k) {
             head[k] = physics_.normal * u[t[k]] - dot(physics_.along, mesh.vertices[t[k]]);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Newton's method on the energy with the fill as a constraint. Rows of the rim, left out of the systems, give the flux
-// through it: G. F. Carey, "Derivative calculation from finite element solutions" (1982). Contact with the ground: the
-// primal–dual active set of M. Hintermüller, K. Ito, K. Kunisch, "The primal-dual active set strategy as a semismooth
-// Newton method" (2002), on every step's quadratic problem, so that steps stay above the ground and the line search is
-// one among admissible sheets.
+// Newton's method on the energy with the fill as a constraint. The systems leave out the rows of the rim; these give
+// the flux through it: G. F. Carey, "Derivative calculation from finite element solutions" (1982). Contact with the
+// ground: the primal–dual active set of M. Hintermüller, K. Ito, K. Kunisch, "The primal-dual active set strategy as a
+// semismooth Newton method" (2002), on the quadratic problem of every step. So all sheets of the line search are above
+// the ground.
 
 #include "shape/equilibrium.h"
 
@@ -26,27 +26,27 @@
 namespace droplet {
 namespace {
 
-/// Tolerances of linear systems: of a first Newton step, and where the solution counts.
-constexpr double kRoughly = 1e-2;
-constexpr double kExactly = 1e-10;
+/// Tolerances of linear systems: for a first Newton step, and for the result.
+constexpr double kLooseTolerance = 1e-2;
+constexpr double kTightTolerance = 1e-10;
 
 /// Residuals of Newton's method that may be due to round-off.
 constexpr double kStuckResidual = 1e-7;
 
-/// What a step takes beside its linear systems, in iterations of these.
+/// Cost of a step besides its linear systems, in iterations of these.
 constexpr double kStepWork = 16.0;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Where a Newton step may lead one droplet: affine in the volume it gains.
+/// Newton step of one droplet, affine in the volume it gains.
 struct Step {
-    std::vector<double> base;       ///< change of the inner heights without gain [m]; empty: none
-    std::vector<double> rise;       ///< and per volume gained [1/m²]; empty where no volume is to be gained
-    double pressure = 0.0;          ///< λ/σ then [1/m]
-    double pressure_rise = 0.0;     ///< [1/m⁴]
-    std::vector<double> flux;       ///< through the rim then
-    std::vector<double> flux_rise;  ///< [1/m³]
-    std::optional<double> loss;     ///< where all vertices are held: the volume that is given up [m³]
+    std::vector<double> base;       ///< change of the inner heights at no gain [m]; empty: 0
+    std::vector<double> rise;       ///< change per volume gained [1/m²]; empty if the volume stays
+    double pressure = 0.0;          ///< λ/σ after the step at no gain [1/m]
+    double pressure_rise = 0.0;     ///< change per volume gained [1/m⁴]
+    std::vector<double> flux;       ///< flux through the rim after the step at no gain
+    std::vector<double> flux_rise;  ///< change per volume gained [1/m³]
+    std::optional<double> loss;     ///< volume that is lost if all vertices are held [m³]
     bool converged = true;
     std::size_t iterations = 0;
     double residual = 0.0;
@@ -58,10 +58,10 @@ struct Jet {
     double derivative = 0.0;
 };
 
-/// Where an increasing function takes a value: Newton inside a bracket that bisection keeps.
-/// @param scale   a distance over which the function is expected to change
-/// @return        nothing if the value is not within 2⁶⁰ scales
-std::optional<double> whereIncreasing(const std::function<Jet(double)>& f, double wanted, double start, double scale)
+/// Argument at which an increasing function has a value, by Newton's method inside a bracket that bisection keeps.
+/// @param scale   distance over which the function changes
+/// @return        empty if the value is farther than 2⁶⁰ scales away
+std::optional<double> solveIncreasing(const std::function<Jet(double)>& f, double wanted, double start, double scale)
 {
     Jet at = f(start);
     const double side = at.value < wanted ? 1.0 : -1.0;
@@ -106,7 +106,7 @@ double thickness(const Member& member, std::size_t vertex)
     return member.sheet->height[vertex] - (ground.empty() ? 0.0 : ground[vertex]);
 }
 
-/// The largest thickness a step leads to at a gain of volume.
+/// Largest thickness after a step with a gain of volume.
 Jet heightAt(const Member& member, const Step& step, double gain)
 {
     const std::uint32_t rim = rimOf(member);
@@ -126,7 +126,7 @@ Jet heightAt(const Member& member, const Step& step, double gain)
                              [](const Jet& a, const Jet& b) { return a.value < b.value; });
 }
 
-/// The mean contact angle, times the rim's length, that a step leads to at a gain of volume.
+/// Mean contact angle after a step with a gain of volume, times the length of the rim.
 Jet angleAt(const Member& member, const Step& step, double gain)
 {
     Jet sum;
@@ -139,10 +139,10 @@ Jet angleAt(const Member& member, const Step& step, double gain)
     return sum;
 }
 
-/// How members share what they gain together.
+/// Distribution of a gain of volume among members.
 struct Shares {
-    std::vector<Jet> gains;  ///< of each, and by which part of the whole
-    double pressure = 0.0;   ///< λ/σ of all [1/m]
+    std::vector<Jet> gains;  ///< gain of each member, and its derivative by the total gain
+    double pressure = 0.0;   ///< common λ/σ [1/m]
 };
 
 Shares sharesOf(const std::vector<Step>& steps, double gain)
@@ -150,7 +150,7 @@ Shares sharesOf(const std::vector<Step>& steps, double gain)
     if (steps.size() == 1) {
         return {{{gain, 1.0}}, steps[0].pressure + gain * steps[0].pressure_rise};
     }
-    // At one pressure p each gains (p − its pressure) / its rise.
+    // At a common pressure p a member gains (p − its pressure) / its rise.
     double compliance = 0.0;
     double offset = 0.0;
     for (const Step& step : steps) {
@@ -171,7 +171,7 @@ Shares sharesOf(const std::vector<Step>& steps, double gain)
     return shares;
 }
 
-/// The largest thickness of all members, or the mean angle along all rims.
+/// Largest thickness of all members, or mean angle along all rims.
 Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps, FillBy by, double gain)
 {
     const std::vector<Jet> shares = sharesOf(steps, gain).gains;
@@ -191,7 +191,7 @@ Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps,
     return by == FillBy::ContactAngle ? Jet{total.value / rim_length, total.derivative / rim_length} : total;
 }
 
-/// The gain of volume after which the fill is met, if there is one.
+/// Gain of volume that meets the fill, if there is one.
 std::optional<double> gainFor(const std::vector<Member>& members, const std::vector<Step>& steps, const Fill& fill)
 {
     double volume = 0.0;
@@ -203,14 +203,14 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
     if (fill.by == FillBy::Volume) {
         return fill.amount - volume;
     }
-    // Of the order of what a droplet of that footprint holds.
+    // The order of magnitude of a droplet's volume on that footprint.
     const double scale = 1e-3 * std::pow(footprint, 1.5);
-    return whereIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
+    return solveIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
 }
 
 [[noreturn]] void refuse(const Fill& fill)
 {
-    // Rim pieces in sharp corners steepen slowly, so the mean may lag behind for long, but not for ever.
+    // Rim pieces in sharp corners steepen slowly, so the mean angle may stay small up to a large volume.
     throw Error(ErrorCode::NoSuchDroplet, fill.by == FillBy::Height
                                               ? "no volume gives a droplet of that height on this footprint"
                                               : "no volume gives a mean contact angle of " +
@@ -218,7 +218,7 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
                                                     " degrees on this footprint; ask for a smaller --contact-angle");
 }
 
-bool keepsAbove(const std::vector<Member>& members)
+bool preventsPenetration(const std::vector<Member>& members)
 {
     return members.front().energy->physics().no_penetration;
 }
@@ -228,7 +228,7 @@ bool isVolumeOfOne(const std::vector<Member>& members, const Fill& fill)
     return members.size() == 1 && fill.by == FillBy::Volume;
 }
 
-/// The flux through the rim that balances the rim's rows, λm − ∂E/∂u.
+/// Flux through the rim that balances the rows of the rim, λm − ∂E/∂u.
 std::vector<double> fluxThroughRim(const Member& member, double pressure, const std::vector<double>& gradient)
 {
     std::vector<double> forces(rimOf(member));
@@ -238,7 +238,7 @@ std::vector<double> fluxThroughRim(const Member& member, double pressure, const 
     return member.energy->fluxOf(forces);
 }
 
-/// The step that leaves all of a member's ground dry.
+/// Step that leaves all ground of a member dry.
 Step dryStep(const Member& member)
 {
     const std::uint32_t rim = rimOf(member);
@@ -253,7 +253,7 @@ Step dryStep(const Member& member)
     return step;
 }
 
-/// One member's Newton step at its sheet, with the vertices held that are said to be; they go to the ground.
+/// Newton step of one member from its sheet. The held vertices of `op` move to the ground.
 Step stepOf(const Member& member, const Operator& op, const std::vector<double>& gradient, bool with_rise,
             double tolerance)
 {
@@ -273,12 +273,12 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
         ConstrainedProblem problem;
         problem.tolerance = tolerance;
         problem.right.resize(inner);
-        // For the change of the pressure: what is asked for is then as small as what is still wrong.
+        // The unknown is the change of the pressure, so the right side is as small as the remaining error.
         const double pressure = member.sheet->pressure;
         for (std::size_t i = 0; i < inner; ++i) {
             problem.right[i] = pressure * energy.load()[rim + i] - gradient[rim + i];
         }
-        std::vector<double> down;  // of the held vertices, to the ground
+        std::vector<double> down;  // change of held vertices, to the ground
         if (!op.held.empty()) {
             down.assign(energy.mesh().vertices.size(), 0.0);
             for (std::size_t i = 0; i < inner; ++i) {
@@ -330,7 +330,7 @@ Step stepOf(const Member& member, const Operator& op, const std::vector<double>&
     return step;
 }
 
-/// The change of a member's heights, at all vertices.
+/// Change of a member's heights at all vertices.
 std::vector<double> changeOf(const Member& member, const Step& step, double gain)
 {
     std::vector<double> change(member.sheet->height.size(), 0.0);
@@ -353,7 +353,7 @@ void addChange(std::vector<double>& height, const std::vector<double>& change)
     });
 }
 
-/// Which inner vertices the ground should hold: those held that it pushes up, and those that sank in.
+/// Inner vertices that the ground should hold: held ones that it pushes up, and free ones that sank into it.
 std::vector<std::uint8_t> heldAfter(const Member& member, const Operator& op, const std::vector<double>& gradient,
                                     const std::vector<double>& change, double pressure)
 {
@@ -394,7 +394,7 @@ struct Advance {
     std::vector<std::vector<double>> changes;  ///< at all vertices [m]
     std::vector<double> pressures;             ///< [1/m]
     std::vector<double> gains;                 ///< [m³]
-    std::vector<std::vector<double>> fluxes;   ///< at rim vertices, as the step foresees them
+    std::vector<std::vector<double>> fluxes;   ///< predicted fluxes at rim vertices
     bool converged = true;
     bool stable = true;
     std::size_t iterations = 0;
@@ -402,8 +402,8 @@ struct Advance {
     double residual = 0.0;
 };
 
-/// One reservoir under a ceiling drains from one droplet into another unless at most one of them would empty itself at
-/// its pressure, and all together would not.
+/// Whether droplets with one reservoir under a ceiling do not drain into each other: at most one of them is unstable at
+/// a constant pressure, and then all together are stable.
 bool isStable(const std::vector<Step>& steps)
 {
     double compliance = 0.0;
@@ -435,7 +435,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
     }
     std::vector<Step> steps(count);
     std::vector<std::uint8_t> changed(count, 1);
-    // Sets of held vertices that were tried, lest they come round again.
+    // Sets of held vertices tried so far, to detect cycles.
     std::set<std::vector<std::vector<std::uint8_t>>> tried;
     bool release = true;
     for (;;) {
@@ -458,7 +458,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
                                 static_cast<double>(step.iterations) * static_cast<double>(unknowns);
             }
         }
-        // Somewhere the liquid has to be.
+        // At least one droplet must keep liquid.
         advance.converged =
             advance.converged && std::any_of(steps.begin(), steps.end(), [](const Step& step) { return !step.loss; });
         advance.stable = count == 1 || isStable(steps);
@@ -483,13 +483,13 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
             advance.changes[k] = changeOf(members[k], steps[k], shares.gains[k].value);
             changed[k] = 0;
         });
-        if (keepsAbove(members)) {
+        if (preventsPenetration(members)) {
             std::vector<std::vector<std::uint8_t>> held(count);
             tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
                 held[k] =
                     heldAfter(members[k], advance.operators[k], gradients[k], advance.changes[k], advance.pressures[k]);
             });
-            // What comes round again is decided by the systems' tolerance: then nothing is let go any more.
+            // A cycle is due to the tolerance of the systems. After one, no vertex is released any more.
             release = release && tried.insert(held).second;
             bool settled = true;
             for (std::size_t k = 0; k < count; ++k) {
@@ -514,20 +514,20 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
     }
 }
 
-/// ∂E/∂u of every member; empty where it is known to be 0.
+/// ∂E/∂u of every member; empty if it is known to be 0.
 std::vector<std::vector<double>> gradientsOf(const std::vector<Member>& members)
 {
     std::vector<std::vector<double>> gradients(members.size());
     tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t k) {
         const bool empty = members[k].sheet->volume == 0.0 && members[k].sheet->pressure == 0.0;
-        if (!(empty && members[k].energy->restsOnGround())) {
+        if (!(empty && members[k].energy->isLevelAndFlat())) {
             gradients[k] = members[k].energy->gradient(members[k].sheet->height);
         }
     });
     return gradients;
 }
 
-/// ‖λm − ∂E/∂u‖ over what is free, by ‖λm‖; where there is next to no pressure, by that of a droplet's size.
+/// ‖λm − ∂E/∂u‖ over free vertices, relative to ‖λm‖; if λ is almost 0, to the value for a droplet of that size.
 double residualOf(const Member& member, const std::vector<double>& gradient)
 {
     const std::vector<double>& load = member.energy->load();
@@ -546,7 +546,7 @@ double residualOf(const Member& member, const std::vector<double>& gradient)
     return std::sqrt(squares / loads) / pressure;
 }
 
-/// The sheets some part of a step on.
+/// Sheets after a part of a step.
 struct Trial {
     std::vector<std::vector<double>> heights;
     std::vector<std::vector<double>> gradients;  ///< ∂E/∂u there
@@ -568,7 +568,7 @@ Trial trialAt(const std::vector<Member>& members, const Advance& advance, double
     return trial;
 }
 
-/// The slope of all energies, less the pressures' work, along a step.
+/// Derivative of all energies, minus the work of the pressures, along a step.
 double slopeAlong(const std::vector<Member>& members, const Advance& advance,
                   const std::vector<std::vector<double>>& gradients)
 {
@@ -587,10 +587,10 @@ double slopeAlong(const std::vector<Member>& members, const Advance& advance,
     return slope;
 }
 
-/// As much of a step as is good. The energy is convex along it, so its slope there rises; enough is done where little
-/// of the first slope is left, and too much where the other side is as steep.
-Trial goodPart(const std::vector<Member>& members, const Advance& advance,
-               const std::vector<std::vector<double>>& gradients)
+/// Line search along a step. The energy is convex along it, so the slope rises. The search ends where the slope is at
+/// most half of the size of the first one.
+Trial lineSearch(const std::vector<Member>& members, const Advance& advance,
+                 const std::vector<std::vector<double>>& gradients)
 {
     constexpr double kEnough = 0.5;
     constexpr int kMaxCuts = 12;
@@ -601,14 +601,14 @@ Trial goodPart(const std::vector<Member>& members, const Advance& advance,
         if (slope <= kEnough * std::abs(first)) {
             break;
         }
-        // Where a line through both slopes meets 0, but no more than to a tenth.
+        // The zero of a line through both slopes; the part shrinks to a tenth at most.
         trial = trialAt(members, advance, trial.part * std::clamp(first / (first - slope), 0.1, 0.7));
     }
     return trial;
 }
 
-/// Takes part of a step; the sheet's heights are those it leads to.
-void take(const Member& member, const Advance& by, std::size_t k, double part)
+/// Applies a part of a step to all of a sheet but its heights, which are up to date.
+void apply(const Member& member, const Advance& by, std::size_t k, double part)
 {
     Sheet& sheet = *member.sheet;
     sheet.volume += part * by.gains[k];
@@ -639,9 +639,9 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     const bool exact = members.front().energy->physics().model == Model::Exact;
     Settled settled;
     std::vector<std::vector<double>> gradients = gradientsOf(members);
-    // Which vertices are held can hang on the last digits of a step: rough ones go round in circles.
-    const double roughly = exact && !keepsAbove(members) ? kRoughly : kExactly;
-    StepOptions step{options.fill, exact ? roughly : options.linear_tolerance};
+    // The set of held vertices can depend on the last digits of a step; with a loose tolerance it cycles.
+    const double loose = exact && !preventsPenetration(members) ? kLooseTolerance : kTightTolerance;
+    StepOptions step{options.fill, exact ? loose : options.linear_tolerance};
     double min_residual = std::numeric_limits<double>::infinity();
     while (settled.newton_steps < options.max_steps && settled.work < options.max_work) {
         const Advance next = advanceOf(members, gradients, step);
@@ -656,27 +656,27 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
         if (!exact) {
             for (std::size_t k = 0; k < members.size(); ++k) {
                 addChange(members[k].sheet->height, next.changes[k]);
-                take(members[k], next, k, 1.0);
+                apply(members[k], next, k, 1.0);
             }
             settled.residual = next.residual;
             settled.converged = true;
             return settled;
         }
-        Trial trial = goodPart(members, next, gradients);
+        Trial trial = lineSearch(members, next, gradients);
         gradients = std::move(trial.gradients);
         settled.residual = 0.0;
-        double missed = 0.0;
+        double volume_error = 0.0;
         for (std::size_t k = 0; k < members.size(); ++k) {
             Sheet& sheet = *members[k].sheet;
             sheet.height = std::move(trial.heights[k]);
-            take(members[k], next, k, trial.part);
+            apply(members[k], next, k, trial.part);
             settled.residual = std::max(settled.residual, residualOf(members[k], gradients[k]));
-            missed = std::max(missed, std::abs(next.gains[k]) / std::abs(sheet.volume));
+            volume_error = std::max(volume_error, std::abs(next.gains[k]) / std::abs(sheet.volume));
         }
         const bool whole = trial.part == 1.0;
-        const bool filled =
-            isVolumeOfOne(members, options.fill) ? whole || !keepsAbove(members) : whole && missed < options.tolerance;
-        // Needles of triangles leave more to round-off; what no longer gets better is as good as it gets.
+        const bool filled = isVolumeOfOne(members, options.fill) ? whole || !preventsPenetration(members)
+                                                                 : whole && volume_error < options.tolerance;
+        // With needle triangles round-off is larger; a small residual that no longer falls is accepted.
         const bool stuck = settled.residual < kStuckResidual && settled.residual > 0.5 * min_residual;
         min_residual = std::min(min_residual, settled.residual);
         if ((settled.residual <= options.tolerance || stuck) && filled) {
@@ -690,8 +690,8 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
             }
             return settled;
         }
-        // As exact as this step's error is worth: the next is of the order of its square.
-        step.tolerance = std::clamp(0.1 * settled.residual, kExactly, roughly);
+        // The next error is of the order of the square of this one, so a higher accuracy is not needed.
+        step.tolerance = std::clamp(0.1 * settled.residual, kTightTolerance, loose);
     }
     return settled;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A sheet over a footprint stands upright where the flux through its rim reaches 1: R. Finn, "Equilibrium Capillary
-// Surfaces" (1986), chapter 1. At corners that point into the liquid it always does, at the very tip.
+// A sheet over a footprint is upright where the flux through its rim reaches 1: R. Finn, "Equilibrium Capillary
+// Surfaces" (1986), chapter 1. At the tip of a corner that points into the liquid it always does.
 
 #include "shape/existence.h"
 
@@ -24,14 +24,14 @@ double bondNumber(const Energy& energy, double weight)
     return std::abs(weight) * energy.area() / std::numbers::pi;
 }
 
-/// A piece of rim: how steep it is, and how long.
+/// Piece of rim.
 struct RimPiece {
-    double flux = 0.0;
+    double flux = 0.0;    ///< sine of its contact angle
     double length = 0.0;  ///< [m]
 };
 
-/// The angle that a share of some pieces exceeds.
-double exceededBy(std::vector<RimPiece> pieces, double share)
+/// Angle that a share of some pieces exceeds.
+double angleExceededBy(std::vector<RimPiece> pieces, double share)
 {
     if (pieces.empty()) {
         return 0.0;
@@ -46,15 +46,14 @@ double exceededBy(std::vector<RimPiece> pieces, double share)
     return std::asin(std::clamp(steepest->flux, -1.0, 1.0));
 }
 
-/// How steep the rim is where it counts: the angle that a fiftieth of it exceeds, but for where it bends into the
-/// liquid, or a tenth of all of it. Tips of corners that point into the liquid are upright always; how much of bends
-/// is, is a matter of degree.
+/// Steepness of the rim: the angle that a fiftieth of it exceeds, without bends into the liquid, or a tenth of all of
+/// it. Tips of corners that point into the liquid are always upright; in bends this depends on the size of the bend.
 double steepestAngle(const Member& member)
 {
     constexpr double kShare = 0.02;
     constexpr double kShareWithBends = 0.1;
-    constexpr int kEvenings = 8;         // no single vertex decides
-    constexpr std::uint32_t kReach = 5;  // vertices to either side that tell a bend
+    constexpr int kSmoothingPasses = 8;  // so that no single vertex decides
+    constexpr std::uint32_t kReach = 5;  // vertices on either side that define a bend
     constexpr double kStraight = 0.02;   // sine of the turn between them
     const PlanarMesh& mesh = member.energy->mesh();
     const std::vector<double>& weights = member.energy->rimWeights();
@@ -62,8 +61,8 @@ double steepestAngle(const Member& member)
     for (std::size_t v = 0; v < forces.size(); ++v) {
         forces[v] *= member.sheet->flux[v];
     }
-    forces = member.energy->evenedOut(std::move(forces), kEvenings);
-    const std::vector<double> lengths = member.energy->evenedOut(weights, kEvenings);
+    forces = member.energy->smoothed(std::move(forces), kSmoothingPasses);
+    const std::vector<double> lengths = member.energy->smoothed(weights, kSmoothingPasses);
     std::vector<RimPiece> all;
     std::vector<RimPiece> straight;
     for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
@@ -76,33 +75,32 @@ double steepestAngle(const Member& member)
             const Vec2 out = mesh.vertices[first + (i + reach) % count] - here;
             const RimPiece piece{forces[first + i] / lengths[first + i], weights[first + i]};
             all.push_back(piece);
-            // Liquid lies on the left: a bend into it turns right.
+            // Liquid lies on the left, so a bend into it turns right.
             if (cross(in, out) > -kStraight * length(in) * length(out)) {
                 straight.push_back(piece);
             }
         }
     }
-    return std::max(exceededBy(std::move(straight), kShare), exceededBy(std::move(all), kShareWithBends));
+    return std::max(angleExceededBy(std::move(straight), kShare), angleExceededBy(std::move(all), kShareWithBends));
 }
 
-/// Of a linear solution that only begins Newton's method.
+/// Tolerance of a linear solution from which Newton's method starts.
 constexpr double kStartTolerance = 1e-4;
 
-/// A mean angle at which the linear model and the exact one are close.
-constexpr double kGentle = 20.0 * kDegree;
+/// Mean angle at which the linear and the exact model are close.
+constexpr double kStartAngle = 20.0 * kDegree;
 
-/// Up to here angles recovered from fluxes are good to some tenths of a degree; volumes of steeper sheets follow from
-/// those of less steep ones.
-constexpr double kReliable = 88.5 * kDegree;
+/// Largest angle that fluxes give to some tenths of a degree. Volumes of steeper sheets are extrapolated.
+constexpr double kReliableAngle = 88.5 * kDegree;
 
-/// A sheet and how steep it is.
+/// Volume and steepness of a sheet.
 struct Waypoint {
     double volume = 0.0;  ///< [m³]
     double angle = 0.0;   ///< [rad]
 };
 
-/// The volume at which the rim stands upright: the volume as a function of the angle, smooth there, through four
-/// waypoints.
+/// Volume at which the rim is upright, extrapolated through four waypoints: the volume is a smooth function of the
+/// angle.
 double uprightVolume(const std::array<Waypoint, 4>& way)
 {
     constexpr double kUpright = 90.0 * kDegree;
@@ -124,7 +122,7 @@ public:
     Outcome run()
     {
         if (!settleLinear(linearFill(options_->fill))) {
-            refuseWhatFalls();
+            checkStability();
             return outcome_;
         }
         if (options_->model == Model::Linear) {
@@ -133,13 +131,13 @@ public:
         }
         outcome_.iterations = 0;
         use(Model::Exact);
-        // Half of the work is for the way up, where this leads nowhere.
+        // If this fails, half of the work is left for raising the volume.
         max_work_ = 0.5 * maxWork();
-        const bool settled = settleExact(options_->fill) && steepest() < kReliable;
+        const bool settled = settleExact(options_->fill) && steepest() < kReliableAngle;
         max_work_ = maxWork();
-        if (settled || climb()) {
+        if (settled || raiseVolume()) {
             outcome_.termination = Termination::Converged;
-        } else if (isSpent()) {
+        } else if (isOutOfSteps()) {
             outcome_.termination = Termination::OutOfSteps;
             outcome_.largest_volume = reached_;
         }
@@ -147,7 +145,6 @@ public:
     }
 
 private:
-    /// Of the exact model's.
     [[nodiscard]] std::size_t stepsLeft() const
     {
         return options_->max_newton_steps - std::min(outcome_.newton_steps, options_->max_newton_steps);
@@ -155,18 +152,18 @@ private:
 
     [[nodiscard]] double maxWork() const
     {
-        // Half a minute for some ten thousand unknowns.
-        constexpr double kAlways = 6e7;
-        constexpr double kForUnknown = 2000.0;
+        // Half a minute for about ten thousand unknowns.
+        constexpr double kBaseWork = 6e7;
+        constexpr double kWorkPerUnknown = 2000.0;
         const double unknowns =
             std::accumulate(members_->begin(), members_->end(), 0.0, [](double sum, const Member& member) {
                 const PlanarMesh& mesh = member.energy->mesh();
                 return sum + static_cast<double>(mesh.vertices.size() - mesh.rimVertexCount());
             });
-        return options_->max_work.value_or(kAlways + kForUnknown * unknowns);
+        return options_->max_work.value_or(kBaseWork + kWorkPerUnknown * unknowns);
     }
 
-    [[nodiscard]] bool isSpent() const { return stepsLeft() == 0 || work_ >= max_work_; }
+    [[nodiscard]] bool isOutOfSteps() const { return stepsLeft() == 0 || work_ >= max_work_; }
 
     void use(Model model) const
     {
@@ -175,7 +172,7 @@ private:
         }
     }
 
-    /// What to fill the linear model with, so that it holds about what the exact one will.
+    /// Fill of the linear model that gives about the same volume as the exact one.
     [[nodiscard]] Fill linearFill(Fill fill) const
     {
         if (options_->model == Model::Exact && fill.by == FillBy::ContactAngle) {
@@ -222,8 +219,8 @@ private:
         outcome_.critical_bond_number = bondNumber(energy, critical_weight);
     }
 
-    /// Looks for a droplet that gravity away from the ground leaves no place, however small it is.
-    void refuseWhatFalls()
+    /// Looks for a droplet that falls off at any volume.
+    void checkStability()
     {
         for (std::size_t k = 0; k < members_->size() && outcome_.termination != Termination::Unstable; ++k) {
             const Member& member = (*members_)[k];
@@ -237,7 +234,7 @@ private:
         }
     }
 
-    /// The steepest angle of all members; that one is the first to fail.
+    /// Steepest angle of all members. This member fails first.
     double steepest()
     {
         double angle = -1.0;
@@ -260,7 +257,7 @@ private:
         return copies;
     }
 
-    void putBack(const std::vector<Sheet>& sheets) const
+    void restore(const std::vector<Sheet>& sheets) const
     {
         for (std::size_t k = 0; k < sheets.size(); ++k) {
             *(*members_)[k].sheet = sheets[k];
@@ -273,29 +270,29 @@ private:
                                [](double sum, const Member& member) { return sum + member.sheet->volume; });
     }
 
-    /// Little liquid, the start of the way up.
-    bool settleLittle()
+    /// Solves for a small volume, the start of raiseVolume().
+    bool settleSmallVolume()
     {
         use(Model::Linear);
         for (const Member& member : *members_) {
             *member.sheet = emptySheet(*member.energy);
         }
         const Fill& wanted = options_->fill;
-        const Fill gentle{FillBy::ContactAngle, kGentle, wanted.sharing};
+        const Fill gentle{FillBy::ContactAngle, kStartAngle, wanted.sharing};
         const Settled start = settle(*members_, {.fill = gentle});
         use(Model::Exact);
-        const double little = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
-        return start.converged && settleExact({FillBy::Volume, little, wanted.sharing});
+        const double small = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
+        return start.converged && settleExact({FillBy::Volume, small, wanted.sharing});
     }
 
-    /// From little liquid to what is asked for.
-    bool climb()
+    /// Raises the volume from small values to the fill.
+    bool raiseVolume()
     {
-        if (!settleLittle()) {
+        if (!settleSmallVolume()) {
             return false;
         }
         constexpr int kMaxTries = 80;
-        constexpr double kCloseEnough = 1e-2;  // of the last waypoint; the rest is extrapolated
+        constexpr double kCloseEnough = 1e-2;  // relative to the last volume; the rest is extrapolated
         const Fill& wanted = options_->fill;
         const bool by_volume = wanted.by == FillBy::Volume;
         double here = volume();
@@ -303,13 +300,13 @@ private:
         std::vector<Sheet> good = sheets();
         std::optional<double> too_much;
         bool upright = false;
-        for (int k = 0; k < kMaxTries && !isSpent(); ++k) {
+        for (int k = 0; k < kMaxTries && !isOutOfSteps(); ++k) {
             reached_ = here;
             if (by_volume && here >= wanted.amount) {
                 return true;
             }
             if (!by_volume && amountOf(*members_, wanted.by) >= wanted.amount) {
-                return settleExact(wanted) || meet(before, here);
+                return settleExact(wanted) || searchVolume(before, here);
             }
             if (too_much && *too_much - here <= kCloseEnough * here) {
                 break;
@@ -317,19 +314,19 @@ private:
             double next = too_much ? std::sqrt(here * *too_much) : 1.5 * here;
             next = by_volume ? std::min(next, wanted.amount) : next;
             const bool found = settleExact({FillBy::Volume, next, wanted.sharing});
-            if (found && steepest() < kReliable) {
+            if (found && steepest() < kReliableAngle) {
                 before = here;
                 here = next;
                 good = sheets();
             } else {
                 upright = found;
                 too_much = next;
-                putBack(good);
+                restore(good);
             }
         }
-        outcome_.largest_volume = upright ? uprightFrom(here) : here;
-        putBack(good);
-        // Between the last sheet whose angle is reliable and the upright one, there is one for the asking.
+        outcome_.largest_volume = upright ? extrapolateUprightVolume(here) : here;
+        restore(good);
+        // A solution may exist between the last sheet with a reliable angle and the upright one.
         if (upright && (!by_volume || wanted.amount <= outcome_.largest_volume) && settleExact(wanted) &&
             volume() <= outcome_.largest_volume) {
             return true;
@@ -338,9 +335,9 @@ private:
         return false;
     }
 
-    /// Meets the fill by volumes between two, of which the first gives too little and the second enough: regula falsi
-    /// in the manner of Illinois, which needs no derivative.
-    bool meet(double low, double high)
+    /// Meets the fill by a search for the volume between two: the first is too small, the second large enough. Uses the
+    /// Illinois variant of regula falsi, which needs no derivative.
+    bool searchVolume(double low, double high)
     {
         constexpr int kMaxTries = 60;
         constexpr double kAccuracy = 1e-9;
@@ -375,10 +372,10 @@ private:
         return false;
     }
 
-    /// The volume at which the rim stands upright, from sheets of somewhat less than what they hold now.
-    double uprightFrom(double now)
+    /// Volume at which the rim is upright, extrapolated from sheets of smaller volumes than now.
+    double extrapolateUprightVolume(double now)
     {
-        constexpr double kFarthest = 1.25;  // 88.5° and upright are closer than that on a disc, by far
+        constexpr double kFarthest = 1.25;  // on a disc the ratio from 88.5° to 90° is far smaller
         std::array<Waypoint, 4> way;
         const std::array<double, 4> parts{0.8, 0.7, 0.6, 0.5};
         for (std::size_t i = 0; i < 4; ++i) {
@@ -395,9 +392,9 @@ private:
     const std::vector<Member>* members_;
     const SolveOptions* options_;
     Outcome outcome_;
-    double work_ = 0.0;      ///< done by the exact model
-    double max_work_ = 0.0;  ///< that it may have done by now
-    double reached_ = 0.0;   ///< volume of the largest sheet on the way up [m³]
+    double work_ = 0.0;      ///< work done by the exact model
+    double max_work_ = 0.0;  ///< limit for it at present
+    double reached_ = 0.0;   ///< largest volume that raiseVolume() reached [m³]
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// What came of the search for an equilibrium; the sheets hold it if it converged.
+/// Result of the search for an equilibrium. If it converged, the sheets hold it.
 struct Outcome {
     Termination termination = Termination::NotConverged;
     std::size_t failed_member = 0;
@@ -21,11 +21,11 @@ struct Outcome {
     double critical_bond_number = 0.0;  ///< with Unstable
 };
 
-/// Finds the equilibrium of droplets at one pressure by the model asked for, or shows that there is none.
+/// Finds the equilibrium of droplets at one pressure, or shows that there is none.
 ///
-/// The exact model starts from the linear solution. Where that leads nowhere, or to a sheet that stands upright along
-/// some of its rim, the volume is raised from small values: up to what is asked, or to the largest that exists.
-/// @param members  with empty sheets, their energies of the linear model
+/// The exact model starts from the linear solution. If that fails, or gives a sheet that is upright along a part of its
+/// rim, the volume is raised from small values, up to the fill or to the largest volume that exists.
+/// @param members  with empty sheets and energies of the linear model
 Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options);
 
 }  // namespace droplet

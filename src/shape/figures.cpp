@@ -18,7 +18,7 @@
 namespace droplet {
 namespace {
 
-/// Slope up to which the linear model's area is within 10 % (thesis, section 4.1.2), squared: tan² 50°.
+/// Square of the slope up to which the linear model's area is within 10 % (thesis, section 4.1.2): tan² 50°.
 constexpr double kSteep = 1.4202766254612063;
 
 void measureRim(const PlanarMesh& mesh, const HeightField& field, Vec2 downhill, ShapeFigures& figures)
@@ -66,7 +66,7 @@ Sums sumsOver(const PlanarMesh& mesh, const HeightField& field, std::size_t begi
 {
     const std::vector<double>& u = field.height;
     const auto on_ground = [&](std::uint32_t v) { return mesh.onRim(v) || field.dry[v] != 0; };
-    // ∫u² of a linear function over a triangle, by its area.
+    // ∫u² of a linear function over a triangle, divided by its area.
     const auto mean_square = [](double a, double b, double c) {
         return (a * a + b * b + c * c + a * b + b * c + c * a) / 6.0;
     };
@@ -92,7 +92,7 @@ Sums sumsOver(const PlanarMesh& mesh, const HeightField& field, std::size_t begi
             sums.squares -= area * mean_square(field.ground[t[0]], field.ground[t[1]], field.ground[t[2]]);
         }
         for (std::size_t k = 0; k < 3; ++k) {
-            // ∫φx of a triangle: A/12 (the sum of its corners + the vertex).
+            // ∫φx over a triangle: A/12 (sum of its corners + the vertex).
             const Vec2 weighted = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[t[k]];
             sums.moment = sums.moment + (area / 12.0 * thick[k]) * weighted;
         }
@@ -106,9 +106,10 @@ Sums sumsOver(const PlanarMesh& mesh, const HeightField& field, std::size_t begi
 void Hysteresis::validate() const
 {
     if (!(receding >= 0.0 && receding <= advancing && advancing <= std::numbers::pi)) {
-        throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("receding {} and advancing {} degrees must be from 0 to 180, the first not the larger",
-                                numberText(receding / kDegree), numberText(advancing / kDegree)));
+        throw Error(
+            ErrorCode::InvalidArgument,
+            fmt::format("receding {} and advancing {} degrees must be from 0 to 180, and receding at most advancing",
+                        numberText(receding / kDegree), numberText(advancing / kDegree)));
     }
 }
 
@@ -179,7 +180,7 @@ ShapeFigures combine(const std::vector<ShapeFigures>& droplets)
         total.dry_area += d.dry_area;
         total.volume += d.volume;
         total.height_max = std::max(total.height_max, d.height_max);
-        total.height_bound = std::max(total.height_bound, d.height_bound);  // of none, none
+        total.height_bound = std::max(total.height_bound, d.height_bound);  // stays empty if no droplet has one
         total.depth_max = std::max(total.depth_max, d.depth_max);
         total.liquid_area += d.liquid_area;
         total.linear_area += d.linear_area;

@@ -8,7 +8,7 @@
 
 namespace droplet {
 
-/// Gradients of the three functions that are 1 at one vertex of a triangle, 0 at the others and linear between [1/m].
+/// Gradients of the three linear functions that are 1 at one vertex of a triangle and 0 at the others [1/m].
 inline std::array<Vec2, 3> hatGradients(const PlanarMesh& mesh, const Triangle& t)
 {
     const double twice = doubleArea(mesh, t);
@@ -20,7 +20,7 @@ inline std::array<Vec2, 3> hatGradients(const PlanarMesh& mesh, const Triangle& 
     return gradients;
 }
 
-/// Gradient on a triangle of what is linear between the values at its vertices.
+/// Gradient on a triangle of the linear function with these values at vertices.
 inline Vec2 gradient(const PlanarMesh& mesh, const Triangle& t, const std::vector<double>& values)
 {
     const std::array<Vec2, 3> hats = hatGradients(mesh, t);

@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-/// ∫φφ·x at inner vertices, of an x that is 0 on the rim.
+/// ∫φφ·x at inner vertices, for an x that is 0 on the rim.
 std::vector<double> massTimes(const PlanarMesh& mesh, const std::vector<double>& x)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
@@ -34,13 +34,13 @@ std::vector<double> massTimes(const PlanarMesh& mesh, const std::vector<double>&
 double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolver& solver)
 {
     constexpr int kMaxIterations = 300;
-    constexpr double kTolerance = 1e-9;  // of the eigenvalue: its error is of the square of the vector's
+    constexpr double kTolerance = 1e-9;  // for the eigenvalue; its error is the square of the vector's error
     const PlanarMesh& mesh = energy.mesh();
     Operator stiffness = op;
     stiffness.mass_weight = 0.0;
     solver.prepare(stiffness);
 
-    // Inverse iteration. The start has a share in every direction: fractions of multiples of the golden ratio.
+    // Inverse iteration. Fractions of multiples of the golden ratio have a share in every direction.
     const std::size_t inner = mesh.vertices.size() - mesh.rimVertexCount();
     std::vector<double> x(inner);
     for (std::size_t i = 0; i < inner; ++i) {

@@ -6,12 +6,12 @@
 
 namespace droplet {
 
-/// The weight −w of liquid under a ceiling beyond which a droplet falls off [1/m²]: where some change of its sheet that
-/// keeps the volume takes no energy.
+/// Critical weight −w of liquid under a ceiling [1/m²]. At this weight a change of the sheet that keeps the volume
+/// costs no energy; above it a droplet falls off.
 ///
-/// It is the smallest eigenvalue μ of Kx = μMx among functions without volume; on a disc of radius R, (3.8317/R)².
-/// @param op      the energy's Hessian; its mass weight does not count
-/// @param solver  of the energy's mesh; left prepared for K
+/// It is the smallest eigenvalue μ of Kx = μMx among functions without volume; (3.8317/R)² on a disc of radius R.
+/// @param op      Hessian of the energy; its mass weight is ignored
+/// @param solver  solver for the energy's mesh; afterwards it is prepared for K
 double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolver& solver);
 
 }  // namespace droplet

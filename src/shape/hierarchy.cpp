@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001). The coarser lattices know nothing of the rim: a
-// function of theirs that reaches over it is cut off there, and kept if enough of it lies inside. Galerkin's products
-// make the coarser matrices right for whatever was kept.
+// U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001). Coarser lattices ignore the rim. A coarse function
+// that crosses the rim is cut off there, and kept if enough of it lies inside. Galerkin products give the right
+// matrices for the functions that are kept.
 
 #include "shape/hierarchy.h"
 
@@ -22,31 +22,31 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// What a row of the matrix is at an index; else its number among the irregular ones.
+/// Kinds of a row; other values are its number among irregular rows.
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr Index kRegular = kNone - 1;
 
-/// A coarse function is kept if its values at the finer level's unknowns sum to this; all of one sum to 4. From 1.6 to
-/// 2.2 the number of iterations is the same; at 2.6 the rim is left to the smoother, and it rises from 9 to 14.
+/// Smallest sum of a coarse function's values at the finer level's unknowns at which it is kept; a whole function
+/// has 4. From 1.6 to 2.2 the number of iterations is the same; at 2.6 it rises from 9 to 14.
 constexpr double kEnoughInside = 1.9;
 
-/// The coarsest level is factored. Below this size that takes no time.
+/// Size of the coarsest level, which is factored; below it this takes almost no time.
 constexpr Index kCoarsest = 400;
 
-/// A coarser level that has not even this many times fewer unknowns would only cost.
+/// Smallest ratio of unknowns at which a coarser level pays.
 constexpr double kMinCoarsening = 1.5;
 
-/// Which rows are what, and where they are, while a level is being built.
+/// Kinds and indices of the rows of a level that is being built.
 struct Plan {
     LatticeGrid grid;
-    Index off_lattice = 0;   ///< unknowns that are no lattice points; they come first
-    LatticeRegion region;    ///< the lattice points that are unknowns
-    std::vector<Index> row;  ///< kNone, kRegular or a number, for every index
+    Index off_lattice = 0;   ///< unknowns off the lattice; they come first
+    LatticeRegion region;    ///< lattice points that are unknowns
+    std::vector<Index> row;  ///< kNone, kRegular or a number for every index
 
     [[nodiscard]] bool isUnknown(Index i) const { return row[i] != kNone; }
 };
 
-/// The coarse points that unknowns of a region lie on or between, and others.
+/// Coarse points on or beside the unknowns of a region, and others.
 LatticeRegion parentsOf(const LatticeRegion& region, std::vector<RowInterval> others = {})
 {
     std::vector<RowInterval> parents = std::move(others);
@@ -60,7 +60,7 @@ LatticeRegion parentsOf(const LatticeRegion& region, std::vector<RowInterval> ot
     return LatticeRegion(std::move(parents));
 }
 
-/// Storage for a level: its own points, and those that the coarser level's functions and all stencils look at.
+/// Storage of a level: its own points, and those that coarser functions and stencils read.
 LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Index first)
 {
     std::vector<RowInterval> storage;
@@ -78,7 +78,7 @@ LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Inde
     return {LatticeRegion(std::move(storage)), first};
 }
 
-/// Calls with pieces of a row short enough to be shared out among threads.
+/// Calls visit with pieces of a row that are short enough for several threads.
 template <typename Visit>
 void forEachPiece(const RowInterval& i, const Visit& visit)
 {
@@ -113,10 +113,10 @@ public:
     };
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
-    /// Room for a row as most are.
+    /// Reserves space for a typical row.
     void reserve() { entries_.reserve(16); }
 
-    /// By column, so that rows do not depend on the order of their making.
+    /// Sorts by column, so that a row does not depend on the order of add().
     void sort()
     {
         std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
@@ -126,7 +126,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// Fills rows made one by one, in parallel, in order.
+/// Makes rows in parallel and stores them in order.
 template <typename Make>
 void fillRows(SparseRows& rows, const Make& make)
 {
@@ -156,7 +156,7 @@ double meanEdge(const PlanarMesh& mesh)
     return std::sqrt(4.0 / std::numbers::sqrt3 * area(mesh) / static_cast<double>(mesh.triangles.size()));
 }
 
-/// The triangle of the lattice in which a point lies.
+/// Triangle of the lattice that contains a point.
 struct LatticeTriangle {
     std::array<Site, 3> corners;
     std::array<double, 3> weights{};
@@ -180,7 +180,7 @@ LatticeTriangle triangleAround(Vec2 p, double edge)
     return {{neighbour(above, LatticeStep::Right), above, next}, {right + up - 1.0, 1.0 - right, 1.0 - up}};
 }
 
-/// The points of a mesh's lattice that are not held.
+/// Points of a mesh's lattice that are not held.
 LatticeRegion freePoints(const PlanarMesh& mesh, const std::vector<std::uint8_t>& held)
 {
     if (!mesh.lattice) {
@@ -210,7 +210,7 @@ std::uint32_t endOffLattice(const PlanarMesh& mesh)
     return mesh.lattice ? mesh.lattice->grid.begin() : static_cast<std::uint32_t>(mesh.vertices.size());
 }
 
-/// Numbers and rows of the finest level.
+/// Numbers the unknowns of the finest level.
 void planFinest(const PlanarMesh& mesh, const LatticeRegion& free, const std::vector<std::uint8_t>& held,
                 const LatticeRegion& parents, Hierarchy& hierarchy, Level& level, Plan& plan)
 {
@@ -250,8 +250,8 @@ void planFinest(const PlanarMesh& mesh, const LatticeRegion& free, const std::ve
     }
 }
 
-/// Stiffness between the corners of a lattice triangle, by the direction of the edge that joins them: the same in
-/// upward triangles as in downward ones, and linear in the tensor.
+/// Stiffness between two corners of a lattice triangle, by the direction of the edge between them. It is the same for
+/// triangles that point up and down, and linear in the tensor.
 struct EdgeStiffness {
     double next = 0.0;
     double above_left = 0.0;
@@ -260,14 +260,14 @@ struct EdgeStiffness {
 
 EdgeStiffness edgeStiffness(const SymmetricTensor& g)
 {
-    // A corner's gradient is the edge facing it, turned by 90°, over twice the area.
+    // The gradient of a corner is the opposite edge, turned by 90°, divided by twice the area.
     const double half_shear = 0.5 * g.xy;
     const double half = 0.5 * std::numbers::inv_sqrt3;
     return {half * (0.5 * g.yy - 1.5 * g.xx), half_shear - half * g.yy, -half_shear - half * g.yy};
 }
 
-/// That of all lattice triangles: upward with the point of an index at its lower left, downward with it as the lower
-/// corner.
+/// Stiffness of all lattice triangles. The index of one that points up is its lower left corner; of one that points
+/// down, its lower corner.
 struct LatticeStiffness {
     std::vector<EdgeStiffness> upward;
     std::vector<EdgeStiffness> downward;
@@ -275,7 +275,7 @@ struct LatticeStiffness {
     explicit LatticeStiffness(std::size_t size = 0) : upward(size), downward(size) {}
 };
 
-/// The unknowns on a level's lattice with their neighbours.
+/// Unknowns on a level's lattice, with their neighbours.
 std::vector<GridRun> latticeRuns(const Plan& plan)
 {
     std::vector<GridRun> runs;
@@ -285,7 +285,7 @@ std::vector<GridRun> latticeRuns(const Plan& plan)
     return runs;
 }
 
-/// Stiffness on those triangles of a mesh that are its lattice's.
+/// Stiffness of the triangles of a mesh's lattice.
 LatticeStiffness finestTriangles(const PlanarMesh& mesh, const Operator& op, const Hierarchy& hierarchy,
                                  const Plan& plan)
 {
@@ -318,8 +318,8 @@ LatticeStiffness finestTriangles(const PlanarMesh& mesh, const Operator& op, con
     return triangles;
 }
 
-/// Galerkin's product on the triangles of the coarser lattice: gradients there are constant, so that tensors, and what
-/// is linear in them, become the mean over the four parts.
+/// Galerkin product on the triangles of the coarser lattice. Gradients are constant there, so the stiffness, which is
+/// linear in the tensors, is the mean over the four parts.
 LatticeStiffness coarserTriangles(const LatticeStiffness& fine, const std::vector<RestrictionRun>& runs,
                                   std::size_t size)
 {
@@ -344,7 +344,7 @@ LatticeStiffness coarserTriangles(const LatticeStiffness& fine, const std::vecto
     return coarse;
 }
 
-/// Rows from the triangles of the lattice.
+/// Sums the triangles of the lattice up to rows.
 LatticeRows rowsOf(const LatticeStiffness& triangles, const Plan& plan, const Operator& op, double edge)
 {
     const double mass = op.mass_weight * 0.25 * std::numbers::sqrt3 * edge * edge;
@@ -378,12 +378,12 @@ LatticeRows rowsOf(const LatticeStiffness& triangles, const Plan& plan, const Op
     return rows;
 }
 
-/// Rows of the unknowns whose triangles are not all regular, and the load of all.
+/// Assembles the irregular rows, and the load of all unknowns.
 void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hierarchy, Level& level, const Plan& plan)
 {
     const std::uint32_t rim = mesh.rimVertexCount();
     const auto index = [&](std::uint32_t v) { return mesh.onRim(v) ? kNoUnknown : hierarchy.index_of_vertex[v - rim]; };
-    // Only around held vertices there are irregular rows among regular triangles.
+    // Regular triangles have irregular rows only around held vertices.
     const std::size_t count = op.held.empty() ? irregularTriangleCount(mesh) : mesh.triangles.size();
 
     // Triangles around every irregular unknown.
@@ -427,13 +427,13 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
         }
         hierarchy.load[level.irregular.unknowns[k]] = load * scale;
     });
-    const double area = 0.25 * std::numbers::sqrt3;  // of a triangle, by edge²
+    const double area = 0.25 * std::numbers::sqrt3;  // area of a triangle divided by edge²
     for (const GridRun& run : level.regular) {
         std::fill_n(hierarchy.load.begin() + run.first, run.count, 2.0 * area);
     }
 }
 
-/// Unknowns along a row of the coarser lattice as points of the finer one.
+/// Unknowns along a row of the coarser lattice, as points of the finer one.
 RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine, const RowInterval& i)
 {
     const Site first = onFiner(i.first());
@@ -441,7 +441,7 @@ RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine,
             fine.at(neighbour(first, LatticeStep::AboveLeft))};
 }
 
-/// Where the coarser level's function at a run's point touches the finer lattice: its centre, and half-way around.
+/// Points of the finer lattice where a coarse function is not 0: its centre, and six half-way around.
 std::array<Index, 7> childrenOf(const RestrictionRun& run, Index k)
 {
     const Index centre = run.fine + 2 * k;
@@ -455,7 +455,7 @@ constexpr double weightOfChild(std::size_t child)
     return child == 0 ? 1.0 : 0.5;
 }
 
-/// The finest level's unknowns off the lattice, by the coarser lattice's triangles around them.
+/// Unknowns of the finest level off the lattice, with the coarser lattice's triangles around them.
 struct OffLattice {
     std::vector<LatticeTriangle> triangles;
     std::vector<RowInterval> corners;
@@ -478,7 +478,7 @@ OffLattice findOffLattice(const PlanarMesh& mesh, const std::vector<std::uint8_t
     return off;
 }
 
-/// Adds the finest level's unknowns off the lattice to a coarser level's vectors.
+/// Transpose of `inside`, which restricts unknowns off the lattice to the coarser level.
 SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
 {
     std::vector<Index> starts(coarse_size + std::size_t{1}, 0);
@@ -511,7 +511,7 @@ SparseRows transposed(const std::vector<Inside>& inside, Index coarse_size)
     return rows;
 }
 
-/// Chooses the coarser level's unknowns among the candidates, and says which of their rows are regular.
+/// Chooses the unknowns of the coarser level among the candidates, and finds their regular rows.
 void planCoarser(const Plan& fine, const LatticeRegion& candidates, const SparseRows& outside, Plan& plan, Level& level)
 {
     std::vector<double> sums(plan.grid.end(), 0.0);
@@ -547,7 +547,7 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
     }
     plan.region = LatticeRegion(std::move(chosen));
 
-    // Around a regular point all neighbours have been kept: at least 1 + 3/2 of each is inside.
+    // All neighbours of a regular point are kept: the sum of each is at least 1 + 3/2.
     for (const RowInterval& i : plan.region.intervals()) {
         const Index first = plan.grid.at(i.first());
         level.unknowns += i.size();
@@ -568,7 +568,7 @@ void planCoarser(const Plan& fine, const LatticeRegion& candidates, const Sparse
     level.size = plan.grid.end();
 }
 
-/// The way between two levels' unknowns on the lattice.
+/// Adds the transfer between the lattice unknowns of two levels.
 void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
 {
     for (const RowInterval& i : coarse.region.intervals()) {
@@ -587,10 +587,10 @@ void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
     }
 }
 
-/// The irregular rows of PᵀAP.
+/// Computes the irregular rows of PᵀAP.
 void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Plan& plan)
 {
-    // Unknowns off the finer lattice, for every irregular row here.
+    // Row of `outside` for every irregular row here.
     std::vector<Index> outside_row(coarse.irregular.unknowns.size(), kNone);
     for (Index k = 0; k < fine.outside.unknowns.size(); ++k) {
         const Index row = plan.row[fine.outside.unknowns[k]];

@@ -18,13 +18,13 @@ namespace droplet {
 struct RestrictionRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    std::uint32_t fine = 0;   ///< the first as a point of the finer lattice; the next is two further
-    std::uint32_t below = 0;  ///< left of its two neighbours there in the row below
-    std::uint32_t above = 0;
+    std::uint32_t fine = 0;   ///< first unknown as a point of the finer lattice; the next one is two further
+    std::uint32_t below = 0;  ///< left one of its two neighbours in the row below
+    std::uint32_t above = 0;  ///< left one of its two neighbours in the row above
 };
 
-/// Unknowns along a lattice row, each half-way between two points of the coarser lattice. From one to the next the one
-/// and the other moves on in turn, `early` first.
+/// Unknowns along a lattice row, each half-way between two points of the coarser lattice. From one unknown to the next,
+/// `early` and `late` advance in turn, `early` first.
 struct ProlongationRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -32,16 +32,16 @@ struct ProlongationRun {
     std::uint32_t late = 0;
 };
 
-/// Rows of a matrix, one after the other.
+/// Rows of a sparse matrix.
 struct SparseRows {
-    std::vector<std::uint32_t> unknowns;  ///< whose rows they are
+    std::vector<std::uint32_t> unknowns;  ///< unknown of every row
     std::vector<std::uint32_t> starts{0};
     std::vector<std::uint32_t> columns;
     std::vector<double> values;
 };
 
-/// Rows of regular unknowns that differ: entries by the index of the unknown itself and, off the diagonal, of the one
-/// further left in the row or in the row below. What no regular unknown looks at means nothing.
+/// Rows of regular unknowns that differ from the stencil. An entry off the diagonal is stored at the unknown further
+/// left in the row, or in the row below. Entries that no regular unknown uses are undefined.
 struct LatticeRows {
     std::vector<double> diagonal;
     std::vector<double> next;
@@ -51,55 +51,56 @@ struct LatticeRows {
     [[nodiscard]] bool empty() const { return diagonal.empty(); }
 };
 
-/// An unknown off the lattice, within a triangle of the coarser lattice.
+/// Unknown off the lattice, inside a triangle of the coarser lattice.
 struct Inside {
     std::array<std::uint32_t, 3> corners{};
-    std::array<double, 3> weights{};  ///< 0 at corners that are no unknowns
+    std::array<double, 3> weights{};  ///< 0 at corners that are not unknowns
 };
 
-/// One level of the hierarchy: a matrix, and the way to the next coarser level. Vectors have an entry for every index
-/// below `size`; those that belong to no unknown are 0.
+/// One level of the hierarchy: a matrix, and the transfer to the next coarser level. Vectors have an entry for every
+/// index below `size`; entries without an unknown are 0.
 struct Level {
     std::uint32_t size = 0;
     std::uint32_t unknowns = 0;
     Stencil stencil;
-    std::vector<GridRun> regular;  ///< unknowns whose rows are the stencil, or those of `varying`
-    LatticeRows varying;           ///< empty: the stencil
+    std::vector<GridRun> regular;  ///< unknowns with the stencil or rows of `varying`
+    LatticeRows varying;           ///< empty: all rows are the stencil
     SparseRows irregular;
-    // To the coarser level, if there is one.
-    std::vector<RestrictionRun> restriction;    ///< of the coarser level's unknowns
-    std::vector<ProlongationRun> prolongation;  ///< of this level's unknowns on the lattice
-    std::vector<Inside> inside;                 ///< of this level's unknowns off the lattice, which come first
-    SparseRows outside;                         ///< its transpose: what they add to the coarser level's unknowns
+    // Transfer to the coarser level, if there is one.
+    std::vector<RestrictionRun> restriction;    ///< for unknowns of the coarser level
+    std::vector<ProlongationRun> prolongation;  ///< for unknowns of this level on the lattice
+    std::vector<Inside> inside;                 ///< unknowns of this level off the lattice; they come first
+    SparseRows outside;                         ///< transpose of `inside`, for the restriction
 };
 
-/// Stands for the index of a vertex that is held.
+/// Index of a held vertex.
 inline constexpr std::uint32_t kNoUnknown = std::numeric_limits<std::uint32_t>::max();
 
-/// The row of a regular unknown.
+/// Row of a regular unknown.
 struct RegularRow {
     double diagonal = 0.0;
-    std::array<double, 6> neighbours{};  ///< left, right; below left and right; above left and right
+    std::array<double, 6> neighbours{};  ///< left, right, below left, below right, above left, above right
 };
 
-/// @param below  index of the neighbour below to the left
+/// Reads the row of a regular unknown.
+/// @param below  index of its lower left neighbour
 RegularRow regularRow(const Level& level, std::uint32_t index, std::uint32_t below);
 
-/// The levels of a mesh, finest first: its inner vertices, then lattices of twice, four times … the edge.
+/// Levels of a mesh, finest first: its inner vertices, then lattices with twice, four times … the edge length.
 struct Hierarchy {
     std::vector<Level> levels;
-    std::optional<Level> indefinite;             ///< the finest level's matrix where w < 0
-    std::vector<double> load;                    ///< ∫φ over the finest level's unknowns, by edge² [1]
-    std::vector<std::uint32_t> index_of_vertex;  ///< of inner vertices, from the first; kNoUnknown where held
+    std::optional<Level> indefinite;             ///< matrix of the finest level if w < 0
+    std::vector<double> load;                    ///< ∫φ/edge² for the finest level's unknowns
+    std::vector<std::uint32_t> index_of_vertex;  ///< index of every inner vertex; kNoUnknown if held
     double edge = 0.0;                           ///< [m]
 };
 
-/// Builds the levels of K + wM on a mesh: on the finest, the matrix itself; on the others Galerkin's products, which
-/// where all is regular are the same stencil for the longer edge, or with tensors that of their means. Where w < 0 the
-/// levels are those of K alone.
+/// Builds the levels of K + wM on a mesh; if w < 0, those of K alone.
 ///
-/// Cheap where most of the mesh is its lattice, the rows of which are stored only with tensors, and then without their
-/// columns. Any mesh will do, though: without a lattice, coarser ones of its mean edge length take over.
+/// The finest level has the matrix itself, the others Galerkin products. In a regular neighbourhood these are the same
+/// stencil for the longer edge, or with tensors that of their means. The result is small if most of the mesh is a
+/// lattice: its rows are stored only with tensors, and then without columns. A mesh without a lattice has coarser
+/// levels with its mean edge length.
 Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& op);
 
 }  // namespace droplet

@@ -2,13 +2,13 @@
 //
 // Conjugate gradients preconditioned with a multigrid cycle: O. Tatebe, "The multigrid preconditioned conjugate
 // gradient method" (1993). Smoother: Chebyshev polynomials of the Jacobi-scaled matrix, M. Adams, M. Brezina, J. Hu, R.
-// Tuminaro, "Parallel multigrid smoothing: polynomial versus Gauss-Seidel" (2003): it needs no order of the unknowns,
-// so threads do not change its result. The cycle is computed in single precision, which bounds how fast it converges,
-// not how far.
+// Tuminaro, "Parallel multigrid smoothing: polynomial versus Gauss-Seidel" (2003). It needs no order of the unknowns,
+// so threads do not change its result. The cycle is computed in single precision. This limits the rate of convergence,
+// but not the accuracy.
 //
-// With a right side, or where gravity pulls the liquid off, the iteration stays among functions without volume: N.
-// Gould, M. Hribar, J. Nocedal, "On the solution of equality constrained quadratic programming problems arising in
-// optimization" (2001): projected conjugate gradients with a constraint preconditioner and residual update.
+// With a right side, or if gravity pulls the liquid off, the iteration stays among functions without volume: projected
+// conjugate gradients with a constraint preconditioner and residual update, N. Gould, M. Hribar, J. Nocedal, "On the
+// solution of equality constrained quadratic programming problems arising in optimization" (2001).
 
 #include <tbb/parallel_for.h>
 
@@ -32,18 +32,19 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// Lattices need 8 to 15 iterations, or where the liquid is steep up to 70; other meshes some dozens.
+/// Limit of iterations. Lattices need 8 to 15, with steep liquid up to 70; other meshes need some dozens.
 constexpr std::size_t kMaxIterations = 200;
 
-/// Residual down to which the probe for negative directions goes.
-constexpr double kProbed = 1e-8;
+/// Tolerance of the search for negative directions.
+constexpr double kProbeTolerance = 1e-8;
 
-/// The smoother damps the upper part of the spectrum, down to this share of its end; the coarser level sees the rest.
+/// Lower end of the part of the spectrum that the smoother damps, relative to the upper end. Coarser levels damp the
+/// rest.
 constexpr double kSmoothedShare = 0.25;
 
-/// The same where triangles have tensors. Where the liquid is steep, coupling along the rim is stronger than across,
-/// and what is rough across and smooth along is in no coarser level: less is left to it. A cap of 85° with a million
-/// triangles takes 48 iterations instead of 57, one of 60° as many as before.
+/// The same for triangles with tensors. In steep liquid the coupling along the rim is stronger than across. Coarser
+/// levels lack functions that are rough across and smooth along it, so the smoother must damp more. A cap of 85° with a
+/// million triangles takes 48 iterations instead of 57; a cap of 60° takes the same number.
 constexpr double kStretchedShare = 0.15;
 
 /// Pieces of work of about equal size, as ranges of a list of runs.
@@ -90,7 +91,7 @@ void forPieces(const std::vector<std::size_t>& ends, const Work& work)
     tbb::parallel_for(std::size_t{0}, ends.size(), run);
 }
 
-/// What a row of the matrix is applied for: called with the row's unknown and the product.
+/// Calls use(unknown, product) for every row of a run, with its product with x.
 template <typename Real, typename Use>
 void applyRegular(const GridRun& run, const Stencil& stencil, const Real* x, const Use& use)
 {
@@ -106,7 +107,7 @@ void applyRegular(const GridRun& run, const Stencil& stencil, const Real* x, con
     }
 }
 
-/// The same where rows differ. `rows` has LatticeRows' members, as pointers.
+/// The same for rows that differ. `rows` has the members of LatticeRows, as pointers.
 template <typename Real, typename Rows, typename Use>
 void applyVarying(const GridRun& run, const Rows& rows, const Real* x, const Use& use)
 {
@@ -137,7 +138,7 @@ struct RowPointers {
     const Real* above_right;
 };
 
-/// One level's matrix in a precision, and what the smoother needs.
+/// Smoother of one level, with its matrix in single precision.
 class Smoother {
 public:
     explicit Smoother(const Level& level)
@@ -145,10 +146,10 @@ public:
           values_(level.irregular.values.begin(), level.irregular.values.end()),
           regular_pieces_(piecesOf(level.regular))
     {
-        // The symbol's extremes: the six neighbours' cosines sum to between −3 and 6.
+        // Extremes of the symbol: the sum of the six neighbours' cosines is from −3 to 6.
         const double ratio = level.stencil.neighbour / level.stencil.diagonal;
         const double largest = std::max(1.0 - 3.0 * ratio, 1.0 + 6.0 * ratio);
-        // By Gershgorin's discs no irregular row goes beyond that if its diagonal is raised to its share.
+        // By Gershgorin's theorem no irregular row exceeds that if its scale is at most this.
         const SparseRows& rows = level.irregular;
         scale_.resize(rows.unknowns.size());
         for (std::size_t k = 0; k < scale_.size(); ++k) {
@@ -193,7 +194,7 @@ public:
         regular_scale_ = static_cast<float>(1.0 / level.stencil.diagonal);
     }
 
-    /// Calls with every unknown, the inverse of its scaled diagonal, and its row's product with x.
+    /// Calls use(unknown, inverse of its scaled diagonal, product of its row with x).
     template <typename Use>
     void forEachRow(const float* x, const Use& use) const
     {
@@ -222,7 +223,7 @@ public:
         });
     }
 
-    /// Calls with every unknown and the inverse of its scaled diagonal.
+    /// Calls use(unknown, inverse of its scaled diagonal).
     template <typename Use>
     void forEachScale(const Use& use) const
     {
@@ -247,7 +248,7 @@ private:
     std::vector<float> values_;
     std::vector<float> scale_;
     std::vector<std::size_t> regular_pieces_;
-    // Where rows differ.
+    // For rows that differ.
     std::vector<float> diagonal_;
     std::vector<float> next_;
     std::vector<float> above_left_;
@@ -259,7 +260,7 @@ private:
     float second_ = 0.0F;
 };
 
-/// The coarsest level, factored.
+/// Factorisation of the coarsest level.
 class CoarsestSolver {
 public:
     explicit CoarsestSolver(const Level& level) : position_(level.size, 0)
@@ -324,7 +325,7 @@ private:
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
 };
 
-/// One V-cycle, from zero: symmetric, as conjugate gradients need it.
+/// One V-cycle, started from zero. It is symmetric, as conjugate gradients need it.
 class Cycle {
 public:
     explicit Cycle(const std::vector<Level>& levels) : levels_(&levels), coarsest_(levels.back())
@@ -336,7 +337,7 @@ public:
         }
     }
 
-    /// What a cycle works on.
+    /// Vectors of a cycle.
     class Workspace {
     public:
         explicit Workspace(const std::vector<Level>& levels)
@@ -352,9 +353,9 @@ public:
             }
         }
 
-        /// The residual to work on.
+        /// Input of run(): the residual.
         std::vector<float>& right() { return vectors_.front().right; }
-        /// What run() found.
+        /// Output of run().
         [[nodiscard]] const std::vector<float>& result() const
         {
             return vectors_.size() == 1 ? vectors_.front().x : vectors_.front().next;
@@ -404,7 +405,7 @@ private:
         secondStep(smoother, v);
     }
 
-    /// From x and the step that led there to `next`.
+    /// Second step of the Chebyshev polynomial: computes `next` from x and the first step.
     static void secondStep(const Smoother& smoother, Vectors& v)
     {
         const float* right = v.right.data();
@@ -418,7 +419,7 @@ private:
         });
     }
 
-    /// The residual in `step`, to the next level.
+    /// Restricts the residual in `step` to the next level.
     void restrictTo(std::vector<Vectors>& vectors, std::size_t l) const
     {
         const Level& level = (*levels_)[l];
@@ -446,7 +447,7 @@ private:
         }
     }
 
-    /// The next level's result, to `next`.
+    /// Adds the result of the next level to `next`.
     void addFrom(std::vector<Vectors>& vectors, std::size_t l) const
     {
         const Level& level = (*levels_)[l];
@@ -484,7 +485,7 @@ private:
     std::vector<std::vector<std::size_t>> prolongation_pieces_;
 };
 
-/// The finest level's matrix times a vector.
+/// Product of the finest level's matrix with a vector.
 class Product {
 public:
     explicit Product(const Level& level) : level_(&level), pieces_(piecesOf(level.regular)) {}
@@ -519,7 +520,7 @@ private:
     std::vector<std::size_t> pieces_;
 };
 
-/// A·solution = load.
+/// Solution of A·solution = load.
 struct Unit {
     std::vector<double> solution;
     double residual = 0.0;
@@ -593,7 +594,7 @@ Unit solveUnit(const Hierarchy& hierarchy, const Cycle& cycle, double tolerance)
     return unit;
 }
 
-/// Values at inner vertices, from those at indices.
+/// Values at inner vertices, from values at indices.
 std::vector<double> gathered(const Hierarchy& hierarchy, const std::vector<double>& x, double factor)
 {
     std::vector<double> values(hierarchy.index_of_vertex.size());
@@ -606,7 +607,7 @@ std::vector<double> gathered(const Hierarchy& hierarchy, const std::vector<doubl
     return values;
 }
 
-/// Ax = right + λ·load, loadᵀx = volume.
+/// Solution of Ax = right + λ·load with loadᵀx = volume.
 struct Projected {
     std::vector<double> x;
     double multiplier = 0.0;
@@ -638,7 +639,7 @@ public:
         Projected result;
         result.x.assign(size, 0.0);
         std::vector<double>& x = result.x;
-        // Brought to a size that single precision holds.
+        // Scaled to the range of single precision.
         const double right_norm = std::sqrt(dotOf(right, right));
         const double unit = std::max(right_norm, std::abs(volume / unit_volume_) * load_norm_);
         if (!(unit > 0.0)) {
@@ -701,7 +702,7 @@ public:
             last_rz = rz;
             ++result.iterations;
         }
-        // What rounding took from the volume.
+        // Corrects the round-off of the volume.
         const double missing = (wanted - dotOf(load, x)) / unit_volume_;
         forBlocks(size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -729,8 +730,8 @@ private:
         cycle_->run(workspace_);
     }
 
-    /// Adds so much of the load to a residual that it becomes smallest.
-    /// @return its norm
+    /// Adds the multiple of the load to a residual that minimises its norm.
+    /// @return the norm
     double takeMultiplier(std::vector<double>& r, double& multiplier) const
     {
         const std::vector<double>& load = *load_;
@@ -746,7 +747,7 @@ private:
         }));
     }
 
-    /// What a residual is measured by.
+    /// Scale of a relative residual.
     [[nodiscard]] double scaleOf(double right, double multiplier, const std::vector<double>& x) const
     {
         const double others = std::max(right, std::abs(multiplier) * load_norm_);
@@ -768,7 +769,7 @@ private:
     const std::vector<double>* load_;
     Product product_;
     Cycle::Workspace workspace_;
-    std::vector<double> unit_;  ///< what a cycle makes of the load
+    std::vector<double> unit_;  ///< result of a cycle for the load
     double unit_volume_ = 0.0;
     double load_norm_ = 0.0;
     double weight_ = 0.0;
@@ -813,7 +814,7 @@ public:
                 return solution;
             }
         }
-        // The residual is computed anew, where the iteration only updates its own.
+        // This is the true residual; the iteration only updates its own.
         solution.converged = solution.residual < std::max(kLargestResidual, 2.0 * problem.tolerance);
         return solution;
     }
@@ -832,8 +833,8 @@ private:
         return x;
     }
 
-    /// Whether the iteration finds no direction in which the operator is negative, beginning with a bit of every one: a
-    /// solution of what is asked may be symmetric, and the way in which the liquid falls not.
+    /// Whether the iteration finds no direction in which the operator is negative. It starts with a share in every
+    /// direction: the solution may be symmetric where the direction in which the liquid falls is not.
     [[nodiscard]] bool isDefinite() const
     {
         std::mt19937 random(1);
@@ -842,7 +843,7 @@ private:
             r = static_cast<double>(random()) - 0.5 * static_cast<double>(std::mt19937::max());
         }
         ProjectedIteration iteration(hierarchy_, *cycle_, weight_);
-        return !iteration.solve(scattered(right), 0.0, kProbed).indefinite;
+        return !iteration.solve(scattered(right), 0.0, kProbeTolerance).indefinite;
     }
 
     const PlanarMesh* mesh_;

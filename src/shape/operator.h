@@ -12,24 +12,24 @@
 
 namespace droplet {
 
-/// A symmetric 2×2 tensor.
+/// Symmetric 2×2 tensor.
 struct SymmetricTensor {
     double xx = 1.0;
     double xy = 0.0;
     double yy = 1.0;
 };
 
-/// The operator K + wM, divided by the surface tension: ∫∇φ·G∇φ + w∫φφ over functions linear on triangles.
+/// Operator K + wM, divided by the surface tension: ∫∇φ·G∇φ + w∫φφ over functions linear on triangles.
 struct Operator {
-    double mass_weight = 0.0;  ///< w = ρg⊥/σ, by size the inverse square of the capillary length [1/m²]
+    double mass_weight = 0.0;  ///< w = ρg⊥/σ; |w| is the inverse square of the capillary length on level ground [1/m²]
     std::vector<SymmetricTensor> tensors;  ///< G on every triangle; empty: the identity, the linear model
-    std::vector<std::uint8_t> held;        ///< 1 at inner vertices that are no unknowns but 0; empty: at none
+    std::vector<std::uint8_t> held;  ///< 1 at inner vertices with the value 0, which are not unknowns; empty: none
 
-    /// Whether rows around equilateral triangles are all alike.
+    /// Whether all rows in equilateral triangles are the same.
     [[nodiscard]] bool uniform() const { return tensors.empty() && held.empty(); }
 };
 
-/// One triangle's share of the operator.
+/// Contribution of one triangle to the operator.
 inline std::array<std::array<double, 3>, 3> elementMatrix(const PlanarMesh& mesh, std::size_t triangle,
                                                           const Operator& op)
 {
@@ -48,16 +48,16 @@ inline std::array<std::array<double, 3>, 3> elementMatrix(const PlanarMesh& mesh
     return matrix;
 }
 
-/// The operator's row at a point around which all triangles are equilateral.
+/// Row of the operator at a point of equilateral triangles.
 struct Stencil {
     double diagonal = 0.0;
-    double neighbour = 0.0;  ///< each of the six
+    double neighbour = 0.0;  ///< value for each of the six neighbours
 };
 
 inline Stencil regularStencil(double edge, const Operator& op)
 {
     const double area = 0.25 * std::numbers::sqrt3 * edge * edge;
-    // Two angles of 60° face every edge: −½(cot 60° + cot 60°) = −1/√3; a row of K sums to 0.
+    // Two angles of 60° are opposite to every edge: −½(cot 60° + cot 60°) = −1/√3. A row of K sums to 0.
     return {2.0 * std::numbers::sqrt3 + op.mass_weight * area, -std::numbers::inv_sqrt3 + op.mass_weight * area / 6.0};
 }
 

@@ -7,8 +7,8 @@
 
 namespace droplet {
 
-/// Area-weighted means of the gradients on the triangles around every vertex, of what is linear between values at the
-/// vertices.
+/// Gradients at vertices, of the piecewise linear function with these values: area-weighted means over the triangles
+/// around every vertex.
 std::vector<Vec2> recoveredGradients(const PlanarMesh& mesh, const std::vector<double>& values);
 
 }  // namespace droplet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, chapter 4: eq. 4.5 is linear in u and λ, so with the volume u moves along the solution of the same system
-// with neither ground nor tilt on its right-hand side.
+// The thesis, chapter 4: eq. 4.5 is linear in u and λ. So the change of u with the volume solves the same system
+// without ground and tilt on its right-hand side.
 #include "droplet/shape/refill.h"
 
 #include <cmath>
@@ -46,7 +46,7 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
     requireRefillable(options);
     if (meshes.empty() || meshes.size() != fields.size()) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("fields must be as many as meshes: {} against {}", fields.size(), meshes.size()));
+                    fmt::format("fields must have {} entries, one per mesh, not {}", meshes.size(), fields.size()));
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (fields[k].height.size() != meshes[k].vertices.size()) {
@@ -61,8 +61,8 @@ void FillRange::validate() const
 {
     if (!(min >= 0.0 && min <= 1.0 && max >= 1.0 && min < max && std::isfinite(max))) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("fill_range {} to {} must be from 0 … 1 to 1 or more, and not empty", numberText(min),
-                                numberText(max)));
+                    fmt::format("fill_range {} to {} must begin at 0 to 1, end at 1 or more, and not be empty",
+                                numberText(min), numberText(max)));
     }
 }
 
@@ -74,9 +74,10 @@ void requireRefillable(const SolveOptions& options)
                     "must be linear");
     }
     if (options.no_penetration) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "no_penetration moves the rim of what is dry with the volume, so it cannot be refilled; it must be "
-                    "off");
+        throw Error(
+            ErrorCode::InvalidArgument,
+            "no_penetration moves the edge of the dry ground with the volume, so it cannot be refilled; it must be "
+            "off");
     }
 }
 
@@ -100,7 +101,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
         throw Error(ErrorCode::NoSuchDroplet,
                     "the droplets hold " + numberText(total) + " m³; only a positive volume can be refilled");
     }
-    // On the plane, level, what is there is a multiple of itself.
+    // On the level plane the field itself is the gain.
     const PlaneGravity gravity = planeGravity(options);
     std::vector<FillGain> gains(meshes.size());
     if (options.ground.flat() && gravity.along == Vec2{}) {

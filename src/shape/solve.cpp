@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, chapter 4: energy (4.1)–(4.3), volume (4.4) as a constraint with multiplier λ (4.5), over P1 finite
-// elements (Ritz and Galerkin coincide); with √(1+t) ≈ 1 + t/2 the linear model.
+// The thesis, chapter 4: energy (4.1)–(4.3), and volume (4.4) as a constraint with multiplier λ (4.5), over P1 finite
+// elements (Ritz and Galerkin coincide). The linear model uses √(1+t) ≈ 1 + t/2.
 
 #include "droplet/shape/solve.h"
 
@@ -27,8 +27,8 @@
 namespace droplet {
 namespace {
 
-/// Fewer unknowns are factored in less time than a hierarchy takes to build, if most of the mesh is its lattice; and if
-/// not, up to many more. Measured in bench/RESULTS.md.
+/// Numbers of unknowns below which a factorisation is faster than multigrid: for meshes that are mostly a lattice, and
+/// for others. Measured in bench/RESULTS.md.
 constexpr std::size_t kSmall = 500;
 constexpr std::size_t kSmallIrregular = 50'000;
 
@@ -43,7 +43,7 @@ Solver chooseSolver(const PlanarMesh& mesh)
     return unknownsOf(mesh) < (is_lattice ? kSmall : kSmallIrregular) ? Solver::Llt : Solver::Multigrid;
 }
 
-/// Multigrid, and where its iteration does not converge a factorisation.
+/// Multigrid, or a factorisation if the iteration does not converge.
 class SafeMultigrid final : public ConstrainedSolver {
 public:
     explicit SafeMultigrid(const PlanarMesh& mesh) : mesh_(&mesh), multigrid_(multigridSolver(mesh)) {}
@@ -77,7 +77,7 @@ private:
     const PlanarMesh* mesh_;
     const Operator* op_ = nullptr;
     std::unique_ptr<ConstrainedSolver> multigrid_;
-    mutable std::unique_ptr<ConstrainedSolver> direct_;  // made when first needed
+    mutable std::unique_ptr<ConstrainedSolver> direct_;  // made on first use
 };
 
 std::unique_ptr<ConstrainedSolver> solverFor(const PlanarMesh& mesh, Solver wanted)
@@ -96,7 +96,7 @@ Physics physicsOf(const SolveOptions& options)
     return {Model::Linear, scale * gravity.normal, scale * gravity.along, options.no_penetration};
 }
 
-/// Everything needed to solve droplets at one pressure, and what came of it.
+/// Droplets at one pressure, with the result.
 struct Group {
     std::vector<std::size_t> droplets;
     std::vector<Member> members;
@@ -121,14 +121,14 @@ HeightField fieldOf(const Energy& energy, Sheet&& sheet, double surface_tension)
     }
     for (std::uint32_t v = 0; v < rim; ++v) {
         field.rim_slope.push_back(energy.slopeOf(v, sheet.flux[v]));
-        // A sheet that is nowhere below the ground leaves no rim downward, whatever was recovered there.
+        // A sheet that is nowhere below the ground has no negative contact angle.
         const double flux = above ? std::max(sheet.flux[v], energy.groundFlux(v)) : sheet.flux[v];
         field.contact_angle.push_back(energy.contactAngle(v, flux).first);
     }
     return field;
 }
 
-/// Threads that sample the ground would complain of whichever vertex they come to first.
+/// Checks the rims in order. Threads that sample the ground would report any vertex.
 void requireGround(const std::vector<PlanarMesh>& meshes, const BaseSurface& ground)
 {
     std::vector<Vec2> rims;
@@ -165,10 +165,10 @@ void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
     }
     if (volumes.size() != meshes.size()) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("volumes must be as many as meshes: {} against {}", volumes.size(), meshes.size()));
+                    fmt::format("volumes must have {} entries, one per mesh, not {}", meshes.size(), volumes.size()));
     }
     if (options.fill.sharing != FillSharing::Each) {
-        throw Error(ErrorCode::InvalidArgument, "volumes of each droplet need fill.sharing each");
+        throw Error(ErrorCode::InvalidArgument, "fill.sharing must be each if volumes are given");
     }
     for (std::size_t k = 0; k < volumes.size(); ++k) {
         if (!(volumes[k] > 0.0 && std::isfinite(volumes[k]))) {
@@ -192,7 +192,7 @@ SolveOptions optionsOf(std::size_t group, const SolveOptions& options)
 
 PlaneGravity planeGravity(const SolveOptions& options)
 {
-    // What is level to the last digit has no downhill: sin π is not quite 0.
+    // A level ceiling has no downhill direction, but sin π is not exactly 0.
     const double sine = options.tilt == std::numbers::pi ? 0.0 : std::sin(options.tilt);
     const double along = options.gravity * sine;
     return {options.gravity * std::cos(options.tilt),

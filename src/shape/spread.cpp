@@ -15,11 +15,11 @@
 namespace droplet {
 namespace {
 
-/// Below it meshes even on the ground do as well, and stay lattices. At 60° the rim's triangles are twice as long on
-/// the surface as on the ground.
+/// Angle up to which meshes do not change: even triangles on the ground are as good, and keep their lattice. At 60° the
+/// rim's triangles are twice as long on the surface as on the ground.
 constexpr double kSteep = 60.0 * kDegree;
 
-/// Up to which steepness meshes are spread: triangles at the rim become infinitely thin toward 90°.
+/// Largest angle for which meshes are spread: toward 90° triangles at the rim become infinitely thin.
 constexpr double kSteepest = 86.0 * kDegree;
 
 /// Mean of the squared slope along the rim.
@@ -37,16 +37,16 @@ double meanSquaredSlope(const PlanarMesh& mesh, const HeightField& field)
     return sum / rim_length;
 }
 
-/// Where every vertex wants to go [m].
+/// Displacement of every vertex [m].
 std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field, double angle)
 {
     const std::vector<double>& u = field.height;
     const double highest = *std::max_element(u.begin(), u.end());
     const double t = std::tan(0.5 * angle);
     const double squared = t * t;
-    // On a disc of radius 1, u ∝ 1 − r², the projection takes r to r(1 + t²) / (1 + t²r²): along −r, which is the
-    // direction of ∇u, by t²(1 − r²) / (1 + t²r²). Of u's size and the footprint's that is made independent so that the
-    // spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ wherever the slope is the rim's mean.
+    // On a disc of radius 1 with u ∝ 1 − r² the projection maps r to r(1 + t²) / (1 + t²r²). So a point moves along −r,
+    // the direction of ∇u, by t²(1 − r²) / (1 + t²r²). The scale makes this independent of the sizes of u and the
+    // footprint: the spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ where the slope is the mean slope.
     const double scale = 2.0 * highest / meanSquaredSlope(mesh, field);
     const double max = 2.0 * squared / (1.0 + squared);
     const std::vector<Vec2> gradients = recoveredGradients(mesh, u);
@@ -64,12 +64,12 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
     return moves;
 }
 
-/// The mesh with its vertices moved, as far as no triangle becomes thinner than a share of what it was.
+/// Moves the vertices of a mesh as far as every triangle keeps a share of its area.
 void move(PlanarMesh& mesh, const std::vector<Vec2>& moves, double angle)
 {
     constexpr double kShrink = 0.7;
     constexpr int kMaxShrinks = 40;
-    // A triangle at a cap's rim keeps cos θ of its area, and some are less lucky.
+    // A triangle at a cap's rim keeps about cos θ of its area; some keep less.
     const double min = 0.25 * std::cos(angle);
     PlanarMesh moved = mesh;
     double part = 1.0;
@@ -97,7 +97,7 @@ std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOption
         fill.amount <= kSteep) {
         return meshes;
     }
-    // How steep it gets, is a matter of the mean: no tilt, no ground, and no gravity but that which flattens.
+    // For the mean steepness neither tilt nor ground nor gravity away from the ground matters.
     SolveOptions level = options;
     level.model = Model::Linear;
     level.gravity = std::max(planeGravity(options).normal, 0.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thesis, section 4.2.5: droplets solved as if the ground were nearly level, then mapped onto the object "like texture
-// mapping". Normals go with the cofactors of the map's derivative (J. F. Blinn, "Simulation of wrinkled surfaces",
-// 1978, is the case of a thin layer).
+// Thesis, section 4.2.5: droplets are solved on nearly level ground, then mapped onto the object "like texture
+// mapping". Normals are mapped by the cofactors of the map's derivative; J. F. Blinn, "Simulation of wrinkled surfaces"
+// (1978), is the case of a thin layer.
 #include "surface/atlas.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace droplet {
 namespace {
 
-/// Points this near a triangle, in extents of the picture, count as on it: float uvs are no closer.
-constexpr double kHair = 1e-7;
+/// Distance at which a point counts as on a triangle, in extents of the picture: the resolution of float uvs.
+constexpr double kTolerance = 1e-7;
 
 Vec3 unitOr(Vec3 a, Vec3 otherwise)
 {
@@ -21,7 +21,7 @@ Vec3 unitOr(Vec3 a, Vec3 otherwise)
     return size > 0.0 && std::isfinite(size) ? (1.0 / size) * a : otherwise;
 }
 
-/// Derivatives along x and y of what is linear on a triangle.
+/// Derivatives along x and y of a linear function on a triangle.
 std::array<Vec3, 2> derivatives(const Facet& facet, const std::array<Vec3, 3>& values)
 {
     const Vec2 p = facet.flat[1] - facet.flat[0];
@@ -32,7 +32,7 @@ std::array<Vec3, 2> derivatives(const Facet& facet, const std::array<Vec3, 3>& v
     return {inverse * (q.y * a - p.y * b), inverse * (p.x * b - q.x * a)};
 }
 
-/// Angles of a facet in the picture's plane, which sum up alike on either side of a vertex however it is cut.
+/// Angles of a facet in the picture's plane. Their sum at a vertex does not depend on the triangulation.
 std::array<double, 3> anglesOf(const Facet& facet)
 {
     std::array<double, 3> angles{};
@@ -76,7 +76,7 @@ std::vector<AtlasCorner> cornersOf(const TexturedMesh& object, const std::vector
     }
     for (std::size_t f = 0; f < facets.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
-            // Opposite normals leave none: the first will do.
+            // If opposite normals cancel, the first one is used.
             AtlasCorner& corner = corners[facets[f].corners[k]];
             corner.normal = unitOr(corner.normal, object.normals[vertices[f][k]]);
         }
@@ -113,7 +113,7 @@ std::vector<Hit> Atlas::at(Vec2 p) const
             const Vec2 side = facet.flat[(k + 1) % 3] - a;
             depth = std::min(depth, std::copysign(1.0, facet.twice_flat) * cross(side, p - a) / length(side));
         }
-        if (!(depth >= -hair)) {
+        if (!(depth >= -tolerance)) {
             return;
         }
         const auto same = std::find_if(hits.begin(), hits.end(), [&](const Hit& h) { return h.chart == facet.chart; });
@@ -127,7 +127,7 @@ std::vector<Hit> Atlas::at(Vec2 p) const
     return hits;
 }
 
-Laid Atlas::lay(const Facet& facet, Vec2 p, double z, Vec3 normal) const
+PlacedVertex Atlas::placeVertex(const Facet& facet, Vec2 p, double z, Vec3 normal) const
 {
     std::array<double, 3> share{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,32 +138,32 @@ Laid Atlas::lay(const Facet& facet, Vec2 p, double z, Vec3 normal) const
     Vec3 up;
     std::array<Vec3, 2> along;
     std::array<Vec3, 2> swelling;
-    Laid laid;
+    PlacedVertex placed;
     for (std::size_t k = 0; k < 3; ++k) {
         const AtlasCorner& corner = corners[facet.corners[k]];
         place = place + share[k] * corner.place;
         up = up + share[k] * corner.normal;
-        laid.scale += share[k] * corner.scale;
+        placed.scale += share[k] * corner.scale;
         for (std::size_t i = 0; i < 2; ++i) {
             along[i] = along[i] + share[k] * corner.along[i];
             swelling[i] = swelling[i] + share[k] * corner.swelling[i];
         }
     }
     up = unitOr(up, corners[facet.corners[0]].normal);
-    const Vec3 rise = laid.scale * up;
-    // Averaged facets at a chart's end are its chords: what they lean is no slope of the object.
+    const Vec3 rise = placed.scale * up;
+    // At the end of a chart the mean of the facets is inclined to the object, so only its tangent part is used.
     const auto tangent = [&](std::size_t i) {
         const Vec3 level = along[i] - dot(along[i], up) * up;
         return level + z * swelling[i];
     };
     const Vec3 a = tangent(0);
     const Vec3 b = tangent(1);
-    laid.swept = dot(cross(a, b), rise);
-    laid.position = z == 0.0 ? place : place + z * rise;
+    placed.volume_ratio = dot(cross(a, b), rise);
+    placed.position = z == 0.0 ? place : place + z * rise;
     const Vec3 turned = normal.x * cross(b, rise) + normal.y * cross(rise, a) + normal.z * cross(a, b);
-    laid.normal = unitOr(std::copysign(1.0, laid.swept) * turned, std::copysign(1.0, normal.z) * up);
-    laid.ground_normal = up;
-    return laid;
+    placed.normal = unitOr(std::copysign(1.0, placed.volume_ratio) * turned, std::copysign(1.0, normal.z) * up);
+    placed.ground_normal = up;
+    return placed;
 }
 
 Atlas atlasOf(const TexturedMesh& object, Vec2 extent)
@@ -176,8 +176,8 @@ Atlas atlasOf(const TexturedMesh& object, Vec2 extent)
     }
     atlas.facing = joinCharts(object, atlas.facets);
     atlas.corners = cornersOf(object, atlas.facets, vertices);
-    atlas.hair = kHair * std::max(extent.x, extent.y);
-    atlas.boxes = FacetBoxes(atlas.facets, atlas.hair);
+    atlas.tolerance = kTolerance * std::max(extent.x, extent.y);
+    atlas.boxes = FacetBoxes(atlas.facets, atlas.tolerance);
     return atlas;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Numbers equal keys alike, in ascending order; returns how many there are.
+/// Gives equal keys the same number, in ascending order. Returns the number of different keys.
 template <class Key>
 std::uint32_t numberEqual(const std::vector<Key>& keys, std::vector<std::uint32_t>& numbers)
 {
@@ -34,7 +34,7 @@ std::uint32_t numberEqual(const std::vector<Key>& keys, std::vector<std::uint32_
     return count;
 }
 
-/// 1 where a triangle shows the picture as it is, seen from outside; −1 where mirrored.
+/// 1, or −1 if a triangle mirrors the picture, seen from outside.
 double facingOf(const TexturedMesh& object, const Facet& facet)
 {
     const auto [i, j, k] = facet.corners;
@@ -79,7 +79,7 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
     std::vector<std::uint32_t> welded;
     const std::uint32_t welded_count = numberEqual(keys, welded);
 
-    // Triangles that face the same way have places of their own, and wind outward.
+    // Only triangles that face the same way share places. All are made to wind outward.
     std::vector<Vec3> places(2 * std::size_t{welded_count});
     std::vector<Triangle> outward;
     std::vector<double> facing;

@@ -8,16 +8,17 @@
 
 namespace droplet {
 
-FacetBoxes::FacetBoxes(const std::vector<Facet>& facets, double hair) : order_(facets.size()), centres_(facets.size())
+FacetBoxes::FacetBoxes(const std::vector<Facet>& facets, double tolerance)
+    : order_(facets.size()), centres_(facets.size())
 {
     std::iota(order_.begin(), order_.end(), 0U);
     for (std::size_t i = 0; i < facets.size(); ++i) {
         centres_[i] = facets[i].flat[0] + facets[i].flat[1] + facets[i].flat[2];
     }
-    build(facets, hair, 0, static_cast<std::uint32_t>(facets.size()));
+    build(facets, tolerance, 0, static_cast<std::uint32_t>(facets.size()));
 }
 
-void FacetBoxes::build(const std::vector<Facet>& facets, double hair, std::uint32_t begin, std::uint32_t end)
+void FacetBoxes::build(const std::vector<Facet>& facets, double tolerance, std::uint32_t begin, std::uint32_t end)
 {
     const std::size_t self = nodes_.size();
     Node node;
@@ -34,8 +35,8 @@ void FacetBoxes::build(const std::vector<Facet>& facets, double hair, std::uint3
             widen(node.low, node.high, p);
         }
     }
-    node.low = node.low - Vec2{hair, hair};
-    node.high = node.high + Vec2{hair, hair};
+    node.low = node.low - Vec2{tolerance, tolerance};
+    node.high = node.high + Vec2{tolerance, tolerance};
     nodes_.push_back(node);
     if (end - begin <= kLeaf) {
         nodes_[self].begin = begin;
@@ -47,8 +48,8 @@ void FacetBoxes::build(const std::vector<Facet>& facets, double hair, std::uint3
         const auto at = [this](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
         std::nth_element(at(begin), at(middle), at(end),
                          [&](std::uint32_t a, std::uint32_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-        build(facets, hair, begin, middle);
-        build(facets, hair, middle, end);
+        build(facets, tolerance, begin, middle);
+        build(facets, tolerance, middle, end);
     }
     nodes_[self].skip = static_cast<std::uint32_t>(nodes_.size());
 }

@@ -9,14 +9,15 @@
 
 namespace droplet {
 
-/// Boxes of triangles, halved by their centres until few are left: for a point, the triangles that may hold it.
+/// Tree of bounding boxes of triangles, split at the median of their centres. Finds triangles that may contain a point.
 class FacetBoxes {
 public:
     FacetBoxes() = default;
-    /// @param hair  how far outside of a triangle a point may lie
-    FacetBoxes(const std::vector<Facet>& facets, double hair);
+    /// Builds the tree.
+    /// @param tolerance  largest distance of a point outside a triangle
+    FacetBoxes(const std::vector<Facet>& facets, double tolerance);
 
-    /// Calls visit_facet(number) for every triangle in whose box the point lies, and others.
+    /// Calls visit_facet(number) for every triangle whose box contains the point, and for some others.
     template <class Visit>
     void visit(Vec2 p, const Visit& visit_facet) const
     {
@@ -33,16 +34,16 @@ public:
 private:
     static constexpr std::uint32_t kLeaf = 4;  // triangles
 
-    /// In depth-first order: a node is followed by its children; `skip` is the next that is none of them.
+    /// Node in depth-first order: its children follow it, and `skip` is the next node after them.
     struct Node {
         Vec2 low;
         Vec2 high;
-        std::uint32_t begin = 0;  ///< of a leaf's triangles; none otherwise
+        std::uint32_t begin = 0;  ///< triangles of a leaf; empty range otherwise
         std::uint32_t end = 0;
         std::uint32_t skip = 0;
     };
 
-    void build(const std::vector<Facet>& facets, double hair, std::uint32_t begin, std::uint32_t end);
+    void build(const std::vector<Facet>& facets, double tolerance, std::uint32_t begin, std::uint32_t end);
 
     std::vector<std::uint32_t> order_;
     std::vector<Vec2> centres_;

@@ -11,13 +11,13 @@
 
 #include "droplet/error.h"
 
-// OpenMesh hands out handles that know their mesh, and takes those that do not.
+// OpenMesh returns handles with a mesh, and its functions take handles without one.
 // NOLINTBEGIN(cppcoreguidelines-slicing)
 
 namespace droplet {
 namespace {
 
-/// OpenMesh prints about every triangle that it refuses, to a stream that the whole process shares.
+/// Turns off OpenMesh's messages. It prints one for every triangle that it refuses, to a stream of the whole process.
 class Silence {
 public:
     Silence() : lock_(mutex()), was_enabled_(omerr().is_enabled()) { omerr().disable(); }
@@ -41,7 +41,7 @@ private:
     bool was_enabled_;
 };
 
-bool namesPlaceTwice(const Triangle& t)
+bool isDegenerate(const Triangle& t)
 {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -50,7 +50,7 @@ bool namesPlaceTwice(const Triangle& t)
 
 HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles)
 {
-    constexpr std::size_t kMax = std::size_t{1} << 28;  // half-edges are numbered by int, six a triangle at most
+    constexpr std::size_t kMax = std::size_t{1} << 28;  // indices of half-edges are int, with up to six for a triangle
     if (triangles.size() > kMax || places.size() > kMax) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(triangles.size()) + " triangles and " +
                                                     std::to_string(places.size()) + " vertices; up to " +
@@ -73,12 +73,12 @@ HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>
         return face.is_valid();
     };
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        if (namesPlaceTwice(triangles[t]) ||
+        if (isDegenerate(triangles[t]) ||
             !add_face(t, [](std::uint32_t v) { return OpenMesh::VertexHandle(static_cast<int>(v)); })) {
-            result.apart.push_back(t);
+            result.separate.push_back(t);
         }
     }
-    for (const std::uint32_t t : result.apart) {
+    for (const std::uint32_t t : result.separate) {
         add_face(t, [&](std::uint32_t v) { return add_vertex(places[v]); });
     }
     return result;
@@ -98,8 +98,8 @@ UnionFind joinedAcrossEdges(const HalfEdges& half_edges, const std::vector<Trian
             join(half_edges.triangles[static_cast<std::size_t>(face.idx())], mesh.opposite_face_handle(h));
         }
     }
-    std::unordered_map<std::uint64_t, std::uint32_t> first;  // of those apart, at every edge
-    for (const std::uint32_t t : half_edges.apart) {
+    std::unordered_map<std::uint64_t, std::uint32_t> first;  // separate triangle at every edge
+    for (const std::uint32_t t : half_edges.separate) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
             joined.join(t, first.try_emplace(std::uint64_t{low} << 32 | high, t).first->second);
@@ -120,13 +120,13 @@ Topology topology(const HalfEdges& half_edges)
     Topology result;
     std::size_t vertices = 0;
     std::size_t around = 0;
-    bool manifold = half_edges.apart.empty();
+    bool manifold = half_edges.separate.empty();
     for (const auto v : mesh.vertices()) {
         vertices += mesh.is_isolated(v) ? 0 : 1;
         around += mesh.valence(v);
         manifold = manifold && mesh.is_manifold(v);
     }
-    // Of a vertex with two rings one is gone round.
+    // OpenMesh visits only one of two rings around a vertex.
     if (!manifold || around != mesh.n_halfedges()) {
         return result;
     }

@@ -18,27 +18,28 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
     using Normal = OpenMesh::Vec3d;
 };
 
-/// Triangles of any kind, from outside, as half-edges. Half-edges hold manifolds alone: a triangle whose edge is taken,
-/// that touches a vertex already closed, or names a place twice, stands apart, with copies of its vertices.
+/// Half-edges of any triangles from outside. Half-edges can only store manifolds. So a triangle gets copies of its
+/// vertices if its edge is taken, if one of its vertices is closed already, or if it contains a place twice.
 struct HalfEdges {
-    OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the places
-    std::vector<std::uint32_t> triangles;                 ///< of every face
-    std::vector<std::uint32_t> apart;                     ///< triangles that stand apart
+    OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the given places
+    std::vector<std::uint32_t> triangles;                 ///< triangle of every face
+    std::vector<std::uint32_t> separate;                  ///< triangles with vertices of their own
 };
 
-/// @param places     [m]
-/// @param triangles  of places
-/// @throws Error     InvalidArgument for more than 2²⁸ triangles
+/// Makes half-edges.
+/// @param places     vertices [m]
+/// @param triangles  indices of places
+/// @throws Error     InvalidArgument: more than 2²⁸ triangles
 HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles);
 
-/// Triangles joined with all others that share an edge, those apart, too.
-/// @param triangles  as handed to halfEdges
+/// Joins triangles that share an edge, also those with vertices of their own.
+/// @param triangles  argument of halfEdges
 UnionFind joinedAcrossEdges(const HalfEdges& half_edges, const std::vector<Triangle>& triangles);
 
-/// What triangles are, topologically: as topology(surface), by half-edges.
+/// Topology of triangles, as topology(surface).
 Topology topology(const HalfEdges& half_edges);
 
-/// The half-edges of a surface, its copies of vertices welded.
+/// Half-edges of a surface, with copies of a vertex welded.
 /// @param surface  valid
 HalfEdges halfEdges(const Surface& surface);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Normals from the recovered gradient: O. C. Zienkiewicz and J. Z. Zhu, "A simple error estimator and adaptive
-// procedure for practical engineering analysis" (1987), area-weighted means; on the rim, where a mean is one-sided and
-// a whole order worse, from the slope that balances the rim's force (see solve).
+// Normals are those of the recovered gradient, an area-weighted mean: O. C. Zienkiewicz and J. Z. Zhu, "A simple error
+// estimator and adaptive procedure for practical engineering analysis" (1987). On the rim a mean is one-sided and less
+// accurate by one order, so the slope that balances the rim's force is used (see solve).
 
 #include "droplet/surface/loft.h"
 
@@ -24,8 +24,7 @@
 namespace droplet {
 namespace {
 
-/// Area-weighted means of the gradients on the triangles around every vertex; on the rim from the slope across it and
-/// the ground along it.
+/// Recovered gradients; on the rim from the slope across it and the ground along it.
 std::vector<Vec2> surfaceGradients(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
 {
     std::vector<Vec2> gradients = recoveredGradients(mesh, field.height);
@@ -46,16 +45,16 @@ Vec3 normalOf(Vec2 g)
     return {-g.x / size, -g.y / size, 1.0 / size};
 }
 
-/// Vertices and triangles of a surface to be made.
+/// Numbers of vertices and triangles, or indices of the first ones.
 struct Counts {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
 };
 
-/// What one more fill does to vertices and normals of the liquid; rim and base stay.
+/// Sets the change per fill of the liquid's vertices and normals; rim and base stay.
 ///
-/// Before it is brought to unit length a normal is (−∇u, 1), which is affine in the volume as u is. Divided by its
-/// length at fill 1, its change can be added to the unit normal there.
+/// A normal before normalisation is (−∇u, 1), which is affine in the volume. Its change is divided by its length at
+/// fill 1, so that it can be added to the unit normal.
 void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first, Surface& surface)
 {
     std::vector<Vec2> gradients = recoveredGradients(mesh, gain.height);
@@ -73,12 +72,12 @@ void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first,
     });
 }
 
-/// A droplet, or a part of one, and where in the surface its own begins.
+/// Droplet, or a part of one, with the place of its vertices and triangles in the surface.
 struct Piece {
     const PlanarMesh* mesh = nullptr;
     const HeightField* field = nullptr;
-    bool mirrored = false;  ///< its base has the liquid's own triangles
-    PlanarMesh cover;       ///< otherwise the base
+    bool mirrored = false;  ///< whether its base has the triangles of the liquid
+    PlanarMesh cover;       ///< base, if it is not mirrored
     Counts liquid;
     Counts base;
 
@@ -114,7 +113,7 @@ void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOpti
     });
 }
 
-/// The base's rim vertices are those of the liquid once more, with a normal of their own.
+/// Adds the base. Its rim vertices are copies of the liquid's, with another normal.
 void fillBase(const Piece& piece, const LoftOptions& options, Surface& surface)
 {
     const PlanarMesh& mesh = piece.baseMesh();
@@ -193,9 +192,9 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
 {
     refill.range.validate();
     if (refill.gains.size() != meshes.size()) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "refill.gains must be as many as meshes: " + std::to_string(refill.gains.size()) + " against " +
-                        std::to_string(meshes.size()));
+        throw Error(ErrorCode::InvalidArgument, std::to_string(refill.gains.size()) +
+                                                    " refill.gains must be as many as the " +
+                                                    std::to_string(meshes.size()) + " meshes");
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         if (refill.gains[k].height.size() != meshes[k].vertices.size() ||
@@ -210,6 +209,7 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
     }
 }
 
+/// Lists droplets and parts of droplets.
 /// @param wet  parts of the droplets that have dry vertices
 std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
                             const std::vector<std::vector<WetPart>>& wet, const LoftOptions& options)
@@ -237,8 +237,8 @@ std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::ve
     return pieces;
 }
 
-/// Gives every piece its place in the surface; returns how large that becomes.
-Counts layOut(std::vector<Piece>& pieces, bool open)
+/// Gives every piece its place in the surface. Returns the size of the surface.
+Counts assignPlaces(std::vector<Piece>& pieces, bool open)
 {
     Counts total;
     const auto take = [&total](Counts& begin, const PlanarMesh& mesh) {
@@ -269,13 +269,13 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
 {
     options.validate();
     if (meshes.size() != fields.size()) {
-        throw Error(ErrorCode::InvalidArgument, "fields must be as many as meshes: " + std::to_string(fields.size()) +
-                                                    " against " + std::to_string(meshes.size()));
+        throw Error(ErrorCode::InvalidArgument, "fields must have " + std::to_string(meshes.size()) +
+                                                    " entries, one per mesh, not " + std::to_string(fields.size()));
     }
     if (!options.bases.empty() && options.bases.size() != meshes.size()) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "bases must be none or as many as meshes: " + std::to_string(options.bases.size()) + " against " +
-                        std::to_string(meshes.size()));
+        throw Error(ErrorCode::InvalidArgument, std::to_string(options.bases.size()) +
+                                                    " bases must be none, or as many as the " +
+                                                    std::to_string(meshes.size()) + " meshes");
     }
     std::vector<std::vector<WetPart>> wet(meshes.size());
     for (std::size_t k = 0; k < meshes.size(); ++k) {
@@ -296,7 +296,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     if (pieces.empty()) {
         throw Error(ErrorCode::InvalidArgument, "fields must leave some liquid; all of the footprint is dry");
     }
-    const Counts total = layOut(pieces, options.open);
+    const Counts total = assignPlaces(pieces, options.open);
     Surface surface;
     surface.positions.resize(total.vertices);
     surface.normals.resize(total.vertices);
@@ -315,7 +315,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
         if (!options.open) {
             fillBase(pieces[k], options, surface);
         }
-        if (options.refill) {  // nothing is dry, so pieces are the droplets
+        if (options.refill) {  // without dry ground, pieces are the droplets
             fillRefill(*pieces[k].mesh, options.refill->gains[k], pieces[k].liquid.vertices, surface);
         }
         extents[k] = extentOf(*pieces[k].mesh, *pieces[k].field);

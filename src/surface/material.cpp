@@ -14,8 +14,8 @@ struct Entry {
     Look look;
 };
 
-// Water's ior at 589 nm, 20 °C; ink is water with dye. Honey: Wedmore's table at 18 % water. Mercury: reflectance
-// in visible light of about 0.78. The other colours are chosen by eye.
+// Water: index of refraction at 589 nm, 20 °C; ink is water with dye. Honey: Wedmore's table for 18 % water. Mercury:
+// reflectance of about 0.78 in visible light. The other colours are chosen by eye.
 constexpr std::array<Entry, 5> kEntries = {{
     {Material::Water, {"water", {1.0, 1.0, 1.0}, 0.0, 0.0, 1.0, 1.333, false}},
     {Material::Ink, {"ink", {0.03, 0.06, 0.35}, 0.0, 0.0, 1.0, 1.333, true}},

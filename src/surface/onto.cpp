@@ -32,64 +32,65 @@ void addWarnings(OntoReport& report)
             report.warnings.push_back(counted(count, "droplet") + " left out: " + why);
         }
     };
-    left_out(report.outside, "not wholly on a chart of the object's uv");
+    left_out(report.outside, "not completely on a chart of the object's uv");
     left_out(report.across, "across a seam between charts of the object's uv");
-    left_out(report.folded, "thicker than the object's hollow there is wide");
+    left_out(report.folded, "too high for the hollow of the object below them");
     if (report.mirrored > 0) {
         report.warnings.push_back(counted(report.mirrored, "droplet") + " mirrored, on " +
                                   counted(report.flipped_charts, "flipped chart") + " of the object's uv");
     }
     if (report.overlapping_charts > 0) {
-        report.warnings.push_back(counted(report.overlapping_charts, "chart") +
-                                  " of the object's uv overlap others with droplets; the first in the file has them");
+        report.warnings.push_back(
+            counted(report.overlapping_charts, "chart") +
+            " of the object's uv overlap others with droplets, which are on the first one in the file");
     }
     constexpr double kNoticeable = 1.5;
     if (report.max_scale > kNoticeable || report.min_scale < 1.0 / kNoticeable) {
         report.warnings.push_back("the object is " + rounded(report.min_scale) + " to " + rounded(report.max_scale) +
-                                  " times as large as the picture; gravity acted at the picture's size");
+                                  " times as large as the picture; gravity was computed for the size of the picture");
     }
 }
 
-void checkAnyLaid(const OntoReport& report, std::size_t count)
+void requireAnyPlaced(const OntoReport& report, std::size_t count)
 {
     if (report.laid == 0) {
         throw Error(ErrorCode::NoSuchDroplet, "none of " + counted(count, "droplet") +
-                                                  " can be laid on the object: " + std::to_string(report.outside) +
-                                                  " not wholly on a chart of its uv, " + std::to_string(report.across) +
-                                                  " across a seam, " + std::to_string(report.folded) +
-                                                  " thicker than a hollow is wide");
+                                                  " can be placed on the object: " + std::to_string(report.outside) +
+                                                  " not completely on a chart of its uv, " +
+                                                  std::to_string(report.across) + " across a seam, " +
+                                                  std::to_string(report.folded) + " too high for a hollow");
     }
 }
 
-/// Charts that hold vertices of droplets laid elsewhere, and flipped ones that have droplets.
+/// Counts charts with vertices of droplets on other charts, flipped charts with droplets, and results.
 void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& droplets,
-                 const std::vector<Placing>& placings, OntoReport& report)
+                 const std::vector<DropletPlacement>& placements, OntoReport& report)
 {
     std::vector<bool> overlapping(atlas.facing.size(), false);
     std::vector<bool> flipped(atlas.facing.size(), false);
     for (const Hit& hit : hits.all) {
         const std::uint32_t own = droplets.of[hit.vertex];
-        const bool met = own != DropletNumbers::kNone && placings[own].fate == Fate::Laid;
-        if (met && placings[own].chart != hit.chart && hit.depth > atlas.hair) {
+        const bool is_placed = own != DropletNumbers::kNone && placements[own].result == PlacementResult::Placed;
+        if (is_placed && placements[own].chart != hit.chart && hit.depth > atlas.tolerance) {
             overlapping[hit.chart] = true;
         }
     }
-    for (const Placing& placing : placings) {
-        switch (placing.fate) {
-            case Fate::Laid:
+    for (const DropletPlacement& placement : placements) {
+        switch (placement.result) {
+            case PlacementResult::Placed:
                 ++report.laid;
-                if (atlas.facing[placing.chart] < 0.0) {
+                if (atlas.facing[placement.chart] < 0.0) {
                     ++report.mirrored;
-                    flipped[placing.chart] = true;
+                    flipped[placement.chart] = true;
                 }
                 break;
-            case Fate::Outside:
+            case PlacementResult::Outside:
                 ++report.outside;
                 break;
-            case Fate::Across:
+            case PlacementResult::Across:
                 ++report.across;
                 break;
-            case Fate::Folded:
+            case PlacementResult::Folded:
                 ++report.folded;
                 break;
         }
@@ -98,8 +99,8 @@ void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& dro
     report.flipped_charts = static_cast<std::size_t>(std::count(flipped.begin(), flipped.end(), true));
 }
 
-/// Volume over footprint, both as stretched.
-double meanHeight(const Surface& droplets, const std::vector<Laid>& laid, const std::vector<bool>& kept)
+/// Volume divided by footprint, both on the object.
+double meanHeight(const Surface& droplets, const std::vector<PlacedVertex>& placed, const std::vector<bool>& kept)
 {
     double volume = 0.0;
     double area = 0.0;
@@ -109,7 +110,7 @@ double meanHeight(const Surface& droplets, const std::vector<Laid>& laid, const 
         const Vec3 r = droplets.positions[c] - p;
         const double flat = cross(Vec2{q.x, q.y}, Vec2{r.x, r.y});
         if (kept[a] && flat > 0.0) {
-            const double s = (laid[a].scale + laid[b].scale + laid[c].scale) / 3.0;
+            const double s = (placed[a].scale + placed[b].scale + placed[c].scale) / 3.0;
             const double z = (p.z + droplets.positions[b].z + droplets.positions[c].z) / 3.0;
             volume += flat * s * s * s * z;
             area += flat * s * s;
@@ -143,61 +144,61 @@ OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const On
     const DropletNumbers numbers = numberDroplets(droplets);
     const std::vector<std::uint32_t>& droplet = numbers.of;
     const Hits hits = findHits(droplets, atlas, flat);
-    std::vector<Placing> placings = placeDroplets(hits, numbers);
+    std::vector<DropletPlacement> placements = placeDroplets(hits, numbers);
 
-    const auto is_laid = [&](std::size_t v) {
-        return droplet[v] != DropletNumbers::kNone && placings[droplet[v]].fate == Fate::Laid;
+    const auto is_placed = [&](std::size_t v) {
+        return droplet[v] != DropletNumbers::kNone && placements[droplet[v]].result == PlacementResult::Placed;
     };
-    std::vector<Laid> laid(count);
+    std::vector<PlacedVertex> placed(count);
     forBlocks(count, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            if (is_laid(v)) {
-                const Hit& hit = *hits.on(v, placings[droplet[v]].chart);
-                const std::uint32_t first = droplets.weld[v];  // copies must come to the same place, bit by bit
-                laid[v] =
-                    atlas.lay(atlas.facets[hit.facet], flat[first], droplets.positions[first].z, droplets.normals[v]);
+            if (is_placed(v)) {
+                const Hit& hit = *hits.on(v, placements[droplet[v]].chart);
+                const std::uint32_t first = droplets.weld[v];  // copies must have the same position, bit for bit
+                placed[v] = atlas.placeVertex(atlas.facets[hit.facet], flat[first], droplets.positions[first].z,
+                                              droplets.normals[v]);
             }
         }
     });
     for (std::size_t v = 0; v < count; ++v) {
-        if (is_laid(v) && !(laid[v].swept * atlas.facing[placings[droplet[v]].chart] > 0.0)) {
-            placings[droplet[v]].fate = Fate::Folded;
+        if (is_placed(v) && !(placed[v].volume_ratio * atlas.facing[placements[droplet[v]].chart] > 0.0)) {
+            placements[droplet[v]].result = PlacementResult::Folded;
         }
     }
 
     OntoResult result;
     OntoReport& report = result.report;
-    countCharts(atlas, hits, numbers, placings, report);
-    checkAnyLaid(report, numbers.count);
+    countCharts(atlas, hits, numbers, placements, report);
+    requireAnyPlaced(report, numbers.count);
     Surface& surface = result.surface;
     std::vector<std::uint32_t> renamed(count, DropletNumbers::kNone);
     std::vector<bool> kept(count, false);
     report.min_scale = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < count; ++v) {
-        if (!is_laid(v)) {
+        if (!is_placed(v)) {
             continue;
         }
         kept[v] = true;
         renamed[v] = static_cast<std::uint32_t>(surface.positions.size());
-        surface.positions.push_back(laid[v].position);
-        surface.normals.push_back(laid[v].normal);
+        surface.positions.push_back(placed[v].position);
+        surface.normals.push_back(placed[v].normal);
         surface.uvs.push_back(droplets.uvs[v]);
         surface.weld.push_back(renamed[droplets.weld[v]]);
         if (!droplets.contact_angle.empty()) {
-            const double angle = std::acos(std::clamp(dot(laid[v].normal, laid[v].ground_normal), -1.0, 1.0));
+            const double angle = std::acos(std::clamp(dot(placed[v].normal, placed[v].ground_normal), -1.0, 1.0));
             surface.contact_angle.push_back(droplets.contact_angle[v] > 0.0F ? static_cast<float>(angle) : 0.0F);
         }
-        report.min_scale = std::min(report.min_scale, laid[v].scale);
-        report.max_scale = std::max(report.max_scale, laid[v].scale);
+        report.min_scale = std::min(report.min_scale, placed[v].scale);
+        report.max_scale = std::max(report.max_scale, placed[v].scale);
     }
     for (const auto& [a, b, c] : droplets.triangles) {
         if (kept[a]) {
-            const bool mirrored = atlas.facing[placings[droplet[a]].chart] < 0.0;
+            const bool mirrored = atlas.facing[placements[droplet[a]].chart] < 0.0;
             surface.triangles.push_back(mirrored ? Triangle{renamed[a], renamed[c], renamed[b]}
                                                  : Triangle{renamed[a], renamed[b], renamed[c]});
         }
     }
-    surface.mean_height = meanHeight(droplets, laid, kept);
+    surface.mean_height = meanHeight(droplets, placed, kept);
     addWarnings(report);
     return result;
 }

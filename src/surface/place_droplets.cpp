@@ -56,18 +56,18 @@ Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2
     return hits;
 }
 
-std::vector<Placing> placeDroplets(const Hits& hits, const DropletNumbers& droplets)
+std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbers& droplets)
 {
-    std::vector<Placing> placings(droplets.count);
+    std::vector<DropletPlacement> placements(droplets.count);
     std::vector<std::optional<std::vector<std::uint32_t>>> common(droplets.count);
     for (std::size_t v = 0; v < droplets.of.size(); ++v) {
         if (droplets.of[v] == DropletNumbers::kNone) {
             continue;
         }
-        Placing& placing = placings[droplets.of[v]];
+        DropletPlacement& placement = placements[droplets.of[v]];
         auto& charts = common[droplets.of[v]];
         if (hits.at(v).empty()) {
-            placing.fate = Fate::Outside;
+            placement.result = PlacementResult::Outside;
         } else if (!charts) {
             charts.emplace();
             for (const Hit& hit : hits.at(v)) {
@@ -78,16 +78,16 @@ std::vector<Placing> placeDroplets(const Hits& hits, const DropletNumbers& dropl
         }
     }
     for (std::uint32_t d = 0; d < droplets.count; ++d) {
-        if (placings[d].fate == Fate::Outside) {
+        if (placements[d].result == PlacementResult::Outside) {
             continue;
         }
         if (common[d]->empty()) {
-            placings[d].fate = Fate::Across;
+            placements[d].result = PlacementResult::Across;
         } else {
-            placings[d].chart = common[d]->front();
+            placements[d].chart = common[d]->front();
         }
     }
-    return placings;
+    return placements;
 }
 
 }  // namespace droplet

@@ -13,16 +13,17 @@
 
 namespace droplet {
 
-/// The droplets of a surface.
+/// Droplets of a surface.
 struct DropletNumbers {
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> of;  ///< every vertex its own; kNone for vertices of no triangle
+    std::vector<std::uint32_t> of;  ///< droplet of every vertex; kNone without a triangle
     std::uint32_t count = 0;
 };
 
+/// Numbers the droplets in the order of their triangles.
 DropletNumbers numberDroplets(const Surface& surface);
 
-/// Where every vertex lies: hits of vertex v are [starts[v], starts[v+1]), by ascending chart.
+/// Charts under every vertex: hits of vertex v are [starts[v], starts[v+1]), by ascending chart.
 struct Hits {
     std::vector<Hit> all;
     std::vector<std::size_t> starts;
@@ -39,18 +40,20 @@ struct Hits {
     }
 };
 
-/// @param flat  every vertex in the picture's plane [m]
+/// Finds the charts under every vertex.
+/// @param flat  vertices in the picture's plane [m]
 Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2>& flat);
 
-/// Why a droplet is not laid, or on which chart.
-enum class Fate { Laid, Outside, Across, Folded };
+/// Whether a droplet is placed on the object, or why not.
+enum class PlacementResult { Placed, Outside, Across, Folded };
 
-struct Placing {
-    Fate fate = Fate::Laid;
+/// Chart of a droplet.
+struct DropletPlacement {
+    PlacementResult result = PlacementResult::Placed;
     std::uint32_t chart = 0;
 };
 
-/// For every droplet the first chart that has all its vertices.
-std::vector<Placing> placeDroplets(const Hits& hits, const DropletNumbers& droplets);
+/// Finds the first chart that contains all vertices, for every droplet.
+std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbers& droplets);
 
 }  // namespace droplet

@@ -7,7 +7,7 @@
 
 namespace droplet {
 
-/// Unit normals of the rim's two edges at every rim vertex, outward from the liquid, averaged by length.
+/// Outward unit normals at rim vertices: means over both rim edges, weighted by length.
 std::vector<Vec2> rimNormals(const PlanarMesh& mesh);
 
 }  // namespace droplet

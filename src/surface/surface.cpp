@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Combinatorial manifolds: H. Edelsbrunner, J. Harer, "Computational Topology" (2010), section II: a complex of
-// triangles is a 2-manifold if the triangles around every vertex form a ring or, on the boundary, a chain.
+// H. Edelsbrunner, J. Harer, "Computational Topology" (2010), section II: a complex of triangles is a 2-manifold if the
+// triangles around every vertex form a ring or, on the boundary, a chain.
 //
-// OpenMesh's half-edges, which hold what comes from outside, say the same. Here they would cost 250 ms and 65 MB for a
-// million triangles, where the fans of the vertices take 11 ms and 14 MB on two cores.
+// OpenMesh's half-edges, which are used for triangles from outside, give the same result. For a million triangles they
+// would take 250 ms and 65 MB; the fans of vertices take 11 ms and 14 MB on two cores.
 #include "droplet/surface/surface.h"
 
 #include <tbb/blocked_range.h>
@@ -23,10 +23,10 @@
 namespace droplet {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;  // far above double round-off, far below what float32 or shading would show
+constexpr double kUnitTolerance = 1e-6;  // far above double round-off, far below float32 and visible shading
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kGrain = 4096;  // vertices or triangles a task looks at: 50 µs of work, far above its overhead
+constexpr std::size_t kGrain = 4096;  // vertices or triangles per task: 50 µs of work, far above its overhead
 
 [[noreturn]] void refuse(const std::string& field, std::size_t index, const std::string& constraint)
 {
@@ -42,7 +42,7 @@ bool finite(Vec3 a)
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-// The first index below `count` of which it holds, or `count`.
+// First index below `count` for which the predicate holds, or `count`.
 template <class Predicate>
 std::size_t firstOf(std::size_t count, const Predicate& holds)
 {
@@ -60,13 +60,13 @@ std::size_t firstOf(std::size_t count, const Predicate& holds)
         [](std::size_t a, std::size_t b) { return std::min(a, b); });
 }
 
-// A triangle seen from one of its vertices v: winding (v, from, to).
+// Triangle at one of its vertices v: it winds (v, from, to).
 struct Wedge {
     std::uint32_t from;
     std::uint32_t to;
 };
 
-// The triangles around every vertex, copies welded: for each vertex a list of corners, corner 3t + k being vertex k of
+// Triangles around every vertex, with copies welded: a list of corners per vertex. Corner 3t + k is vertex k of
 // triangle t.
 class Corners {
 public:
@@ -105,10 +105,10 @@ private:
     std::vector<std::uint32_t> next_;
 };
 
-// What the triangles make of a vertex: of a manifold's one ring of wedges or, on the boundary, one chain.
-enum class Kind { Unused, Ring, Chain, NoManifold };
+// Wedges around a vertex: in a manifold one ring or, on the boundary, one chain.
+enum class Kind { Unused, Ring, Chain, NotManifold };
 
-// The wedges around a vertex, and how they follow one another: one's `to` is the next one's `from`.
+// Wedges around a vertex in their order: `to` of one is `from` of the next.
 class Fan {
 public:
     Kind read(const Corners& corners, std::uint32_t vertex)
@@ -121,18 +121,18 @@ public:
             return wedge.from == vertex || wedge.to == vertex || wedge.from == wedge.to;
         });
         if (degenerate) {
-            return Kind::NoManifold;
+            return Kind::NotManifold;
         }
         return isSmallRing() ? Kind::Ring : readSorted();
     }
 
-    /// The vertex to which the boundary runs on from a chain's.
+    /// Next vertex on the boundary after that of a chain.
     [[nodiscard]] std::uint32_t boundaryNext() const { return wedges_[first_].from; }
 
 private:
-    // Nearly every vertex has a ring of some six wedges, which are searched faster than sorted. Each is followed by
-    // the first one that fits; where that leads back after as many steps as there are wedges, every one was met once,
-    // and no two have the same `from`, as of these only the first is ever met.
+    // Almost every vertex has a ring of about six wedges, and a linear search is faster than sorting. Each step goes to
+    // the first wedge that fits. A walk that returns after as many steps as there are wedges has visited each once; so
+    // no two have the same `from`, because only the first of these would be visited.
     [[nodiscard]] bool isSmallRing() const
     {
         constexpr std::size_t kSmall = 12;
@@ -150,7 +150,7 @@ private:
         return false;
     }
 
-    // Every `from` and every `to` must stand once, and all be joined to one ring or chain.
+    // Every `from` and every `to` must occur once, and all wedges must form one ring or chain.
     Kind readSorted()
     {
         const auto by_from = [](const Wedge& a, const Wedge& b) { return a.from < b.from; };
@@ -161,7 +161,7 @@ private:
         std::size_t links = 0;
         for (std::size_t i = 0; i < count; ++i) {
             if (i > 0 && wedges_[i].from == wedges_[i - 1].from) {
-                return Kind::NoManifold;  // the edge is run through twice in one direction
+                return Kind::NotManifold;  // two triangles have the edge in the same direction
             }
             const auto next = std::lower_bound(wedges_.begin(), wedges_.end(), Wedge{wedges_[i].to, 0}, by_from);
             if (next == wedges_.end() || next->from != wedges_[i].to) {
@@ -169,7 +169,7 @@ private:
             }
             follower_[i] = static_cast<std::size_t>(next - wedges_.begin());
             if (followed_[follower_[i]]) {
-                return Kind::NoManifold;
+                return Kind::NotManifold;
             }
             followed_[follower_[i]] = true;
             ++links;
@@ -183,22 +183,22 @@ private:
             ++walked;
         }
         if (walked < count) {
-            return Kind::NoManifold;
+            return Kind::NotManifold;
         }
         return ring ? Kind::Ring : Kind::Chain;
     }
 
     std::vector<Wedge> wedges_;
-    std::vector<std::size_t> follower_;  // of each wedge, or as many as there are
+    std::vector<std::size_t> follower_;  // next wedge of each, or the number of wedges
     std::vector<bool> followed_;
-    std::size_t first_ = 0;  // wedge of a chain
+    std::size_t first_ = 0;  // first wedge of a chain
 };
 
-// What the fans come to, together.
+// Totals over all fans.
 struct Census {
     bool manifold = true;
-    std::size_t vertices = 0;           // of any triangle
-    std::size_t boundary_vertices = 0;  // as many as boundary edges
+    std::size_t vertices = 0;           // vertices of triangles
+    std::size_t boundary_vertices = 0;  // equal to the number of boundary edges
 
     friend Census operator+(const Census& a, const Census& b)
     {
@@ -216,7 +216,7 @@ Census countFans(const Corners& corners, std::vector<std::uint32_t>& boundary_ne
             Fan fan;
             for (std::uint32_t v = range.begin(); v < range.end() && census.manifold; ++v) {
                 const Kind kind = fan.read(corners, v);
-                census.manifold = kind != Kind::NoManifold;
+                census.manifold = kind != Kind::NotManifold;
                 census.vertices += kind == Kind::Unused ? 0 : 1;
                 if (kind == Kind::Chain) {
                     ++census.boundary_vertices;
@@ -228,7 +228,7 @@ Census countFans(const Corners& corners, std::vector<std::uint32_t>& boundary_ne
         std::plus<>());
 }
 
-// Each boundary vertex has one before and one behind it, so that walks end where they began.
+// Each boundary vertex has one predecessor and one successor, so a walk ends where it began.
 std::size_t countLoops(std::vector<std::uint32_t> next)
 {
     std::size_t count = 0;
@@ -241,7 +241,7 @@ std::size_t countLoops(std::vector<std::uint32_t> next)
     return count;
 }
 
-// How often a triangle joins two sets of vertices that were apart.
+// Number of times a triangle joins two separate sets of vertices.
 std::size_t countJoins(const Surface& surface)
 {
     UnionFind sets(surface.weld);
@@ -266,14 +266,15 @@ void checkRefill(const Surface& surface)
     if (!(refill.min >= 0.0 && refill.min <= 1.0 && refill.max >= 1.0 && refill.min < refill.max &&
           std::isfinite(refill.max))) {
         throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.min) + " to " +
-                                                    numberText(refill.max) + " must be a range around 1, from 0");
+                                                    numberText(refill.max) +
+                                                    " must be a range that contains 1, from 0 or more");
     }
     const std::size_t i = firstOf(count, [&](std::size_t v) {
         return !finite(refill.positions[v]) || !finite(refill.normals[v]) ||
                refill.positions[surface.weld[v]] != refill.positions[v];
     });
     if (i < count) {
-        refuse("refill.positions", i, "must be finite with its normal, and that of all copies at the same place");
+        refuse("refill.positions", i, "must be finite, as its normal, and equal for all copies of a vertex");
     }
 }
 
@@ -386,7 +387,7 @@ Topology topology(const Surface& surface)
 
 double enclosedVolume(const Surface& surface)
 {
-    // ∫ div(0, 0, z) dV: every triangle's signed area in the plane times its mean height.
+    // ∫ div(0, 0, z) dV: sum of signed areas in the plane times mean heights.
     double volume = 0.0;
     for (const auto& [ia, ib, ic] : surface.triangles) {
         const Vec3 a = surface.positions[ia];

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Half-edge 3i + k runs from vertex k of triangle i to the next.
+/// Next half-edge of a triangle. Half-edge 3i + k runs from vertex k of triangle i to the next vertex.
 std::uint32_t nextInTriangle(std::uint32_t half_edge)
 {
     return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
@@ -39,7 +39,7 @@ std::vector<Triangle> liquidTriangles(const PlanarMesh& mesh, const HeightField&
     return liquid;
 }
 
-/// For every half-edge the one that runs back beside it, or none on the boundary.
+/// Opposite half-edge of every half-edge, or kNone on the boundary.
 std::vector<std::uint32_t> findTwins(const std::vector<Triangle>& triangles, std::size_t vertex_count)
 {
     const auto count = static_cast<std::uint32_t>(3 * triangles.size());
@@ -60,17 +60,17 @@ std::vector<std::uint32_t> findTwins(const std::vector<Triangle>& triangles, std
     return twins;
 }
 
-/// What triangles are left, as a manifold: where they touch in a vertex alone, it is there once for each fan of them.
+/// Remaining triangles as a manifold. A vertex at which triangles only touch has one copy for every fan.
 struct Manifold {
-    std::vector<Triangle> triangles;      ///< of vertices of the whole mesh
-    std::vector<std::uint32_t> twins;     ///< of every half-edge
-    std::vector<std::uint32_t> fans;      ///< the fan at the start of every half-edge; those on the boundary first
-    std::vector<std::uint32_t> boundary;  ///< the half-edge along the boundary that starts at every fan on it
+    std::vector<Triangle> triangles;      ///< indices of vertices of the whole mesh
+    std::vector<std::uint32_t> twins;     ///< opposite of every half-edge
+    std::vector<std::uint32_t> fans;      ///< fan at the start of every half-edge; fans on the boundary come first
+    std::vector<std::uint32_t> boundary;  ///< boundary half-edge that starts at every fan on the boundary
     std::uint32_t fan_count = 0;
 
     [[nodiscard]] bool onBoundary(std::uint32_t fan) const { return fan < boundary.size(); }
     [[nodiscard]] std::uint32_t nextOnBoundary(std::uint32_t fan) const { return fans[nextInTriangle(boundary[fan])]; }
-    /// Whether an edge runs through the liquid from boundary to boundary.
+    /// Whether an inner edge joins two boundary vertices.
     [[nodiscard]] bool crosses(std::uint32_t half_edge) const
     {
         return twins[half_edge] != kNone && onBoundary(fans[half_edge]) && onBoundary(fans[nextInTriangle(half_edge)]);
@@ -104,7 +104,7 @@ Manifold manifoldOf(std::vector<Triangle> triangles, std::size_t vertex_count)
     return liquid;
 }
 
-/// Triangles by the part they belong to.
+/// Triangles of every part.
 std::vector<std::vector<std::uint32_t>> trianglesOfParts(const Manifold& liquid)
 {
     std::vector<std::vector<std::uint32_t>> parts;
@@ -130,7 +130,7 @@ std::vector<std::vector<std::uint32_t>> trianglesOfParts(const Manifold& liquid)
     return parts;
 }
 
-/// Makes the parts one after the other.
+/// Makes all parts.
 class PartMaker {
 public:
     PartMaker(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
@@ -190,8 +190,8 @@ private:
         return number;
     }
 
-    /// The part's loops, the outer one first: of all it encloses the largest area, the only positive one.
-    /// Returns which vertices of the whole mesh they pass.
+    /// Adds the loops of a part, the outer one first: the one with the largest area, the only positive one.
+    /// Returns the vertices of the whole mesh along them.
     std::vector<std::uint32_t> addRim(WetPart& part, const std::vector<std::uint32_t>& triangles)
     {
         std::vector<std::vector<std::uint32_t>> loops;
@@ -207,7 +207,7 @@ private:
                 const Vec2 origin = mesh_.vertices[vertexAt(h)];
                 for (std::uint32_t fan = liquid_.fans[h]; number_[fan] == kNone; fan = liquid_.nextOnBoundary(fan)) {
                     const std::uint32_t along = liquid_.boundary[fan];
-                    number_[fan] = 0;  // found; numbered below
+                    number_[fan] = 0;  // marks it as found; the number follows below
                     loop.push_back(fan);
                     twice_area += cross(mesh_.vertices[vertexAt(along)] - origin,
                                         mesh_.vertices[vertexAt(nextInTriangle(along))] - origin);
@@ -234,7 +234,7 @@ private:
         return rim;
     }
 
-    /// The vertex in the middle of an edge that crosses the liquid.
+    /// Vertex in the middle of an edge between two boundary vertices.
     std::uint32_t middleOf(WetPart& part, std::uint32_t half_edge)
     {
         std::uint32_t& number = middle_[std::min(half_edge, liquid_.twins[half_edge])];
@@ -257,7 +257,7 @@ private:
         const std::uint32_t h = 3 * triangle;
         const Triangle t{number_[liquid_.fans[h]], number_[liquid_.fans[h + 1]], number_[liquid_.fans[h + 2]]};
         for (std::uint32_t k = 0; k < 3; ++k) {
-            // One of the three is not on the ground, so of its edges one at most.
+            // One of its vertices is not on the ground, so at most one of its edges crosses.
             if (liquid_.crosses(h + k)) {
                 const std::uint32_t middle = middleOf(part, h + k);
                 part.mesh.triangles.push_back({t[k], middle, t[(k + 2) % 3]});
@@ -268,7 +268,7 @@ private:
         part.mesh.triangles.push_back(t);
     }
 
-    /// Along a new rim the liquid lies on the ground with the ground's slope.
+    /// Sets slopes and angles at the rim. Along a new rim the liquid has the slope of the ground.
     void addSlopes(WetPart& part, const std::vector<std::uint32_t>& rim) const
     {
         const std::vector<Vec2> outward = rimNormals(part.mesh);
@@ -284,8 +284,8 @@ private:
     const HeightField& field_;
     const BaseSurface& ground_;
     Manifold liquid_;
-    std::vector<std::uint32_t> number_;  // of every fan in its part
-    std::vector<std::uint32_t> middle_;  // vertex in the middle of an edge, at the smaller of its half-edges
+    std::vector<std::uint32_t> number_;  // number of every fan in its part
+    std::vector<std::uint32_t> middle_;  // middle vertex of an edge, stored at its smaller half-edge
 };
 
 }  // namespace

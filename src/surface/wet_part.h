@@ -9,22 +9,22 @@
 
 namespace droplet {
 
-/// A droplet, or a part of one, without the ground it left dry.
+/// Droplet, or a part of one, without the ground that it left dry.
 struct WetPart {
     PlanarMesh mesh;
     HeightField field;
 };
 
-/// Cuts out of a droplet the triangles whose three vertices are on the ground, dry or on the rim.
+/// Removes the triangles of a droplet whose three vertices are on the ground: dry, or on the rim.
 ///
-/// Guarantees: the parts' meshes keep PlanarMesh's invariants, but that a loop may pass the same place more than once,
-/// by a vertex each time; they cover the triangles that are left once, and have no lattice. Dry vertices that still
-/// have triangles all around them stay inner vertices. An inner edge between two vertices of the new rim is split in
-/// its middle. Where the rim is new, liquid and ground have one tangent plane. The volume is the droplet's.
+/// Guarantees: meshes of the parts have the invariants of PlanarMesh, except that a loop may pass a place more than
+/// once, with a vertex each time. They cover each remaining triangle once, and have no lattice. A dry vertex that still
+/// has triangles all around it stays an inner vertex. An inner edge between two vertices of the new rim is split in its
+/// middle. Along a new rim, liquid and ground have the same tangent plane. The total volume does not change.
 /// @param mesh    valid
-/// @param field   heights on it, with `dry` as long as its vertices
-/// @param ground  what the field was solved on
-/// @return        parts that share no edge, by their first triangles; none if all is dry
+/// @param field   heights on it; `dry` has one entry per vertex
+/// @param ground  ground of the field
+/// @return        parts that share no edge, in the order of their first triangles; none if all is dry
 std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground);
 
 }  // namespace droplet

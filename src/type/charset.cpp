@@ -53,13 +53,13 @@ public:
             }
         }
         if (characters_.empty()) {
-            throw Error(ErrorCode::InvalidArgument, "charset is empty, must name characters, such as A-Za-z");
+            throw Error(ErrorCode::InvalidArgument, "charset is empty; it must contain characters, such as A-Za-z");
         }
         return characters_;
     }
 
 private:
-    /// Whether anything is left.
+    /// Skips white space. Returns false at the end.
     bool skipSpace()
     {
         while (at_ < text_.size() && isSpace(text_[at_])) {
@@ -88,7 +88,7 @@ private:
         }
         if (value > kLast) {
             throw Error(ErrorCode::InvalidArgument,
-                        "charset: " + codePointOf(value) + " is no character, the last is U+10FFFF");
+                        "charset: " + codePointOf(value) + " is not a character; the last is U+10FFFF");
         }
         at_ = i;
         return value;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Polygons are united by Clipper, after B. R. Vatti, "A generic solution to polygon clipping" (1992), on integers. It
-// leaves loops that touch at points, and its rounding of crossings may make others touch: these are found, and parted
-// by taking a little off all round.
+// Clipper unites polygons on integers, after B. R. Vatti, "A generic solution to polygon clipping" (1992). Its loops
+// may touch at points, also because it rounds crossings. If they do, all loops are shrunk slightly.
 
 #include "type/contour_union.h"
 
@@ -25,14 +24,14 @@ using ClipperLib::Paths;
 
 __extension__ using Wide = __int128;
 
-/// Integers per em: font units, of which an em has 2¹⁴ at most, and halves and quarters of them are exact for powers
-/// of two. Single glyphs stay below the 2³⁰ up to which Clipper multiplies in 64 bits.
+/// Integers per em. An em has at most 2¹⁴ font units; if their number is a power of two, units, halves and quarters are
+/// exact. Coordinates of single glyphs are below 2³⁰, up to which Clipper multiplies in 64 bits.
 constexpr double kGrid = 67108864.0;
 
-/// Vertices nearer than this to one another are one [grid]: 2⁻²³ em is what rounding makes, not what anybody drew.
+/// Distance below which vertices are merged [grid]: 2⁻²³ em is an effect of rounding, not a drawn detail.
 constexpr double kMerge = 8.0;
 
-/// How far sides that touch are moved apart, each by half [grid].
+/// Gap between sides that touched [grid]; each side moves by half of it.
 constexpr double kGap = 16384.0;
 
 IntPoint minus(const IntPoint& a, const IntPoint& b)
@@ -46,7 +45,7 @@ int turn(const IntPoint& a, const IntPoint& b)
     return cross > 0 ? 1 : (cross < 0 ? -1 : 0);
 }
 
-/// An edge of one of several loops.
+/// Edge of one of several loops.
 struct Edge {
     IntPoint from;
     IntPoint to;
@@ -59,8 +58,8 @@ struct Edge {
     [[nodiscard]] auto high() const { return std::max(from.Y, to.Y); }
 };
 
-/// Whether two edges, whose boxes meet, have a point in common.
-bool meet(const Edge& a, const Edge& b)
+/// Whether two edges with intersecting boxes have a common point.
+bool intersect(const Edge& a, const Edge& b)
 {
     const IntPoint along_a = minus(a.to, a.from);
     const IntPoint along_b = minus(b.to, b.from);
@@ -96,7 +95,7 @@ bool touchAnywhere(const Paths& loops)
             const std::size_t count = loops[a.loop].size();
             const bool then = a.loop == b.loop && (a.index + 1) % count == b.index;
             const bool before = a.loop == b.loop && (b.index + 1) % count == a.index;
-            if (then || before ? turnsBack(then ? a : b, then ? b : a) : meet(a, b)) {
+            if (then || before ? turnsBack(then ? a : b, then ? b : a) : intersect(a, b)) {
                 return true;
             }
         }
@@ -109,7 +108,7 @@ Paths united(const Paths& contours)
     ClipperLib::Clipper clipper;
     Paths result;
     if (!clipper.AddPaths(contours, ClipperLib::ptSubject, true)) {
-        return result;  // of nothing but points and lines
+        return result;  // there are only points and lines
     }
     if (!clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) {
         throw Error(ErrorCode::InvalidInput, "the contours cannot be united");
@@ -117,7 +116,7 @@ Paths united(const Paths& contours)
     return result;
 }
 
-/// Area of the points that contours wind around, by the lengths of lines across them.
+/// Area that contours wind around, from the lengths of horizontal lines in it.
 double areaInside(const Paths& contours)
 {
     constexpr int kLines = 1024;
@@ -167,8 +166,8 @@ double areaOf(const Paths& loops)
     return sum;
 }
 
-/// The plane turned by a quarter, so that Clipper sweeps over it in another direction.
-Paths turned(Paths paths)
+/// Rotates paths by 90°, so that Clipper sweeps in another direction.
+Paths rotated(Paths paths)
 {
     for (Path& path : paths) {
         for (IntPoint& p : path) {
@@ -178,8 +177,8 @@ Paths turned(Paths paths)
     return paths;
 }
 
-/// Where much touches and coincides, Clipper's sweep may err in one direction and not in another: the best of four.
-Paths unitedWithCare(Paths contours)
+/// Best of four unions in different directions: Clipper may fail in some of them if many sides touch or coincide.
+Paths bestUnion(Paths contours)
 {
     contours.erase(std::remove_if(contours.begin(), contours.end(), [](const Path& path) { return path.empty(); }),
                    contours.end());
@@ -190,13 +189,13 @@ Paths unitedWithCare(Paths contours)
         Paths result = united(contours);
         const double off = std::abs(areaOf(result) - area);
         for (int back = quarters; back % 4 != 0; ++back) {
-            result = turned(std::move(result));
+            result = rotated(std::move(result));
         }
         if (off < 0.999 * min) {
             min = off;
             best = std::move(result);
         }
-        contours = turned(std::move(contours));
+        contours = rotated(std::move(contours));
     }
     return best;
 }
@@ -207,7 +206,7 @@ bool isNear(const IntPoint& a, const IntPoint& b, double merge)
     return std::hypot(static_cast<double>(d.X), static_cast<double>(d.Y)) < merge;
 }
 
-/// A loop without vertices that are too near to the one before, or on the line through their neighbours.
+/// Removes vertices of a loop that are too near to the one before, or on the line through their neighbours.
 Path cleaned(const Path& loop, double merge)
 {
     Path result;
@@ -248,7 +247,7 @@ void clean(Paths& loops, double merge)
 /// Makes loops larger, or smaller if `by` is negative.
 Paths offset(Paths loops, double by)
 {
-    // Clipper takes the first of the loops that reach lowest for an outer one; a hole may touch its rim there.
+    // Clipper expects that the first of the lowest loops is an outer one, but a hole may touch its outer loop there.
     std::stable_partition(loops.begin(), loops.end(), ClipperLib::Orientation);
     constexpr double kMiter = 4.0;
     ClipperLib::ClipperOffset offset(kMiter);
@@ -258,10 +257,10 @@ Paths offset(Paths loops, double by)
     return result;
 }
 
-/// Loops that do not touch: what rounding left open is closed, then everything is made smaller by half the gap.
-Paths parted(const Paths& loops)
+/// Separates loops: closes gaps of rounding, then shrinks all loops by half the gap.
+Paths separated(const Paths& loops)
 {
-    // Rounding may make sides touch again; another gap rounds otherwise.
+    // Rounding may make sides touch again; with another gap it may not.
     constexpr int kAttempts = 4;
     double gap = kGap;
     for (int attempt = 0; attempt < kAttempts; ++attempt, gap *= 1.5) {
@@ -271,7 +270,7 @@ Paths parted(const Paths& loops)
             return result;
         }
     }
-    throw Error(ErrorCode::InvalidInput, "contours touch and cannot be parted");
+    throw Error(ErrorCode::InvalidInput, "contours touch and cannot be separated");
 }
 
 Paths rounded(const std::vector<Contour>& contours)
@@ -295,9 +294,9 @@ United unite(const std::vector<Contour>& contours, double speck)
     Paths loops = united(paths);
     clean(loops, kMerge);
     if (touchAnywhere(loops)) {
-        loops = unitedWithCare(paths);
+        loops = bestUnion(paths);
         clean(loops, kMerge);
-        loops = parted(loops);
+        loops = separated(loops);
     }
     United result;
     for (const Path& loop : loops) {
@@ -305,7 +304,7 @@ United unite(const std::vector<Contour>& contours, double speck)
             ++result.specks;
             continue;
         }
-        // From the leftmost point, whatever point Clipper began with.
+        // Loops start at their leftmost point, so that the result does not depend on Clipper's order.
         const auto first = std::min_element(loop.begin(), loop.end(), [](const IntPoint& a, const IntPoint& b) {
             return std::tie(a.X, a.Y) < std::tie(b.X, b.Y);
         });

@@ -8,24 +8,23 @@
 
 namespace droplet {
 
-/// A closed polygon, the first point not repeated at the end; it may cross itself, run either way, or enclose nothing.
+/// Closed polygon; the first point is not repeated. It may cross itself, have any direction, or enclose nothing.
 using Contour = std::vector<Vec2>;
 
-/// What contours enclose together.
+/// Union of contours.
 struct United {
-    std::vector<Contour>
-        loops;               ///< outer counter-clockwise, holes clockwise; none crosses or touches another or itself
-    std::size_t specks = 0;  ///< loops that were dropped
+    std::vector<Contour> loops;  ///< outer loops counter-clockwise, holes clockwise; they do not cross or touch
+    std::size_t specks = 0;      ///< number of loops that were dropped
 };
 
-/// The union of contours by the non-zero rule, whichever way they run.
+/// Unites contours by the non-zero rule.
 ///
-/// Lengths are in ems: points are rounded to 2⁻²⁶. Where the union touches itself, in a point or along a line, the two
-/// sides are parted by 2⁻¹²; only contours that do so are changed.
-/// @param contours  coordinates at most 2²⁰ in size
-/// @param speck     loops that enclose less are dropped [em²], ≥ 0
+/// Lengths are in ems; points are rounded to 2⁻²⁶. If the union touches itself, in a point or along a line, all its
+/// sides move so that 2⁻¹² is between them; otherwise none does.
+/// @param contours  coordinates with magnitudes up to 2²⁰
+/// @param speck     smallest area of a loop that is kept [em²], ≥ 0
 /// @return          loops from left to right, by their leftmost points
-/// @throws Error    InvalidInput if loops cannot be parted
+/// @throws Error    InvalidInput: loops cannot be separated
 United unite(const std::vector<Contour>& contours, double speck);
 
 }  // namespace droplet

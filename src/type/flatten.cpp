@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How many pieces a Bézier curve of degree d takes to be no farther than ε from it, in equal steps of its parameter:
-// n² = d(d−1)/8 · max|P_{i+2} − 2P_{i+1} + P_i| / ε, from G. Wang, "The subdivision method for finding the intersection
+// Number n of pieces, in equal steps of the parameter, that are no farther than ε from a Bézier curve of degree d:
+// n² = d(d−1)/8 · max|P_{i+2} − 2P_{i+1} + P_i| / ε, G. Wang, "The subdivision method for finding the intersection
 // between two Bézier curves or surfaces" (1984).
 
 #include "type/flatten.h"
@@ -43,7 +43,7 @@ std::size_t pieces(std::span<const Vec2> control, const Flatness& flatness)
     return static_cast<std::size_t>(std::ceil(count));
 }
 
-/// The point at parameter t, by de Casteljau's algorithm.
+/// Point at parameter t, by de Casteljau's algorithm.
 template <std::size_t kCount>
 Vec2 at(std::array<Vec2, kCount> control, double t)
 {

@@ -6,16 +6,16 @@
 
 namespace droplet {
 
-/// How closely straight pieces follow a curve.
+/// Accuracy of a polyline along a curve.
 struct Flatness {
-    double tolerance = 0.0;  ///< farthest they may lie from it, > 0
-    double spacing = 0.0;    ///< longest piece, as a mean along the curve, > 0
+    double tolerance = 0.0;  ///< largest distance from the curve, > 0
+    double spacing = 0.0;    ///< largest mean length of a piece, > 0
 };
 
-/// Adds a quadratic Bézier curve from a contour's last point: pieces turn by 10° at most, as a mean along the curve.
+/// Adds a quadratic Bézier curve from the last point of a contour. The mean turn between pieces is at most 10°.
 void addConic(Contour& contour, Vec2 control, Vec2 end, const Flatness& flatness);
 
-/// Likewise a cubic one.
+/// The same for a cubic curve.
 void addCubic(Contour& contour, Vec2 first, Vec2 second, Vec2 end, const Flatness& flatness);
 
 }  // namespace droplet

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Glyphs are loaded without hinting at one pixel per font unit, in 64ths of a pixel: FreeType then scales nothing, and
-// variable fonts keep fractions of units that they would lose unscaled.
+// Glyphs are loaded without hinting at one pixel per font unit, in 64ths of a pixel. So FreeType scales nothing, and
+// variable fonts keep fractions of units, which they lose if they are loaded unscaled.
 
 #include "type/font_face.h"
 
@@ -30,7 +30,7 @@ namespace {
 
 constexpr FT_Int32 kLoadFlags = FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
 
-/// Nothing that is drawn reaches this far from its origin [em]; what does comes of broken data.
+/// Largest distance of a point from its origin [em]; only damaged data exceed it.
 constexpr double kFarthest = 256.0;
 
 std::string tagText(FT_ULong tag)
@@ -58,13 +58,13 @@ std::string rangesOf(const std::vector<FontAxis>& axes)
     return text;
 }
 
-/// Follows FreeType's walk along an outline.
+/// Collects an outline that FreeType decomposes.
 struct Drawing {
     std::vector<Contour> contours;
     Flatness flatness;
     double unit = 0.0;
-    std::size_t points = 0;     ///< of contours before the last
-    std::exception_ptr thrown;  ///< not through FreeType
+    std::size_t points = 0;     ///< number of points in all contours but the last
+    std::exception_ptr thrown;  ///< exception, which must not pass through FreeType
 
     [[nodiscard]] Vec2 at(const FT_Vector* p) const
     {
@@ -78,12 +78,11 @@ bool isNear(std::initializer_list<Vec2> points)
                        [](Vec2 p) { return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest; });
 }
 
-/// Lets add(drawing) draw to places that are near, and says what FreeType wants to hear: it stops at any other value
-/// than 0.
+/// Calls add(drawing) if all places are near and returns 0. Any other value stops FreeType.
 template <typename Add>
 int follow(void* user, std::initializer_list<const FT_Vector*> places, const Add& add)
 {
-    constexpr std::size_t kMaxPoints = std::size_t{1} << 20;  // of a glyph; broken data ask for more
+    constexpr std::size_t kMaxPoints = std::size_t{1} << 20;  // limit for a glyph; only damaged data exceed it
     auto& drawing = *static_cast<Drawing*>(user);
     const bool near =
         std::all_of(places.begin(), places.end(), [&drawing](const FT_Vector* p) { return isNear({drawing.at(p)}); });
@@ -127,14 +126,14 @@ int cubicTo(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to
     });
 }
 
-/// The name of an axis is left out where it is not plain ASCII.
+/// Name, or empty if it is not plain ASCII.
 std::string plainName(const FT_String* name)
 {
     std::string text = name == nullptr ? "" : name;
     return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7f; }) ? text : "";
 }
 
-/// The largest fonts there are take 30 MB; an endless device must not be read for ever.
+/// Limit of a font file. The largest fonts have 30 MB; an endless device must not be read for ever.
 constexpr std::size_t kLargestFile = std::size_t{1} << 28;
 
 std::vector<std::byte> readFontFile(const std::filesystem::path& path)
@@ -142,7 +141,7 @@ std::vector<std::byte> readFontFile(const std::filesystem::path& path)
     try {
         Bytes bytes = readBytes(path, kLargestFile + 1, [](std::byte) { return true; });
         if (bytes.size() > kLargestFile) {
-            throw Error(ErrorCode::InvalidInput, shown(path) + ": is larger than 256 MiB, no font is");
+            throw Error(ErrorCode::InvalidInput, shown(path) + ": is larger than 256 MiB, the limit for fonts");
         }
         return bytes;
     } catch (const Damage& damage) {
@@ -181,10 +180,10 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
         face_.reset(error == 0 ? face : nullptr);
         return error == 0;
     };
-    // Negative indices count the faces alone; the upper half of one names an instance.
+    // A negative index only counts the faces. The upper half of an index is an instance.
     const std::size_t faces = open(-1) ? static_cast<std::size_t>(std::max<FT_Long>(face_->num_faces, 1)) : 0;
     if (faces == 0) {
-        throw Error(ErrorCode::InvalidInput, "is no font, or a broken one: FreeType cannot read it");
+        throw Error(ErrorCode::InvalidInput, "is not a font, or is damaged: FreeType cannot read it");
     }
     if (options.face_index >= faces) {
         throw Error(ErrorCode::InvalidArgument,
@@ -192,10 +191,10 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
                                 faces == 1 ? "one font, 0" : "fonts 0 to " + std::to_string(faces - 1)));
     }
     if (!open(static_cast<FT_Long>(options.face_index))) {
-        throw Error(ErrorCode::InvalidInput, "its font " + std::to_string(options.face_index) + " is broken");
+        throw Error(ErrorCode::InvalidInput, "its font " + std::to_string(options.face_index) + " is damaged");
     }
     if (!FT_IS_SCALABLE(face_.get()) || face_->units_per_EM == 0 || face_->num_glyphs <= 0) {
-        throw Error(ErrorCode::InvalidInput, "the font holds pictures of its glyphs, no outlines");
+        throw Error(ErrorCode::InvalidInput, "the font has bitmaps of its glyphs, not outlines");
     }
     setAxes(options.axes);
     if (FT_Set_Pixel_Sizes(face_.get(), 0, face_->units_per_EM) != 0) {
@@ -212,7 +211,7 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
         lines_.pitch > kMinLine && lines_.pitch < kFarthest ? lines_.pitch : lines_.ascender - lines_.descender;
 
     FT_UInt glyph = 0;
-    // Broken tables may go on for ever beyond the last character there is.
+    // Damaged tables may continue for ever beyond the last character.
     for (FT_ULong c = FT_Get_First_Char(face_.get(), &glyph); glyph != 0 && c <= 0x10ffff;
          c = FT_Get_Next_Char(face_.get(), c, &glyph)) {
         if (static_cast<FT_Long>(glyph) < face_->num_glyphs) {
@@ -259,7 +258,7 @@ void FontFace::setAxes(const std::vector<AxisSetting>& settings)
     }
     if (!settings.empty() &&
         FT_Set_Var_Design_Coordinates(face_.get(), static_cast<FT_UInt>(place.size()), place.data()) != 0) {
-        throw Error(ErrorCode::InvalidInput, "the font's axes are broken");
+        throw Error(ErrorCode::InvalidInput, "the font's axes are damaged");
     }
 }
 
@@ -320,7 +319,7 @@ DrawnGlyph FontFace::draw(GlyphId glyph, const Flatness& flatness) const
     }
     if (!good) {
         throw Error(ErrorCode::InvalidInput, "glyph " + std::to_string(glyph) + " ('" +
-                                                 plainName(nameOf(glyph).c_str()) + "') is broken in the font");
+                                                 plainName(nameOf(glyph).c_str()) + "') is damaged in the font");
     }
     drawn.contours = std::move(drawing.contours);
     return drawn;
@@ -330,14 +329,14 @@ std::vector<ShapedGlyph> FontFace::shape(const std::u32string& text, const TextR
 {
     const std::unique_ptr<hb_buffer_t, void (*)(hb_buffer_t*)> buffer(hb_buffer_create(), hb_buffer_destroy);
     const std::vector<std::uint32_t> characters(text.begin(), text.end());
-    // The whole line, so that letters at a run's ends join with what stands beside them.
+    // The whole line is given, so that letters at the ends of a run join with their neighbours.
     hb_buffer_add_codepoints(buffer.get(), characters.data(), static_cast<int>(characters.size()),
                              static_cast<unsigned>(run.begin), static_cast<int>(run.end - run.begin));
-    // A mark that the font lacks must not be taken for the letter it stands on.
+    // A mark that the font lacks must not be reported as the letter below it.
     hb_buffer_set_cluster_level(buffer.get(), HB_BUFFER_CLUSTER_LEVEL_MONOTONE_CHARACTERS);
     hb_buffer_set_direction(buffer.get(), run.leftward ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer.get(), static_cast<hb_script_t>(run.script));
-    // Otherwise the locale's.
+    // Otherwise HarfBuzz uses the language of the locale.
     hb_buffer_set_language(buffer.get(), hb_language_from_string("und", -1));
     {
         const std::lock_guard lock(mutex_);

@@ -19,38 +19,39 @@ struct hb_font_t;
 
 namespace droplet {
 
-/// A glyph as its font draws it; lengths in ems, from its origin on the base line.
+/// Glyph as drawn by its font; lengths in ems, from its origin on the base line.
 struct DrawnGlyph {
     std::vector<Contour> contours;
     double advance = 0.0;
 };
 
-/// Heights in ems: above the base line, and from one base line to the next.
+/// Heights of a line in ems, measured from the base line.
 struct LineMetrics {
-    double ascender = 0.0;
-    double descender = 0.0;  ///< negative below the base line
-    double pitch = 0.0;
+    double ascender = 0.0;   ///< top
+    double descender = 0.0;  ///< bottom; negative below the base line
+    double pitch = 0.0;      ///< distance to the next base line
 };
 
-/// A glyph of a shaped run; lengths in ems.
+/// Glyph of a shaped run; lengths in ems.
 struct ShapedGlyph {
     GlyphId glyph = 0;
-    std::size_t character = 0;  ///< index in the text of the first character it stands for
-    Vec2 offset;                ///< of its origin from where the pen is
-    double advance = 0.0;       ///< of the pen, after it
+    std::size_t character = 0;  ///< index of its first character in the text
+    Vec2 offset;                ///< origin, relative to the pen
+    double advance = 0.0;       ///< movement of the pen after the glyph
 };
 
 /// Characters of one script and direction.
 struct TextRun {
     std::size_t begin = 0;
     std::size_t end = 0;
-    unsigned script = 0;  ///< an OpenType tag, as HarfBuzz has them
+    unsigned script = 0;  ///< script tag of HarfBuzz
     bool leftward = false;
 };
 
-/// A font as FreeType and HarfBuzz have it, one caller at a time.
+/// Font in FreeType and HarfBuzz. Calls from several threads wait for each other.
 class FontFace {
 public:
+    /// Opens a font.
     /// @throws Error as decodeFont()
     FontFace(std::vector<std::byte> encoded, const FontOptions& options);
     ~FontFace();
@@ -66,10 +67,11 @@ public:
     [[nodiscard]] std::optional<char32_t> characterOf(GlyphId glyph) const;
     [[nodiscard]] std::string nameOf(GlyphId glyph) const;
 
-    /// @throws Error InvalidInput: the font is broken there
+    /// Draws a glyph.
+    /// @throws Error InvalidInput: the font is damaged there
     [[nodiscard]] DrawnGlyph draw(GlyphId glyph, const Flatness& flatness) const;
 
-    /// The glyphs of a run, from left to right.
+    /// Shapes a run: returns its glyphs from left to right.
     [[nodiscard]] std::vector<ShapedGlyph> shape(const std::u32string& text, const TextRun& run) const;
 
 private:
@@ -81,13 +83,13 @@ private:
 
     void setAxes(const std::vector<AxisSetting>& settings);
 
-    std::vector<std::byte> encoded_;  ///< what FreeType reads from as long as the face is open
+    std::vector<std::byte> encoded_;  ///< FreeType reads from it while the face is open
     std::unique_ptr<FT_LibraryRec_, Close> library_;
     std::unique_ptr<FT_FaceRec_, Close> face_;
     std::unique_ptr<hb_font_t, Close> shaper_;
     std::vector<FontAxis> axes_;
     LineMetrics lines_;
-    double unit_ = 0.0;  ///< FreeType's 26.6 fixed-point numbers in ems
+    double unit_ = 0.0;  ///< unit of FreeType's 26.6 fixed-point numbers in ems
     std::map<char32_t, GlyphId> glyph_of_;
     std::map<GlyphId, char32_t> character_of_;
     mutable std::mutex mutex_;

@@ -19,14 +19,15 @@
 namespace droplet {
 namespace {
 
-/// Of curves [em]: droplets of 5000 triangles have the volume of those from a fiftieth of it within 0.1 %, and their
-/// normals within 0.1° rms.
+/// Default tolerance of curves [em]. With a fiftieth of it, droplets of 5000 triangles change by at most 0.1 % in
+/// volume, and their normals by 0.1° rms.
 constexpr double kTolerance = 1.0 / 20'000.0;
 
-/// Points of an outline are at most this far apart [em]: meshing takes a loop's detail from how close its points are.
+/// Largest distance between points of an outline [em]: meshing reads the detail of a loop from the spacing of its
+/// points.
 constexpr double kSpacing = 1.0 / 256.0;
 
-/// Least turn at a corner, as where outlines are traced; pieces of curves turn by about 10° at most.
+/// Smallest turn at a corner, as in traced outlines; pieces of curves turn by about 10° at most.
 constexpr double kCornerTurn = 25.0 * std::numbers::pi / 180.0;
 
 void requirePositive(double value, const char* name)
@@ -39,18 +40,19 @@ void requirePositive(double value, const char* name)
 void requireGlyph(const Font& font, GlyphId glyph)
 {
     if (glyph >= font.glyphCount()) {
-        throw Error(ErrorCode::InvalidArgument, "glyph " + std::to_string(glyph) + " is too large: the font has " +
-                                                    std::to_string(font.glyphCount()) + ", from 0");
+        throw Error(ErrorCode::InvalidArgument, "glyph " + std::to_string(glyph) + " must be less than " +
+                                                    std::to_string(font.glyphCount()) +
+                                                    ", the font's number of glyphs");
     }
 }
 
 Flatness flatnessOf(const GlyphOptions& options)
 {
-    constexpr double kFinest = 0x1p-26;  // to which points are rounded
+    constexpr double kFinest = 0x1p-26;  // points are rounded to this
     return {options.tolerance ? std::max(*options.tolerance / options.em, kFinest) : kTolerance, kSpacing};
 }
 
-/// A loop with its corners, straight sides divided.
+/// Loop with its corners; straight sides are divided.
 Loop loopOf(const Contour& contour, double em)
 {
     Loop loop;
@@ -69,13 +71,13 @@ Loop loopOf(const Contour& contour, double em)
     return loop;
 }
 
-/// A rectangle in ems.
+/// Rectangle in ems.
 struct Box {
     Vec2 low;
     Vec2 high;
 };
 
-/// Loops in metres around the middle of a box, which is enlarged on both sides alike to hold them.
+/// Outline in metres around the middle of a box, which grows equally on opposite sides to contain the loops.
 Outline outlineOf(const United& united, const Box& box, double em)
 {
     const Vec2 middle = 0.5 * (box.low + box.high);
@@ -93,7 +95,7 @@ Outline outlineOf(const United& united, const Box& box, double em)
     return outline;
 }
 
-/// The lines of a text, without what parts them.
+/// Splits a text into its lines.
 std::vector<std::u32string> linesOf(std::string_view text)
 {
     std::vector<std::u32string> lines(1);
@@ -107,7 +109,7 @@ std::vector<std::u32string> linesOf(std::string_view text)
     return lines;
 }
 
-double startOf(const LaidLine& line, double width, TextAlign align)
+double startOf(const TextLine& line, double width, TextAlign align)
 {
     const double room = width - line.advance;
     switch (align) {
@@ -121,7 +123,7 @@ double startOf(const LaidLine& line, double width, TextAlign align)
     return line.leftward ? 0.0 : room;
 }
 
-/// Glyphs drawn and united once each, however often a text has them.
+/// Draws glyphs and unites their contours; each glyph once.
 class Drawer {
 public:
     Drawer(const FontFace& face, const Flatness& flatness) : face_(face), flatness_(flatness) {}
@@ -185,7 +187,7 @@ bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options)
             area += 0.5 * cross(contour[i], contour[(i + 1) % contour.size()]);
         }
     }
-    // What contours wind around in sum is no nothing; where it is little, only the union tells.
+    // A large signed area proves that there is ink; a small one needs the union.
     constexpr double kMuch = 1e-3;
     return std::abs(area) > std::max(kMuch, 1e3 * options.speck_size) ||
            !glyphOutline(font, glyph, options).loops.empty();
@@ -198,30 +200,30 @@ SetText setText(const Font& font, std::string_view text, const TextOptions& opti
     const std::vector<std::u32string> texts = linesOf(text);
     SetText result;
     result.lines = texts.size();
-    std::vector<LaidLine> lines;
+    std::vector<TextLine> lines;
     double width = 0.0;
     for (const std::u32string& line : texts) {
-        LaidLine laid = layLine(face, line);
-        // Glyph 0 stands for what the font lacks.
-        for (const ShapedGlyph& glyph : laid.glyphs) {
+        TextLine laid_out = layOutLine(face, line);
+        // Glyph 0 replaces characters that the font lacks.
+        for (const ShapedGlyph& glyph : laid_out.glyphs) {
             const char32_t character = line[glyph.character];
             if (glyph.glyph == 0) {
-                laid.advance -= glyph.advance;
+                laid_out.advance -= glyph.advance;
                 if (std::find(result.missing.begin(), result.missing.end(), character) == result.missing.end()) {
                     result.missing.push_back(character);
                 }
             }
         }
-        std::erase_if(laid.glyphs, [](const ShapedGlyph& glyph) { return glyph.glyph == 0; });
-        width = std::max(width, laid.advance);
-        lines.push_back(std::move(laid));
+        std::erase_if(laid_out.glyphs, [](const ShapedGlyph& glyph) { return glyph.glyph == 0; });
+        width = std::max(width, laid_out.advance);
+        lines.push_back(std::move(laid_out));
     }
 
     Drawer drawer(face, flatnessOf(options.glyph));
     std::vector<Contour> contours;
     const double pitch = options.line_spacing * face.lines().pitch;
     Vec2 pen;
-    for (const LaidLine& line : lines) {
+    for (const TextLine& line : lines) {
         pen.x = startOf(line, width, options.align);
         for (const ShapedGlyph& glyph : line.glyphs) {
             for (Contour contour : drawer(glyph.glyph)) {

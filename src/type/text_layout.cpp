@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Directions by the Unicode bidirectional algorithm (Unicode Standard Annex 9), as FriBidi has it; scripts as HarfBuzz
-// knows them, characters that all scripts share (UAX 24: Common, Inherited) going with what stands before them.
+// Directions: Unicode bidirectional algorithm (Unicode Standard Annex 9) by FriBidi. Scripts: HarfBuzz; characters that
+// all scripts share (UAX 24: Common, Inherited) take the script of the character before them.
 
 #include "type/text_layout.h"
 
@@ -40,7 +40,7 @@ std::vector<hb_script_t> scriptsOf(const std::u32string& text)
     return scripts;
 }
 
-/// Embedding levels; the line starts on the right where its base level is odd.
+/// Embedding levels. The line starts on the right if its base level is odd.
 struct Levels {
     std::vector<FriBidiLevel> of;
     bool leftward = false;
@@ -57,13 +57,13 @@ Levels levelsOf(const std::u32string& text)
     Levels levels{std::vector<FriBidiLevel>(text.size()), false};
     FriBidiParType base = FRIBIDI_PAR_ON;
     if (fribidi_get_par_embedding_levels_ex(types.data(), brackets.data(), count, &base, levels.of.data()) == 0) {
-        throw Error(ErrorCode::InvalidInput, "the directions of the text cannot be told");
+        throw Error(ErrorCode::InvalidInput, "the directions of the text cannot be found");
     }
     levels.leftward = FRIBIDI_IS_RTL(base);
     return levels;
 }
 
-/// Runs in the order they stand in the text.
+/// Runs in the order of the text.
 std::vector<LeveledRun> runsOf(const std::u32string& text, const std::vector<FriBidiLevel>& levels)
 {
     const std::vector<hb_script_t> scripts = scriptsOf(text);
@@ -78,7 +78,8 @@ std::vector<LeveledRun> runsOf(const std::u32string& text, const std::vector<Fri
     return runs;
 }
 
-/// Rule L2: from the highest level down to the lowest odd one, what has that level or a higher one is reversed.
+/// Rule L2: for every level from the highest down to the lowest odd one, sequences of that level or higher are
+/// reversed.
 void reorder(std::vector<LeveledRun>& runs)
 {
     FriBidiLevel highest = 0;
@@ -98,9 +99,9 @@ void reorder(std::vector<LeveledRun>& runs)
 
 }  // namespace
 
-LaidLine layLine(const FontFace& face, const std::u32string& text)
+TextLine layOutLine(const FontFace& face, const std::u32string& text)
 {
-    LaidLine line;
+    TextLine line;
     if (text.empty()) {
         return line;
     }

@@ -8,14 +8,15 @@
 
 namespace droplet {
 
-/// A line of glyphs, from left to right; lengths in ems.
-struct LaidLine {
+/// Line of glyphs from left to right; lengths in ems.
+struct TextLine {
     std::vector<ShapedGlyph> glyphs;
     double advance = 0.0;
-    bool leftward = false;  ///< whether it starts on the right
+    bool leftward = false;  ///< whether the line starts on the right
 };
 
-/// @param text  one line
-LaidLine layLine(const FontFace& face, const std::u32string& text);
+/// Sets one line of text.
+/// @param text  without line feeds
+TextLine layOutLine(const FontFace& face, const std::u32string& text);
 
 }  // namespace droplet

@@ -315,7 +315,7 @@ TEST_F(Glyphs, IsRefusedWithAReason)
     refuses({"--text", "a", "-o", "x.glb", "--keep-going"}, 2, {"--keep-going goes with --charset or --all"});
     refuses({"--all", "-o", "{name}.glb", "--onto", "can.glb"}, 2, {"--onto goes with --text alone"});
     refuses({"--all", "-o", "{name}.glb", "--align", "end"}, 2, {"--align goes with --text alone"});
-    refuses({"--text", "a", "-o", "x.glb"}, 3, {"disc.pgm: is no font"}, "disc.pgm");
+    refuses({"--text", "a", "-o", "x.glb"}, 3, {"disc.pgm: is not a font"}, "disc.pgm");
     refuses({"--text", "a", "-o", "x.glb"}, 3, {"cannot read none.ttf"}, "none.ttf");
     refuses({"--text", "a", "-o", "x.glb"}, 2, {"--font is missing, or no file"}, "-");
     refuses({"--text", "a", "-o", "x.glb", "--edge", "1nm"}, 2, {"--edge", "would take"});

@@ -29,7 +29,7 @@ using testing::roundDroplet;
 using testing::RoundDroplet;
 using testing::together;
 
-/// A surface of triangles with the normals of their facets, three vertices each, welded where they meet.
+/// Surface of triangles with flat normals: three vertices each, welded where they meet.
 Surface faceted(const std::vector<std::array<Vec3, 3>>& facets)
 {
     Surface surface;
@@ -53,7 +53,7 @@ Surface faceted(const std::vector<std::array<Vec3, 3>>& facets)
 
 using Facets = std::vector<std::array<Vec3, 3>>;
 
-/// A box, every face cut in n by n squares of two triangles, all diagonals one way or the other.
+/// Box with n by n squares of two triangles on every face, and all diagonals in one of two directions.
 Facets boxFacets(Vec3 low, Vec3 high, int n = 1, bool other_diagonal = false)
 {
     Facets facets;
@@ -85,7 +85,7 @@ Facets boxFacets(Vec3 low, Vec3 high, int n = 1, bool other_diagonal = false)
     return facets;
 }
 
-/// An octahedron whose faces are cut in n² and blown up to a sphere.
+/// Octahedron whose faces are cut into n² triangles and projected to a sphere.
 Facets sphereFacets(double radius, int n)
 {
     Facets facets;
@@ -134,7 +134,7 @@ Surface scaled(const Surface& surface, double factor)
         surface, [factor](Vec3 p) { return factor * p; }, [](Vec3 n) { return n; });
 }
 
-/// By an angle about an axis of no distinction.
+/// Rotation around a general axis.
 Vec3 turned(Vec3 p)
 {
     const Vec3 axis = (1.0 / std::sqrt(14.0)) * Vec3{1.0, -2.0, 3.0};
@@ -142,7 +142,7 @@ Vec3 turned(Vec3 p)
     return std::cos(angle) * p + std::sin(angle) * cross(axis, p) + ((1.0 - std::cos(angle)) * dot(axis, p)) * axis;
 }
 
-/// The same surface in another order.
+/// The same surface with vertices and triangles in another order.
 Surface shuffled(const Surface& surface)
 {
     std::mt19937 random(5);
@@ -191,7 +191,7 @@ void expectEqual(const SurfaceDistance& a, const SurfaceDistance& b)
     expectEqual(a.nearest, b.nearest);
 }
 
-/// Bounds hold the truth between them and are as near to each other as asked.
+/// Checks that the truth lies between the bounds, and that they are near enough to each other.
 void expectBrackets(const SurfaceDistance& found, double truth, double share = CompareOptions().share)
 {
     EXPECT_LE(found.lower, truth * (1.0 + 1e-12));
@@ -207,7 +207,7 @@ Surface box(Vec3 low = {0.0, 0.0, 0.0}, Vec3 high = {1.0, 1.0, 1.0}, int n = 1)
     return faceted(boxFacets(low, high, n));
 }
 
-TEST(Compare, TranslatedBoxIsOffByTheShiftAlongOneAxis)
+TEST(Compare, TranslatedBoxHasTheDistanceOfItsShift)
 {
     const Comparison found = compare(box(), shifted(box(), {0.125, 0.0, 0.0}));
     expectBrackets(found.symmetric, 0.125);
@@ -218,17 +218,17 @@ TEST(Compare, TranslatedBoxIsOffByTheShiftAlongOneAxis)
     expectEqual(found.b.lowest, {0.125, 0.0, 0.0});
     expectEqual(found.b.highest, {1.125, 1.0, 1.0});
     EXPECT_TRUE(found.same_topology);
-    // The first box's left face is off by the shift; four have a strip beyond the other box, where the distance falls
-    // to zero; the right face lies inside the other box and is nowhere farther from it than from its own outline.
+    // The left face of the first box has the distance of the shift. Four faces have a strip outside the other box,
+    // where the distance falls to zero. The right face lies inside the other box.
     const double strips = 4.0 * 0.125 * 0.125 / 2.0;
     const double right = 0.125 / 3.0 * (1.0 + 0.75 * 0.75 + 0.75);
     EXPECT_NEAR(found.from_a.mean, (0.125 + right + strips) / 6.0, 1e-5);
     EXPECT_NEAR(found.symmetric.mean, found.from_a.mean, 1e-12);
 }
 
-TEST(Compare, SheetsAtADistanceThatIsTheSameEverywhere)
+TEST(Compare, ParallelSheetsHaveOneDistance)
 {
-    // Cut in other squares along other diagonals, at distances down to far less than their edges.
+    // Different squares and diagonals, and distances far below the length of edges.
     const auto sheet = [](double z, int n, bool other_diagonal) {
         Facets facets = boxFacets({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, n, other_diagonal);
         std::erase_if(facets, [](const auto& f) { return f[0].z + f[1].z + f[2].z > 0.0; });
@@ -247,9 +247,9 @@ TEST(Compare, SheetsAtADistanceThatIsTheSameEverywhere)
     }
 }
 
-TEST(Compare, SpheresOfTwoSizesAndResolutions)
+TEST(Compare, SpheresOfTwoSizesHaveTheirDifferenceInRadius)
 {
-    // The vertices of a are on the sphere of radius 1, b's chords reach in to 1.25 cos: between them lies the truth.
+    // Vertices of a are on the sphere of radius 1, and chords of b reach 1.25 cos inward; the truth lies between them.
     const Surface a = faceted(sphereFacets(1.0, 6));
     const Surface b = faceted(sphereFacets(1.25, 12));
     CompareOptions options;
@@ -257,7 +257,7 @@ TEST(Compare, SpheresOfTwoSizesAndResolutions)
     const Comparison found = compare(a, b, options);
     EXPECT_LE(found.from_a.upper - found.from_a.lower, 1e-4 * found.from_a.upper);
     EXPECT_LE(found.from_b.upper - found.from_b.lower, 1e-4 * found.from_b.upper);
-    // The farthest points of b are its vertices over the middles of a's facets; no point of b has a larger radius.
+    // The farthest points of b are its vertices above the middles of a's facets; no point of b has a larger radius.
     double min_radius = 1.0;
     for (const auto& [p, q, r] : sphereFacets(1.0, 6)) {
         min_radius = std::min(min_radius, std::abs(dot(p, cross(q - p, r - p))) / length(cross(q - p, r - p)));
@@ -269,7 +269,7 @@ TEST(Compare, SpheresOfTwoSizesAndResolutions)
     EXPECT_TRUE(found.same_topology);
 }
 
-TEST(Compare, BoundsHoldWhatManySamplesFind)
+TEST(Compare, BoundsContainTheDistancesOfManySamples)
 {
     const Surface a = roundDroplet({.height = 1.1e-3, .rings = 7, .segments = 17});
     const Surface b = roundDroplet({.outer = 4.03e-3, .rings = 5, .segments = 13, .centre = {2e-5, -1e-5}});
@@ -313,9 +313,10 @@ TEST(Compare, BoundsHoldWhatManySamplesFind)
     EXPECT_NEAR(found.a.area, area, 1e-12 * area);
 }
 
-TEST(Compare, NeedlesAgainstFineTriangles)
+TEST(Compare, NeedlesAreComparedWithFineTriangles)
 {
-    // Three needles as long as a droplet over thousands of its triangles, cut in polygons of many corners.
+    // Three needles as long as a droplet, above thousands of its triangles, which cut them into polygons of many
+    // corners.
     const Surface fine = roundDroplet({.height = 1e-9, .rings = 24, .segments = 96, .open = true});
     const Surface coarse = moved(
         roundDroplet({.height = 1e-9, .rings = 1, .segments = 3, .open = true}),
@@ -324,17 +325,17 @@ TEST(Compare, NeedlesAgainstFineTriangles)
         },
         [](Vec3 n) { return n; });
     const Comparison found = compare(coarse, fine);
-    // Flat to 1e-9, and inside the other's outline.
+    // It is flat to 1e-9, and inside the outline of the other.
     EXPECT_NEAR(found.from_a.lower, 1e-5, 2e-9);
     EXPECT_NEAR(found.from_a.upper, 1e-5, 1e-5 * CompareOptions().share + 2e-9);
     EXPECT_NEAR(found.from_a.mean, 1e-5, 2e-9);
-    EXPECT_GT(found.from_b.lower, 3e-3) << "the other way the disc's rim is far off";
+    EXPECT_GT(found.from_b.lower, 3e-3) << "the rim of the disc is far from the needles";
     EXPECT_LE(found.from_b.upper - found.from_b.lower, CompareOptions().share * found.from_b.upper);
 }
 
-TEST(Compare, SpikeThinnerThanAnySampling)
+TEST(Compare, FindsSpikesThinnerThanAnySampling)
 {
-    // A needle over the middle of one facet of a box of 12 triangles, its foot 1e-7 wide.
+    // A needle above the middle of one facet of a box of 12 triangles, with a foot 1e-7 wide.
     Facets facets = boxFacets({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
     const Vec3 foot{0.61, 0.33, 1.0};
     const double w = 1e-7;
@@ -343,16 +344,16 @@ TEST(Compare, SpikeThinnerThanAnySampling)
     const Surface with = faceted(facets);
     const Comparison found = compare(box(), with);
     expectBrackets(found.from_b, 0.3);
-    EXPECT_NEAR(found.from_a.upper, 0.0, 1e-12) << "the box lies on the other";
+    EXPECT_NEAR(found.from_a.upper, 0.0, 1e-12) << "the box is part of the other surface";
     expectBrackets(found.symmetric, 0.3);
     expectEqual(found.symmetric.at, tip);
-    EXPECT_LT(found.symmetric.rms, 1e-3) << "it has next to no area";
+    EXPECT_LT(found.symmetric.rms, 1e-3) << "the needle has almost no area";
     EXPECT_FALSE(found.same_topology);
 }
 
 TEST(Compare, DentBetweenVerticesIsFoundFromBothSides)
 {
-    // A pyramid with its tip under the middle of a square: no vertex of the square is off.
+    // A pyramid with its tip below the middle of a square; all vertices of the square agree.
     const Vec3 tip{0.5, 0.5, -0.2};
     const Surface flat =
         faceted({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}}, {Vec3{0, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}}});
@@ -363,17 +364,17 @@ TEST(Compare, DentBetweenVerticesIsFoundFromBothSides)
     CompareOptions options;
     options.share = 1e-6;
     const Comparison found = compare(flat, dented, options);
-    // From the middle the nearest points are on the four facets.
+    // The nearest points to the middle are on the four facets.
     expectBrackets(found.from_a, 0.2 * 0.5 / std::hypot(0.2, 0.5), 1e-6);
     expectBrackets(found.from_b, 0.2, 1e-6);
-    // A facet's distance from the plane is linear, its mean a third of the largest, its mean square a sixth.
+    // The distance of a facet from the plane is linear; its mean is a third of the largest, its mean square a sixth.
     EXPECT_NEAR(found.from_b.mean, 0.2 / 3.0, 1e-12);
     EXPECT_NEAR(found.from_b.rms, 0.2 / std::sqrt(6.0), 1e-12);
     EXPECT_NEAR(found.normals.largest, std::atan(0.4), 1e-12);
     EXPECT_NEAR(found.normals.rms, std::atan(0.4), 1e-6);
 }
 
-TEST(Compare, NothingBetweenASurfaceAndItself)
+TEST(Compare, SurfaceHasNoDistanceFromItself)
 {
     for (const Surface& surface :
          {roundDroplet(), roundDroplet({.inner = 1e-3}), box(), roundDroplet({.open = true})}) {
@@ -388,7 +389,7 @@ TEST(Compare, NothingBetweenASurfaceAndItself)
     }
 }
 
-TEST(Compare, ExchangedSurfacesGiveTheSameExchanged)
+TEST(Compare, ExchangedSurfacesGiveTheExchangedResult)
 {
     const Surface a = roundDroplet({.rings = 7, .segments = 17});
     const Surface b = roundDroplet({.height = 1.1e-3, .rings = 4, .segments = 23});
@@ -404,7 +405,7 @@ TEST(Compare, ExchangedSurfacesGiveTheSameExchanged)
     EXPECT_NEAR(*there.relativeVolume(), (there.b.volume - there.a.volume) / there.a.volume, 1e-15);
 }
 
-TEST(Compare, RmsOfBothIsWeighedByArea)
+TEST(Compare, RmsOfBothIsWeightedByArea)
 {
     const Comparison found = compare(roundDroplet(), roundDroplet({.height = 1.3e-3, .rings = 6}));
     const double area = found.a.area + found.b.area;
@@ -418,7 +419,7 @@ TEST(Compare, RmsOfBothIsWeighedByArea)
     EXPECT_EQ(found.symmetric.lower, std::max(found.from_a.lower, found.from_b.lower));
 }
 
-TEST(Compare, LengthsFollowTheScaleAndAnglesDoNot)
+TEST(Compare, LengthsScaleAndAnglesDoNot)
 {
     const Surface a = roundDroplet();
     const Surface b = roundDroplet({.height = 1.2e-3, .rings = 5, .segments = 15});
@@ -447,7 +448,7 @@ TEST(Compare, RigidMotionOfBothChangesNothing)
     CompareOptions options;
     options.share = 1e-6;
     const Comparison one = compare(a, b, options);
-    for (const double far : {0.0, 1e-2, 1e3}) {  // the last is a million times their size: 1e-13 m of round-off
+    for (const double far : {0.0, 1e-2, 1e3}) {  // the last is a million times their size, with a round-off of 1e-13 m
         const auto place = [far](Vec3 p) { return turned(p) + Vec3{far, -2.0 * far, 0.5 * far}; };
         const Comparison found = compare(moved(a, place, turned), moved(b, place, turned), options);
         const double rounding = 1e-16 + 1e-15 * far;
@@ -459,9 +460,9 @@ TEST(Compare, RigidMotionOfBothChangesNothing)
     }
 }
 
-TEST(Compare, ToleranceIsDecidedWhereBoundsAloneWouldNot)
+TEST(Compare, BoundsAreNarrowedToDecideAboutTheTolerance)
 {
-    // The largest distance is 0.2, the asked share so coarse that the bounds would not tell from which side.
+    // The largest distance is 0.2. With this share alone, the tolerance would lie between the bounds.
     const Surface flat = box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 2);
     const Surface dented = faceted([] {
         Facets facets = boxFacets({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, 8);
@@ -482,9 +483,9 @@ TEST(Compare, ToleranceIsDecidedWhereBoundsAloneWouldNot)
     }
 }
 
-TEST(Compare, BoundsStayBoundsWhereTheWorkIsLimited)
+TEST(Compare, BoundsHoldIfTheWorkIsLimited)
 {
-    // The middle of a sphere's inside is far from all its points, a hard case: a small sphere in it, off centre.
+    // A hard case: a small sphere near the centre of another one, which is equally far from all its points.
     const Surface a = faceted(sphereFacets(1.0, 9));
     const Surface b = shifted(faceted(sphereFacets(0.01, 2)), {1e-3, 2e-3, 3e-3});
     CompareOptions options;
@@ -497,12 +498,12 @@ TEST(Compare, BoundsStayBoundsWhereTheWorkIsLimited)
         EXPECT_GE(wide.upper, narrow.lower);
         EXPECT_LE(narrow.upper - narrow.lower, 2e-9 * narrow.upper);
     }
-    EXPECT_GT(coarse.from_b.upper - coarse.from_b.lower, 1e-6) << "the limit was no limit";
+    EXPECT_GT(coarse.from_b.upper - coarse.from_b.lower, 1e-6) << "the limit had no effect";
 }
 
-TEST(Compare, ManyLargeTrianglesThroughOneAnotherTakeLimitedWork)
+TEST(Compare, ManyLargeIntersectingTrianglesTakeLimitedWork)
 {
-    // As of a broken file: cut as finely as others, they would be a hundred thousand pieces.
+    // As in a damaged file. Cut as finely as others, they would be a hundred thousand pieces.
     const auto wild = [](double turn) {
         Facets facets;
         for (int k = 0; k < 40; ++k) {
@@ -521,7 +522,7 @@ TEST(Compare, ManyLargeTrianglesThroughOneAnotherTakeLimitedWork)
     EXPECT_LE(found.symmetric.mean, found.symmetric.upper);
 }
 
-TEST(Compare, TrianglesWithoutAreaAddNothingButTheirPoints)
+TEST(Compare, TrianglesWithoutAreaOnlyAddTheirPoints)
 {
     Facets facets = boxFacets({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
     facets.push_back({Vec3{0.2, 0.2, 1.0}, Vec3{0.4, 0.4, 1.0}, Vec3{0.7, 0.7, 1.0}});
@@ -544,7 +545,7 @@ TEST(Compare, TrianglesWithoutAreaAddNothingButTheirPoints)
     EXPECT_EQ(compare(point, point).symmetric.upper, 0.0);
 }
 
-TEST(Compare, TopologyAndWhatElseDiffers)
+TEST(Compare, ReportsDifferentTopologyCountsAndVolume)
 {
     const Surface closed = roundDroplet();
     const Surface open = roundDroplet({.open = true});
@@ -558,23 +559,23 @@ TEST(Compare, TopologyAndWhatElseDiffers)
     EXPECT_EQ(found.b.vertices, 2 * found.a.vertices);
     EXPECT_EQ(found.b.triangles, 2 * found.a.triangles);
     EXPECT_NEAR(*found.relativeVolume(), 1.0, 1e-12);
-    // The second droplet's farthest point is its far end, from the first one's near end.
+    // The farthest point of the second droplet is its far end; the nearest one is the near end of the first.
     expectBrackets(found.from_b, 20e-3);
     EXPECT_LE(found.from_a.upper, 1e-15);
     EXPECT_TRUE(compare(open, roundDroplet({.rings = 6, .open = true})).same_topology);
 }
 
-TEST(Compare, CrispRimsAreNotComparedAcrossTheEdge)
+TEST(Compare, NormalsAtARimAreNotComparedAcrossTheEdge)
 {
-    // The same droplet a little smaller: its rim lies inside the other's base, where the other's normal is turned by
-    // 153 degrees from the liquid's.
+    // The same droplet, slightly smaller: its rim lies inside the other's base, whose normal differs by 153 degrees
+    // from that of the liquid.
     const Surface a = roundDroplet({.rings = 16, .segments = 64});
     const Surface b = scaled(a, 0.999);
     const Comparison found = compare(a, b);
     EXPECT_LT(found.normals.largest, 2e-3);
     EXPECT_LT(found.normals.rms, found.normals.largest);
     EXPECT_GT(found.normals.largest, 0.0);
-    // Of a surface turned inside out every normal differs by half a turn.
+    // On a surface turned inside out every normal differs by 180 degrees.
     Surface inside_out = a;
     for (std::size_t v = 0; v < a.normals.size(); ++v) {
         inside_out.normals[v] = -1.0 * a.normals[v];
@@ -588,11 +589,11 @@ TEST(Compare, CrispRimsAreNotComparedAcrossTheEdge)
     EXPECT_NEAR(turned_over.b.volume, -turned_over.a.volume, 1e-20);
 }
 
-TEST(Compare, ContactAnglesAreWeighedByLength)
+TEST(Compare, ContactAnglesAreWeightedByLength)
 {
     const Surface plain = roundDroplet({.segments = 12});
     EXPECT_FALSE(compare(plain, plain).a.contact_angle);
-    const Surface with = testing::withContactAngles(plain);  // 0.31, 0.32 … along edges of one length
+    const Surface with = testing::withContactAngles(plain);  // 0.31, 0.32 … along edges of equal length
     const Comparison found = compare(with, plain);
     ASSERT_TRUE(found.a.contact_angle);
     EXPECT_NEAR(found.a.contact_angle->min, 0.31, 1e-6);
@@ -621,10 +622,10 @@ TEST(Compare, SameBitsAtAnyNumberOfThreads)
     EXPECT_EQ(signed_one, signed_many);
 }
 
-TEST(Compare, SignedDistancesTellInsideFromOutside)
+TEST(Compare, SignedDistancesAreNegativeInside)
 {
     const Surface unit = box();
-    // Beside faces, edges and corners, where a single facet's normal can point the wrong way.
+    // Points near faces, edges and corners, where the normal of a single facet can have the wrong sign.
     const std::vector<Vec3> outside = {{1.5, 0.5, 0.5}, {1.1, 1.3, 0.5}, {1.1, 1.01, 1.4}, {-0.2, 0.3, -0.001}};
     const std::vector<Vec3> inside = {{0.9, 0.5, 0.5}, {0.99, 0.98, 0.5}, {0.97, 0.98, 0.99}, {0.001, 0.5, 0.9}};
     const auto at = [](const std::vector<Vec3>& points) {
@@ -642,19 +643,19 @@ TEST(Compare, SignedDistancesTellInsideFromOutside)
     EXPECT_NEAR(in[1], -0.01, 1e-12);
     EXPECT_NEAR(in[2], -0.01, 1e-12);
     EXPECT_NEAR(in[3], -0.001, 1e-12);
-    // A dent's sharp edge: the nearest triangles alone do not agree.
+    // At the sharp edge of a dent the nearest triangles disagree.
     const std::vector<double> self = signedDistances(unit, unit);
     EXPECT_THAT(self, ::testing::Each(::testing::DoubleNear(0.0, 1e-15)));
 }
 
-TEST(Compare, WhatIsNoSurfaceIsRefused)
+TEST(Compare, RefusesInvalidSurfaces)
 {
     const Surface sound = roundDroplet();
     const auto expect_refused = [&](const Surface& a, const Surface& b, const CompareOptions& options,
                                     const std::string& words) {
         try {
             (void)compare(a, b, options);
-            ADD_FAILURE() << "compared; should say: " << words;
+            ADD_FAILURE() << "was compared; expected the error: " << words;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_THAT(error.what(), HasSubstr(words));

@@ -23,7 +23,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::string complaintOf(const std::function<void()>& call, ErrorCode code = ErrorCode::InvalidArgument)
+std::string messageOf(const std::function<void()>& call, ErrorCode code = ErrorCode::InvalidArgument)
 {
     try {
         call();
@@ -36,14 +36,14 @@ std::string complaintOf(const std::function<void()>& call, ErrorCode code = Erro
     return "";
 }
 
-/// Central differences; their own error is of the order of step² third derivatives.
+/// Central differences; their error is of the order of step² times third derivatives.
 Vec2 slopeOf(const BaseSurface& ground, Vec2 p, double step)
 {
     return {(ground.at(p + Vec2{step, 0}).height - ground.at(p - Vec2{step, 0}).height) / (2 * step),
             (ground.at(p + Vec2{0, step}).height - ground.at(p - Vec2{0, step}).height) / (2 * step)};
 }
 
-/// A map in floats of what `level` says of a pixel's centre, in pixels from the top left.
+/// Map of floats from a function of the pixel's centre, in pixels from the top left.
 HeightMap mapOf(int width, int height, const std::function<double(double, double)>& level)
 {
     HeightMap map{width, height, {}, true};
@@ -55,7 +55,7 @@ HeightMap mapOf(int width, int height, const std::function<double(double, double
     return map;
 }
 
-TEST(BaseSurface, WithoutAnythingIsThePlane)
+TEST(BaseSurface, IsThePlaneByDefault)
 {
     const BaseSurface plane;
     EXPECT_TRUE(plane.flat());
@@ -79,7 +79,7 @@ TEST(BaseSurface, SphereHasItsPointsAtItsRadius)
             EXPECT_NEAR(found.gradient.y * up, -p.y, 1e-12 * std::abs(radius));
         }
     }
-    // 1 − √(1 − x²) = x²/2 + x⁴/8 …, to the last bit of it where the difference itself would leave none.
+    // 1 − √(1 − x²) = x²/2 + x⁴/8 … is exact to the last bit; the difference itself would be 0.
     EXPECT_NEAR(BaseSurface::sphere(-1.0).at({1e-9, 0}).height / 5e-19, 1.0, 1e-15);
 }
 
@@ -100,7 +100,7 @@ TEST(BaseSurface, CylinderIsACircleAcrossItsAxis)
             }
         }
     }
-    // The axis y: a can that stands upright in the picture falls off to the sides.
+    // Axis y: a can that is upright in the picture curves down to the sides.
     const BaseSurface can = BaseSurface::cylinder(0.033, 0.5 * kPi);
     EXPECT_NEAR(can.at({0.0, 0.02}).height, 0.0, 1e-17);
     EXPECT_LT(can.at({0.02, 0.0}).height, -6e-3);
@@ -124,42 +124,42 @@ TEST(BaseSurface, GradientsAreThoseOfTheHeights)
     }
 }
 
-TEST(BaseSurface, EndsWithTheSphereOrCylinder)
+TEST(BaseSurface, EndsAtTheRadiusOfTheSphereOrCylinder)
 {
     const BaseSurface sphere = BaseSurface::sphere(-0.04);
     EXPECT_NO_THROW((void)sphere.at({0.0399, 0.0}));
-    const std::string far = complaintOf([&] { (void)sphere.at({0.03, 0.04}); });
+    const std::string far = messageOf([&] { (void)sphere.at({0.03, 0.04}); });
     EXPECT_THAT(far, HasSubstr("radius 40 mm"));
     EXPECT_THAT(far, HasSubstr("50 mm"));
-    EXPECT_THAT(complaintOf([&] { (void)sphere.at({0.04, 0.0}); }), HasSubstr("sphere"));
+    EXPECT_THAT(messageOf([&] { (void)sphere.at({0.04, 0.0}); }), HasSubstr("sphere"));
     const BaseSurface cylinder = BaseSurface::cylinder(0.033, 0.0);
     EXPECT_NO_THROW((void)cylinder.at({5.0, 0.0329}));
-    EXPECT_THAT(complaintOf([&] { (void)cylinder.at({0.0, -0.034}); }), HasSubstr("34 mm"));
-    EXPECT_THAT(complaintOf([&] { (void)cylinder.at({0.0, kNan}); }), HasSubstr("nan"));
+    EXPECT_THAT(messageOf([&] { (void)cylinder.at({0.0, -0.034}); }), HasSubstr("34 mm"));
+    EXPECT_THAT(messageOf([&] { (void)cylinder.at({0.0, kNan}); }), HasSubstr("nan"));
 }
 
-TEST(BaseSurface, RefusesWhatIsNoGround)
+TEST(BaseSurface, RefusesInvalidGrounds)
 {
     for (const double radius : {0.0, kInfinity, -kInfinity, kNan}) {
-        EXPECT_THAT(complaintOf([&] { BaseSurface::sphere(radius); }), HasSubstr("radius"));
-        EXPECT_THAT(complaintOf([&] { BaseSurface::cylinder(radius, 0.0); }), HasSubstr("radius"));
+        EXPECT_THAT(messageOf([&] { BaseSurface::sphere(radius); }), HasSubstr("radius"));
+        EXPECT_THAT(messageOf([&] { BaseSurface::cylinder(radius, 0.0); }), HasSubstr("radius"));
     }
-    EXPECT_THAT(complaintOf([] { BaseSurface::cylinder(1.0, kNan); }), HasSubstr("axis"));
+    EXPECT_THAT(messageOf([] { BaseSurface::cylinder(1.0, kNan); }), HasSubstr("axis"));
     const HeightMap map = mapOf(2, 2, [](double, double) { return 1.0; });
-    EXPECT_THAT(complaintOf([&] { BaseSurface::heightMap(map, {0.0, 1.0}); }), HasSubstr("extent"));
-    EXPECT_THAT(complaintOf([&] { BaseSurface::heightMap(map, {1.0, kInfinity}); }), HasSubstr("extent"));
-    EXPECT_THAT(complaintOf([&] { BaseSurface::heightMap(map, {1.0, 1.0}, kNan); }), HasSubstr("depth"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::heightMap(map, {0.0, 1.0}); }), HasSubstr("extent"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::heightMap(map, {1.0, kInfinity}); }), HasSubstr("extent"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::heightMap(map, {1.0, 1.0}, kNan); }), HasSubstr("depth"));
     HeightMap grey = map;
     grey.in_floats = false;
-    EXPECT_THAT(complaintOf([&] { BaseSurface::heightMap(grey, {1.0, 1.0}); }), HasSubstr("depth"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::heightMap(grey, {1.0, 1.0}); }), HasSubstr("depth"));
     HeightMap torn = map;
     torn.levels.pop_back();
-    complaintOf([&] { BaseSurface::heightMap(torn, {1.0, 1.0}); }, ErrorCode::InvalidInput);
+    messageOf([&] { BaseSurface::heightMap(torn, {1.0, 1.0}); }, ErrorCode::InvalidInput);
 }
 
-TEST(BaseSurface, HeightMapLiesAsThePicture)
+TEST(BaseSurface, HeightMapHasTheOrientationOfThePicture)
 {
-    // Of 2 × 3 pixels of 1 mm; the plane's y runs up, the picture's rows down.
+    // 2 × 3 pixels of 1 mm. The plane's y axis points up, rows of the picture go down.
     HeightMap map{2, 3, {0, 1, 2, 3, 4, 5}, true};
     const BaseSurface ground = BaseSurface::heightMap(map, {2e-3, 3e-3});
     EXPECT_NEAR(ground.at({-0.5e-3, 1e-3}).height, 0.0, 1e-12);
@@ -174,7 +174,7 @@ TEST(BaseSurface, HeightMapLiesAsThePicture)
 
 TEST(BaseSurface, HeightMapIsExactForQuadratics)
 {
-    // Sixteenths, which floats hold as they are.
+    // Sixteenths, which are exact as floats.
     const auto quadratic = [](double x, double y) { return 3 + x / 2 - y / 4 + x * x / 4 - x * y / 2 + y * y / 8; };
     const int width = 12;
     const int height = 9;
@@ -190,7 +190,7 @@ TEST(BaseSurface, HeightMapIsExactForQuadratics)
     }
 }
 
-// Third order in the pixel: the error of a sine falls eightfold, of its slope fourfold.
+// Third order in the pixel size: for half the size, the error of a sine is an eighth, that of its slope a quarter.
 TEST(BaseSurface, HeightMapConvergesWithOrderThree)
 {
     double before = 0.0;
@@ -216,7 +216,7 @@ TEST(BaseSurface, HeightMapConvergesWithOrderThree)
     }
 }
 
-TEST(BaseSurface, HeightMapHasOneGradientOnBothSidesOfEveryPixel)
+TEST(BaseSurface, HeightMapHasAContinuousGradient)
 {
     unsigned state = 7;
     const BaseSurface ground = BaseSurface::heightMap(mapOf(6, 5,
@@ -226,7 +226,7 @@ TEST(BaseSurface, HeightMapHasOneGradientOnBothSidesOfEveryPixel)
                                                             }),
                                                       {6.0, 5.0});
     constexpr double kStep = 1e-9;
-    // Rows and columns of centres, those beyond the picture too.
+    // Rows and columns of centres, also beyond the picture.
     for (double at = -6.0; at <= 6.0; at += 0.5) {
         for (double along = -5.3; along < 5.4; along += 0.31) {
             for (const bool swap : {false, true}) {
@@ -242,7 +242,7 @@ TEST(BaseSurface, HeightMapHasOneGradientOnBothSidesOfEveryPixel)
     }
 }
 
-TEST(BaseSurface, BeyondItsPictureAHeightMapStaysAtItsBorder)
+TEST(BaseSurface, HeightMapKeepsItsBorderHeightOutside)
 {
     const HeightMap map = mapOf(4, 3, [](double x, double y) { return x + 10 * y; });
     const BaseSurface ground = BaseSurface::heightMap(map, {4.0, 3.0});
@@ -256,19 +256,19 @@ TEST(BaseSurface, BeyondItsPictureAHeightMapStaysAtItsBorder)
     EXPECT_NEAR(one.at({0.4, -0.2}).height, 2e-3, 1e-18);
 }
 
-TEST(BaseSurface, TellsOfThePointFarthestOut)
+TEST(BaseSurface, ReportsTheOutermostPoint)
 {
     const std::vector<Vec2> points{{0.0, 0.0}, {2e-3, 1e-3}, {-3e-3, 2e-3}, {0.5e-3, -3.2e-3}};
     BaseSurface::sphere(3.7e-3).requireAt(points);
-    EXPECT_THAT(complaintOf([&] { BaseSurface::sphere(1e-3).requireAt(points); }), HasSubstr("exceed 3.60555 mm"));
-    EXPECT_THAT(complaintOf([&] { BaseSurface::cylinder(1e-3, 0.0).requireAt(points); }), HasSubstr("exceed 3.2 mm"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::sphere(1e-3).requireAt(points); }), HasSubstr("exceed 3.60555 mm"));
+    EXPECT_THAT(messageOf([&] { BaseSurface::cylinder(1e-3, 0.0).requireAt(points); }), HasSubstr("exceed 3.2 mm"));
     const BaseSurface half([](Vec2 p) {
         if (p.x > 0.0) {
             throw Error(ErrorCode::InvalidArgument, "no ground at " + std::to_string(p.x));
         }
         return GroundPoint{};
     });
-    EXPECT_THAT(complaintOf([&] { half.requireAt(points); }), HasSubstr("0.002"));
+    EXPECT_THAT(messageOf([&] { half.requireAt(points); }), HasSubstr("0.002"));
     BaseSurface().requireAt(points);
     BaseSurface::sphere(1e-3).requireAt({});
 }

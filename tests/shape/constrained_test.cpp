@@ -38,8 +38,8 @@ PlanarMesh discMesh(std::size_t triangles)
     return triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = triangles, .edge = {}})[0];
 }
 
-/// An operator with everything that there may be.
-Operator wildOperator(const PlanarMesh& mesh, double mass, std::mt19937& random)
+/// Operator with tensors, held vertices and a mass term.
+Operator randomOperator(const PlanarMesh& mesh, double mass, std::mt19937& random)
 {
     return {mass / area(mesh), randomTensors(mesh, random), heldPatches(mesh)};
 }
@@ -54,7 +54,7 @@ std::vector<double> randomRight(const PlanarMesh& mesh, std::mt19937& random)
     return right;
 }
 
-/// What is asked of a solution, by the matrix assembled triangle by triangle.
+/// Checks a solution with the matrix assembled triangle by triangle.
 void expectSolves(const PlanarMesh& mesh, const Operator& op, const ConstrainedProblem& problem,
                   const ConstrainedSolution& solution)
 {
@@ -103,8 +103,8 @@ std::vector<ConstrainedProblem> problemsFor(const PlanarMesh& mesh, std::mt19937
     return {{{}, volume}, {randomRight(mesh, random), 0.0}, {randomRight(mesh, random), volume}};
 }
 
-/// By the largest value, against one that is near enough.
-double apart(const ConstrainedSolution& a, const ConstrainedSolution& b)
+/// Largest relative difference of two solutions.
+double differenceOf(const ConstrainedSolution& a, const ConstrainedSolution& b)
 {
     double max = 0.0;
     double largest = 0.0;
@@ -129,7 +129,7 @@ TEST(ConstrainedSolver, SolvesOnTheZooAndAgrees)
                 made.push_back(solver.make(*mesh));
             }
             for (const double mass : {0.0, 5.0, 1e4, -3.0}) {
-                const Operator op = wildOperator(*mesh, mass, random);
+                const Operator op = randomOperator(*mesh, mass, random);
                 const std::vector<ConstrainedProblem> problems = problemsFor(*mesh, random);
                 std::vector<ConstrainedSolution> references;
                 for (std::size_t s = 0; s < made.size(); ++s) {
@@ -143,7 +143,7 @@ TEST(ConstrainedSolver, SolvesOnTheZooAndAgrees)
                         if (s == 0) {
                             references.push_back(solution);
                         }
-                        EXPECT_LT(apart(solution, references[k]), 1e-8);
+                        EXPECT_LT(differenceOf(solution, references[k]), 1e-8);
                     }
                 }
             }
@@ -151,7 +151,7 @@ TEST(ConstrainedSolver, SolvesOnTheZooAndAgrees)
     }
 }
 
-TEST(ConstrainedSolver, NothingOfOperatorsBeforeIsLeft)
+TEST(ConstrainedSolver, EarlierOperatorsHaveNoEffect)
 {
     std::mt19937 random(2);
     const PlanarMesh mesh = discMesh(5000);
@@ -159,7 +159,7 @@ TEST(ConstrainedSolver, NothingOfOperatorsBeforeIsLeft)
         SCOPED_TRACE(named.name);
         const auto solver = named.make(mesh);
         for (const double mass : {3.0, -3.0}) {
-            solver->prepare(wildOperator(mesh, mass, random));
+            solver->prepare(randomOperator(mesh, mass, random));
             solver->prepare(weighing(mass));
             const auto fresh = named.make(mesh);
             fresh->prepare(weighing(mass));
@@ -168,7 +168,7 @@ TEST(ConstrainedSolver, NothingOfOperatorsBeforeIsLeft)
     }
 }
 
-TEST(ConstrainedSolver, NothingAskedIsNothing)
+TEST(ConstrainedSolver, ZeroRightSideGivesZero)
 {
     const PlanarMesh mesh = discMesh(2000);
     for (const NamedSolver& named : solvers()) {
@@ -184,7 +184,7 @@ TEST(ConstrainedSolver, NothingAskedIsNothing)
     }
 }
 
-TEST(ConstrainedSolver, OneUnknownIsEnoughAndNoneIsNot)
+TEST(ConstrainedSolver, NeedsAtLeastOneUnknown)
 {
     const PlanarMesh mesh = discMesh(2000);
     Operator op = weighing(1.0);
@@ -205,7 +205,7 @@ TEST(ConstrainedSolver, OneUnknownIsEnoughAndNoneIsNot)
 }
 
 // The exact model's operators, up to a stretch of 130 : 1 at the rim.
-TEST(ConstrainedSolver, SolvesWhereTheLiquidIsSteep)
+TEST(ConstrainedSolver, SolvesForSteepLiquid)
 {
     std::mt19937 random(3);
     const PlanarMesh mesh = discMesh(20000);
@@ -227,7 +227,7 @@ TEST(ConstrainedSolver, SolvesWhereTheLiquidIsSteep)
                     if (references.size() <= k) {
                         references.push_back(solution);
                     }
-                    EXPECT_LT(apart(solution, references[k]), 1e-8);
+                    EXPECT_LT(differenceOf(solution, references[k]), 1e-8);
                 }
             }
         }
@@ -235,8 +235,9 @@ TEST(ConstrainedSolver, SolvesWhereTheLiquidIsSteep)
 }
 
 // A disc under a ceiling: u = c(1 − J₀(kr)/J₀(k)) with k² = −w, λ = wc, V = 2πc(½ − J₁(k)/(kJ₀(k))) on R = 1. At the
-// first root of J₀ A is singular and λ = 0, but the volume holds the droplet; at the first root of J₁ it falls.
-TEST(ConstrainedSolver, HangsAsBesselSays)
+// first root of J₀, A is singular and λ = 0, but the volume constraint holds the droplet. At the first root of J₁ it
+// falls.
+TEST(ConstrainedSolver, HangingDiscHasTheBesselSolution)
 {
     const auto j0 = [](double x) { return std::cyl_bessel_j(0.0, x); };
     const auto j1 = [](double x) { return std::cyl_bessel_j(1.0, x); };
@@ -251,7 +252,7 @@ TEST(ConstrainedSolver, HangsAsBesselSays)
                 const ConstrainedProblem problem{{}, 1.0};
                 const ConstrainedSolution solution = solver->solve(problem);
                 expectSolves(mesh, weighing(-k * k), problem, solution);
-                // Both of u and V times J₀(k), for the sake of its root.
+                // u and V are multiplied by J₀(k), because it has a root.
                 const double factor = 1.0 / (2.0 * std::numbers::pi * (0.5 * j0(k) - j1(k) / k));
                 double error = std::abs(solution.multiplier + k * k * j0(k) * factor);
                 for (std::size_t i = 0; i < solution.values.size(); ++i) {
@@ -291,7 +292,7 @@ TEST(ConstrainedSolver, FallsAtTheCriticalWeight)
         const double fine_error = criticalWeight(fine, named) - kRoot * kRoot;
         EXPECT_LT(std::abs(coarse_error), 0.1);
         EXPECT_GT(coarse_error / fine_error, 3.3);
-        // And not again beyond, where A has two negative directions or more.
+        // It does not converge again beyond, where A has two or more negative directions.
         const auto solver = named.make(coarse);
         for (const double weight : {16.0, 25.0, 50.0, 400.0, 1e5}) {
             solver->prepare(weighing(-weight));
@@ -308,7 +309,7 @@ TEST(ConstrainedSolver, SameBitsAtAnyNumberOfThreads)
     bare.lattice = {};
     for (const PlanarMesh* mesh : std::initializer_list<const PlanarMesh*>{&disc, &bare}) {
         for (const double mass : {1.0, -3.0}) {
-            const Operator op = wildOperator(*mesh, mass, random);
+            const Operator op = randomOperator(*mesh, mass, random);
             const ConstrainedProblem problem{randomRight(*mesh, random), 1.0};
             std::vector<ConstrainedSolution> runs;
             for (const int threads : {1, 2, 2, 7}) {
@@ -332,8 +333,8 @@ TEST(ConstrainedSolver, SameBitsAtAnyNumberOfThreads)
     }
 }
 
-// Measured at 2 k to 500 k triangles: a cap of 60° 9 to 11, tensors at random and held vertices 9 to 10, under a
-// ceiling near the critical weight 16.
+// Measured with 2 k to 500 k triangles: 9 to 11 for a cap of 60°, 9 to 10 with random tensors and held vertices, 16
+// under a ceiling near the critical weight.
 TEST(ConstrainedSolver, IterationsHardlyGrowWithTheMesh)
 {
     std::vector<std::size_t> sizes{2000, 8000, 32000, 128'000};
@@ -355,7 +356,7 @@ TEST(ConstrainedSolver, IterationsHardlyGrowWithTheMesh)
             return solution.iterations;
         };
         cap.push_back(iterations({0.0, capTensors(mesh, std::numbers::pi / 3.0), {}}));
-        wild.push_back(iterations(wildOperator(mesh, 1.0, random)));
+        wild.push_back(iterations(randomOperator(mesh, 1.0, random)));
         hanging.push_back(iterations(weighing(-13.2)));
     }
     for (const std::vector<std::size_t>* counts : {&cap, &wild, &hanging}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Droplets on curved ground: caps on spheres in closed form, and the same physics seen from two frames: on ground that
-// is an inclined plane, and on that plane itself.
+// Droplets on curved ground: caps on spheres in closed form, and the same physics in two frames: on ground that is an
+// inclined plane, and on that plane itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ BaseSurface inclined(Vec2 slope, double height = 0.0)
     return BaseSurface([=](Vec2 p) { return GroundPoint{height + dot(slope, p), slope}; });
 }
 
-/// A sphere whose top touches the plane at the origin; a hollow, its lowest point there, if radius < 0.
+/// Sphere whose top is at the origin; if radius < 0, a hollow whose lowest point is there.
 BaseSurface sphere(double radius)
 {
     return BaseSurface([=](Vec2 p) {
@@ -52,7 +52,7 @@ BaseSurface sphere(double radius)
     });
 }
 
-/// The cap of a sphere above the circle of radius 1, and how high that circle lies.
+/// Cap of a sphere above the circle of radius 1, and the height of that circle.
 struct Dome {
     Cap cap;
     double rim_height;
@@ -109,7 +109,7 @@ TEST(Curved, IsInEquilibriumOnAnyGround)
     }
 }
 
-// Higher ground is higher ground: λ gains the head.
+// On ground lifted by a constant, λ changes by the hydrostatic head.
 TEST(Curved, LiftedGroundLiftsTheDroplet)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.06);
@@ -128,13 +128,13 @@ TEST(Curved, LiftedGroundLiftsTheDroplet)
         const ShapeFigures high_figures = measure(meshes[0], high.droplets[0], lifted);
         EXPECT_NEAR(high_figures.contact_angle.mean, low_figures.contact_angle.mean, 1e-8);
         EXPECT_NEAR(high_figures.height_max, low_figures.height_max, 1e-8);
-        // Lifted by 0.7 as a whole.
+        // All heights are larger by 0.7.
         EXPECT_NEAR(high_figures.gravity_energy, low_figures.gravity_energy + 2.0 * 0.5 * 0.7, 1e-8);
     }
 }
 
-// Inclined ground is harmonic: without gravity the linear model sees none of it.
-TEST(Curved, LinearModelDoesNotSeeHarmonicGround)
+// Inclined ground is harmonic, so it has no effect in the linear model without gravity.
+TEST(Curved, HarmonicGroundHasNoEffectInTheLinearModel)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
     const SolveOptions flat = unitOptions(Model::Linear, 0.0, 0.5);
@@ -148,7 +148,7 @@ TEST(Curved, LinearModelDoesNotSeeHarmonicGround)
         EXPECT_NEAR(other.droplets[0].thicknessAt(v), one.droplets[0].height[v], 1e-9);
     }
 
-    // A saddle is harmonic, but no P1 function: u − h = 2V/π (1 − r²) to order 2.
+    // A saddle is harmonic, but not a P1 function: u − h = 2V/π (1 − r²) to order 2.
     std::vector<double> l2;
     std::vector<double> pressure;
     for (const double edge : {0.1, 0.05, 0.025, 0.0125}) {
@@ -167,7 +167,7 @@ TEST(Curved, LinearModelDoesNotSeeHarmonicGround)
     EXPECT_GE(meanOrder(pressure), 1.9);
 }
 
-// A disc in the picture on ground z = ax is an ellipse on the slope; there gravity is what leans.
+// A disc in the picture on ground z = ax is an ellipse on the slope, with inclined gravity.
 TEST(Curved, InclinedGroundIsATiltedPlane)
 {
     constexpr double kSlope = 0.4;
@@ -196,7 +196,7 @@ TEST(Curved, InclinedGroundIsATiltedPlane)
             pressure.push_back(std::abs(one.droplets[0].pressure - other.droplets[0].pressure));
             area_error.push_back(std::abs(a.liquid_area - b.liquid_area));
             energy.push_back(std::abs(a.gravity_energy - b.gravity_energy));
-            // The means weigh by rim length in the picture, where the ellipse is a circle: weigh alike.
+            // Means are weighted by rim length in the picture, where the ellipse is a circle.
             double along_slope = 0.0;
             double length_sum = 0.0;
             const std::vector<Vec2>& rim = disc[0].vertices;
@@ -258,8 +258,8 @@ TEST(Curved, CapsOnSpheresConvergeWithOrderTwo)
             EXPECT_GE(meanOrder(l2), 1.8);
             EXPECT_GE(meanOrder(pressure), 1.8);
             EXPECT_GE(meanOrder(mean_angle), 1.8);
-            // The worst of all rim vertices, where single ones carry how the band lies there. Measured: 0.76 to
-            // 0.86.
+            // The maximum over rim vertices, some of which depend on the band of triangles at the rim. Measured: 0.76
+            // to 0.86.
             EXPECT_GE(meanOrder(extreme_angle), 0.7);
             EXPECT_LT(extreme_angle.back(), 1.5 * kDegree);
             EXPECT_GE(meanOrder(area_error), 1.8);
@@ -268,7 +268,7 @@ TEST(Curved, CapsOnSpheresConvergeWithOrderTwo)
     }
 }
 
-// The meridian does not know what lies below: a droplet on a sphere is one on the disc with the sphere's cap filled in.
+// The ground inside does not matter: a droplet on a sphere has the surface of one on the disc with a larger volume.
 TEST(Curved, DropletsOnSpheresUnderGravityConvergeWithOrderTwo)
 {
     constexpr double kGravity = 3.0;
@@ -303,7 +303,7 @@ TEST(Curved, DropletsOnSpheresUnderGravityConvergeWithOrderTwo)
     EXPECT_GE(meanOrder(gravity_energy), 1.8);
 }
 
-// u = rim + λ(1 − r²)/4, whatever the ground inside; V = λπ/8 less the cap.
+// u = rim + λ(1 − r²)/4 for any ground inside; V = λπ/8 minus the cap.
 TEST(Curved, LinearModelOnASphereConvergesWithOrderTwo)
 {
     const Dome dome = domeOf(2.0);
@@ -329,7 +329,7 @@ TEST(Curved, LinearModelOnASphereConvergesWithOrderTwo)
     EXPECT_GE(meanOrder(mean_angle), 1.8);
 }
 
-TEST(Curved, HeightAndMeanAngleAreMetAgainstTheGround)
+TEST(Curved, HeightAndMeanAngleAreMeasuredFromTheGround)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
     for (const Model model : {Model::Linear, Model::Exact}) {

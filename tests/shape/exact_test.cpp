@@ -69,7 +69,7 @@ Domain twoDiscs(double first, double second)
 }
 
 // Published values: PHYSICS C by Bashforth and Adams' equation.
-TEST(YoungLaplace, MeetsPublishedValues)
+TEST(YoungLaplace, AgreesWithPublishedValues)
 {
     const Revolution droplet = dropletOfVolume(1.0, 1.0);
     EXPECT_NEAR(droplet.height, 0.5557523, 5e-8);
@@ -108,7 +108,7 @@ TEST(YoungLaplace, BalancesForcesAndDoesNotDependOnItsSteps)
     }
 }
 
-// Small droplets obey the linear equation, which Bessel functions solve.
+// Small droplets satisfy the linear equation, which Bessel functions solve.
 TEST(YoungLaplace, IsLinearForSmallVolumes)
 {
     for (const double k : {1.0, 2.0, 5.0}) {
@@ -133,7 +133,7 @@ struct Errors {
     std::vector<double> energy;
 };
 
-/// What the model gives on discs of these meshes, against the droplet of revolution of the same volume.
+/// Errors of the model on discs of these meshes, relative to the droplet of revolution with the same volume.
 Errors discErrors(const Revolution& exact, const std::vector<std::vector<PlanarMesh>>& discs)
 {
     Errors errors;
@@ -166,7 +166,7 @@ std::vector<std::vector<PlanarMesh>> refined(double coarsest, std::size_t halvin
     return discs;
 }
 
-/// A disc of rings between which a cap of that rim angle turns by equal angles: as fine at the rim as it bends there.
+/// Disc of rings between which a cap with that contact angle turns by equal angles.
 PlanarMesh ringsFor(double rim_angle, std::uint32_t rings)
 {
     const std::uint32_t sectors = 4 * rings;
@@ -204,7 +204,7 @@ PlanarMesh ringsFor(double rim_angle, std::uint32_t rings)
 void expectOrderTwo(const Errors& errors, std::size_t meshes)
 {
     ASSERT_EQ(errors.l2.size(), meshes);
-    // Measured: 1.82 to 2.29, the least at 70° on even meshes.
+    // Measured: 1.82 to 2.29; the smallest at 70° on uniform meshes.
     EXPECT_GE(meanOrder(errors.l2), 1.8);
     EXPECT_GE(meanOrder(errors.height), 1.8);
     EXPECT_GE(meanOrder(errors.pressure), 1.8);
@@ -222,8 +222,8 @@ TEST(Exact, CapsConvergeWithOrderTwo)
     }
 }
 
-// Near the rim a steep cap bends on a length of 1/sin θ − 1 radii, 0.0038 at 85°, where uniform meshes are not yet
-// fine.
+// Near the rim a steep cap bends over a length of 1/sin θ − 1 radii, 0.0038 at 85°, which uniform meshes do not
+// resolve.
 TEST(Exact, SteepCapsConvergeWithOrderTwo)
 {
     for (const double degrees : {80.0, 85.0}) {
@@ -252,7 +252,7 @@ TEST(Exact, SteepCapsConvergeWithOrderTwoOnSpreadMeshes)
     }
 }
 
-// 88.2° at the rim.
+// The contact angle is 88.2°.
 TEST(Exact, NearlyAHemisphereIsFoundAndConverges)
 {
     std::vector<std::vector<PlanarMesh>> discs;
@@ -262,7 +262,7 @@ TEST(Exact, NearlyAHemisphereIsFoundAndConverges)
     const Revolution exact = dropletOfVolume(0.0, 2.0);
     const Errors errors = discErrors(exact, discs);
     ASSERT_EQ(errors.l2.size(), discs.size());
-    // Between that of a square root at the rim, 1, and 2. Measured: 1.61 to 2.00.
+    // Order between 1, for a square root at the rim, and 2. Measured: 1.61 to 2.00.
     EXPECT_GE(meanOrder(errors.l2), 1.5);
     EXPECT_GE(meanOrder(errors.height), 1.5);
     EXPECT_GE(meanOrder(errors.energy), 1.5);
@@ -281,7 +281,7 @@ TEST(Exact, DropletsUnderGravityConvergeWithOrderTwo)
     }
 }
 
-// Two rims, one angle there by quadrature: a hole does not change the order.
+// Two rims with one angle, by quadrature: a hole does not change the order.
 TEST(Exact, LiquidAroundAHoleConvergesWithOrderTwo)
 {
     RingSurface ring{0.4, 2.5, 0.0};
@@ -331,7 +331,7 @@ TEST(Exact, NewtonStepsDoNotDependOnTheMesh)
     }
 }
 
-// √(1+t) = 1 + t/2 + O(t²): relative differences of the models are of the slope's second order.
+// √(1+t) = 1 + t/2 + O(t²): relative differences of the models are of second order in the slope.
 TEST(Exact, AgreesWithTheLinearModelToSecondOrder)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
@@ -352,15 +352,15 @@ TEST(Exact, AgreesWithTheLinearModelToSecondOrder)
         for (const double volume : {0.08, 0.04}) {
             const Difference whole = difference(volume);
             const Difference half = difference(0.5 * volume);
-            // At g = 0 the next order is relatively (2V/π)².
+            // At g = 0 the next term is smaller by (2V/π)².
             EXPECT_NEAR(whole.pressure / half.pressure, 4.0, 4.0 * volume * volume) << weight << " " << volume;
             EXPECT_NEAR(whole.height / half.height, 4.0, 4.0 * volume * volume) << weight << " " << volume;
         }
     }
 }
 
-// What the rim pulls down with and what the liquid weighs is what the pressure pushes up: λA = σ∮sin θ + ρgV. Exact but
-// for angles being evened out along the rim. Measured: 5e-6.
+// The pressure balances the pull of the rim and the weight: λA = σ∮sin θ + ρgV. Exact except for the smoothing of
+// angles along the rim. Measured: 5e-6.
 TEST(Exact, ForcesBalance)
 {
     const std::vector<PlanarMesh> meshes = triangulate(
@@ -445,7 +445,7 @@ TEST(Exact, SameBitsAtAnyNumberOfThreads)
     }
 }
 
-// The same droplet in other units: lengths by 1e-3, σ by 0.07.
+// The same droplet in other units: lengths times 1e-3, σ times 0.07.
 TEST(Exact, DoesNotDependOnUnits)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
@@ -495,8 +495,8 @@ TEST(Exact, HeightAndMeanAngleAreMet)
     }
 }
 
-// One height or one angle is one cap.
-TEST(Exact, HeightAngleAndVolumeTellTheSameCap)
+// A height, an angle or a volume determines one cap.
+TEST(Exact, HeightAngleAndVolumeGiveTheSameCap)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.025);
     for (const double degrees : {20.0, 60.0}) {
@@ -569,7 +569,7 @@ TEST(Exact, OneReservoirHasOnePressure)
     EXPECT_GE(meanOrder(volume_errors), 1.8);
 }
 
-/// A minimal surface over a footprint, and its area there.
+/// Minimal surface over a footprint, and its area there.
 struct Minimal {
     std::string name;
     Domain domain;
@@ -579,7 +579,7 @@ struct Minimal {
     double bump_volume = 0.0;
 };
 
-// The rim set by a minimal surface, and just so much liquid as lies below it: no pressure, and its area.
+// With the rim and the volume of a minimal surface, the result has no pressure, and the area of that surface.
 TEST(Exact, FindsMinimalSurfaces)
 {
     const Vec2 axis{-2.2, 0.0};
@@ -595,7 +595,7 @@ TEST(Exact, FindsMinimalSurfaces)
                            2.0 * testing::simpson(
                                      1.2, 3.2,
                                      [](double r) {
-                                         // The disc's half arc at this distance from the axis.
+                                         // Half arc of the disc at this distance from the axis.
                                          const double cosine = (r * r + 2.2 * 2.2 - 1.0) / (4.4 * r);
                                          return std::acos(std::clamp(cosine, -1.0, 1.0)) * r * r /
                                                 std::sqrt(r * r - 1.0);
@@ -683,7 +683,7 @@ TEST(Exact, WorkIsLimited)
     EXPECT_TRUE(cut.droplets.empty());
 }
 
-// A hemisphere is the most a disc holds; under gravity, what is upright at the rim.
+// The largest droplet on a disc is a hemisphere; under gravity, the one that is upright at the rim.
 TEST(Exact, RefusesMoreThanTheDiscHolds)
 {
     struct Row {
@@ -709,14 +709,14 @@ TEST(Exact, RefusesMoreThanTheDiscHolds)
 // Around a hole the liquid is upright at the hole first.
 TEST(Exact, RefusesMoreThanAnAnnulusHolds)
 {
-    // sin ψ = −1 at the hole: c = −a − λa²/2; and as high on both sides.
+    // sin ψ = −1 at the hole gives c = −a − λa²/2; both rims have the same height.
     RingSurface ring{0.4, 0.0, 0.0};
     double low = 0.0;
     double high = 4.0;
     for (int k = 0; k < 60; ++k) {
         ring.pressure = 0.5 * (low + high);
         ring.constant = -ring.inner - 0.5 * ring.pressure * ring.inner * ring.inner;
-        // The slope's root is integrable: r = a + t².
+        // The slope has an integrable singularity; substitution r = a + t².
         const double drop =
             testing::simpson(1e-7, std::sqrt(0.6), [&](double t) { return 2.0 * t * ring.fall(ring.inner + t * t); });
         (drop < 0.0 ? low : high) = ring.pressure;
@@ -745,7 +745,7 @@ TEST(Exact, RefusesMoreThanTheDiscHoldsByHeight)
     EXPECT_NEAR(solution.report.largest_volume, 2 * kPi / 3, 0.04 * kPi / 3);
 }
 
-// A droplet above the limit it reports is refused, one below it is not, and no pressure passes Cheeger's constant.
+// A droplet above the reported limit is refused, one below it is not, and no pressure exceeds Cheeger's constant.
 TEST(Exact, RefusesMoreThanSquareAndLShapeHold)
 {
     struct Case {
@@ -754,7 +754,7 @@ TEST(Exact, RefusesMoreThanSquareAndLShapeHold)
         double large;
         double cheeger;
     };
-    // The L holds its unit square: no more pressure than that.
+    // The L contains a unit square, so its pressure is not larger.
     for (const Case& c : {Case{unitSquare(), 0.1, 2.0, 2.0 + std::sqrt(kPi)},
                           Case{domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}})), 0.4, 8.0,
                                2.0 + std::sqrt(kPi)}}) {
@@ -785,7 +785,7 @@ TEST(Exact, NamesTheDropletThatDoesNotExist)
     EXPECT_EQ(each.report.failed_droplet, 1U);
     EXPECT_NEAR(each.report.largest_volume / max, 1.0, 0.03);
 
-    // One pressure: the larger disc is upright first, at λ = 2, where the smaller has 30°.
+    // At one pressure the larger disc is upright first: at λ = 2, where the smaller one has 30°.
     SolveOptions options = unitOptions(Model::Exact, 0.0, 4.0);
     options.fill.sharing = FillSharing::Total;
     const Solution total = solve(spread(even, options), options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Figures of heights made up here, against integrals in closed form and by brute force.
+// Figures of given heights are compared with integrals in closed form and by brute force.
 #include "droplet/shape/figures.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ using testing::unitOptions;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A field made up from functions of the place.
+/// Field from functions of the place.
 HeightField fieldOf(const PlanarMesh& mesh, const std::function<double(Vec2)>& height,
                     const std::function<double(Vec2)>& ground = {})
 {
@@ -53,7 +53,7 @@ std::vector<PlanarMesh> square(double side, double edge)
     return triangulate(domainOf(polygonLoop({{0, 0}, {side, 0}, {side, side}, {0, side}})), {.edge = edge});
 }
 
-TEST(Figures, OfAnInclinedPlaneAreClosed)
+TEST(Figures, OfAnInclinedPlaneAreExact)
 {
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);
     const HeightField field = fieldOf(meshes[0], [](Vec2 p) { return 0.5 + 0.75 * p.x; });
@@ -83,7 +83,7 @@ TEST(Figures, OfAnInclinedPlaneAreClosed)
     EXPECT_NEAR(figures.projected_width, 2.0 * (std::cos(0.3) + std::sin(0.3)), 1e-12);
 }
 
-TEST(Figures, OnGroundAreClosed)
+TEST(Figures, OnGroundAreExact)
 {
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);
     const HeightField field = fieldOf(
@@ -96,12 +96,12 @@ TEST(Figures, OnGroundAreClosed)
     EXPECT_NEAR(figures.depth_max, 1.4 - 0.5, 1e-12);
     // ∫h² = 2(1.4³ − 1)/(3 · 0.2)
     EXPECT_NEAR(figures.gravity_energy, -0.5 * 2.0 * (7.0 - 2.0 * (1.4 * 1.4 * 1.4 - 1.0) / 0.6), 1e-11);
-    // By size alone.
+    // Only the magnitude counts.
     EXPECT_NEAR(figures.bond_number, 2.0 * 4.0 / kPi, 1e-11);
     EXPECT_EQ(figures.projected_width, 0.0);
 }
 
-TEST(Figures, MeetBruteForce)
+TEST(Figures, AgreeWithBruteForce)
 {
     const std::vector<PlanarMesh> meshes =
         triangulate(domainOf(ellipseLoop(1, 0.8), {reversed(ellipseLoop(0.3, 0.2))}), {.edge = 0.07});
@@ -148,8 +148,8 @@ TEST(Figures, MeetBruteForce)
                 0.5 * integrateRim(meshes[0], [&](std::uint32_t, Vec2 n) { return std::abs(dot(n, down)); }), 1e-12);
 }
 
-// A cone of 60° within r = 0.5 and of 30° beyond.
-TEST(Figures, SteepAreaIsThatBeyondFiftyDegrees)
+// A cone of 60° for r < 0.5 and of 30° beyond.
+TEST(Figures, SteepAreaIsSteeperThanFiftyDegrees)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.02);
     const double steep = std::tan(60 * kDegree);
@@ -159,16 +159,16 @@ TEST(Figures, SteepAreaIsThatBeyondFiftyDegrees)
         return gentle * (1.0 - std::max(r, 0.5)) + steep * std::max(0.5 - r, 0.0);
     });
     const ShapeFigures figures = measure(meshes[0], field, unitOptions(Model::Linear, 0.0, 1.0));
-    // By less than an edge around its border.
+    // Error of less than an edge around its border.
     EXPECT_NEAR(figures.steep_area, 0.25 * kPi, kPi * 0.02);
-    // About its tip the interpolant is up to 2/√3 times as steep.
+    // Near the tip the interpolant is up to 2/√3 times as steep.
     EXPECT_GE(figures.slope_max, 60 * kDegree - 1e-3);
     EXPECT_LE(figures.slope_max, std::atan(2.0) + 1e-9);
 }
 
 TEST(Figures, ContactAngleHasPlacesAndAMeanByLength)
 {
-    // Sides of unequal edges, so that means by vertices would differ.
+    // Edges have different lengths, so that means over vertices would differ.
     const std::vector<PlanarMesh> meshes =
         triangulate(domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.3, 0.3))}), {.edge = 0.05, .grading = 4});
     const PlanarMesh& mesh = meshes[0];
@@ -189,7 +189,7 @@ TEST(Figures, ContactAngleHasPlacesAndAMeanByLength)
     EXPECT_NEAR(angle.max_at.x, 1.0, 0.01);
 }
 
-// The liquid's area leaves out what is dry; volume and footprint do not change by it.
+// The liquid's area does not include dry ground; volume and footprint do not depend on it.
 TEST(Figures, DryGroundIsNotLiquid)
 {
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);

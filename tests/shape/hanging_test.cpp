@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Hanging droplets: Bessel functions for the linear model, Bashforth and Adams' equation for the exact one
-// (support/young_laplace.h). At fixed volume a disc's droplet falls sideways at J₁(k) = 0, k = 3.8317; at fixed
-// pressure J₀(k) = 0, k = 2.4048, is already the end.
+// (support/young_laplace.h). At fixed volume a droplet on a disc falls sideways at J₁(k) = 0, k = 3.8317; at fixed
+// pressure it would fall at J₀(k) = 0, k = 2.4048.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ using testing::unitOptions;
 constexpr double kPi = std::numbers::pi;
 constexpr double kCritical = 3.8317059702075123;  ///< first zero of J₁
 
-/// The linear model under the disc of radius 1, σ = ρ = 1, gravity −k² into the ground and `along` in it.
+/// Linear model under the disc of radius 1: σ = ρ = 1, gravity −k² into the ground and `along` in it.
 struct HangingDisc {
     double k;
     double volume;
@@ -119,7 +119,7 @@ TEST(Hanging, ExactModelConvergesWithOrderTwo)
 }
 
 // A plane turned over is a ceiling.
-TEST(Hanging, TiltOfHalfATurnIsGravityTurnedRound)
+TEST(Hanging, TiltOfPiReversesGravity)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 0.7)), {.edge = 0.05});
     for (const Model model : {Model::Linear, Model::Exact}) {
@@ -136,7 +136,7 @@ TEST(Hanging, TiltOfHalfATurnIsGravityTurnedRound)
     }
 }
 
-// Overhangs, up to where the sideways part, ~ 1/J₁(k), grows without bound.
+// Overhangs, up to the limit where the sideways part, ~ 1/J₁(k), becomes infinite.
 TEST(Hanging, OverhangsConvergeWithOrderTwo)
 {
     constexpr double kVolume = 0.4;
@@ -185,8 +185,8 @@ TEST(Hanging, FallsBeyondTheCriticalBondNumber)
     }
 }
 
-// Small slopes: the exact model falls where the linear one does.
-TEST(Hanging, ExactModelFallsToo)
+// For small slopes both models have the same limit.
+TEST(Hanging, ExactModelFallsAtTheSameLimit)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.04);
     for (const double k : {4.0, 6.0}) {
@@ -197,7 +197,7 @@ TEST(Hanging, ExactModelFallsToo)
     }
 }
 
-// On an overhang g⊥ alone pulls the liquid off.
+// On an overhang only g⊥ pulls the liquid off.
 TEST(Hanging, OverhangsFallByTheirNormalGravity)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.04);
@@ -239,7 +239,7 @@ TEST(Hanging, NamesTheDropletThatFalls)
     EXPECT_TRUE(alone.report.usable());
 }
 
-// On the unit square sin 2πx sin πy needs no volume and falls first, at k² = 5π².
+// On the unit square the mode sin 2πx sin πy has no volume and falls first, at k² = 5π².
 TEST(Hanging, SquareFallsAtItsOwnBondNumber)
 {
     const std::vector<PlanarMesh> meshes =
@@ -254,7 +254,7 @@ TEST(Hanging, SquareFallsAtItsOwnBondNumber)
     EXPECT_NEAR(above.report.critical_bond_number / (critical / kPi), 1.0, 0.01);
 }
 
-// Fill by height and angle works under a ceiling as on a floor.
+// Fill by height and angle works under a ceiling, too.
 TEST(Hanging, HeightAndMeanAngleAreMet)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);

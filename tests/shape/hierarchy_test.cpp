@@ -81,7 +81,7 @@ Vector applied(const Level& level, const Vector& x)
     return result;
 }
 
-/// P: from the coarser level.
+/// P: prolongation from the coarser level.
 Vector prolonged(const Level& fine, const Vector& coarse)
 {
     Vector result(fine.size, 0.0);
@@ -98,7 +98,7 @@ Vector prolonged(const Level& fine, const Vector& coarse)
     return result;
 }
 
-/// Pᵀ: to the coarser level.
+/// Pᵀ: restriction to the coarser level.
 Vector restricted(const Level& fine, std::size_t coarse_size, const Vector& x)
 {
     Vector result(coarse_size, 0.0);
@@ -125,7 +125,7 @@ struct Case {
     PlanarMesh mesh;
 };
 
-/// With lattices, without, and with lattices that are only patches of the mesh.
+/// Meshes with lattices, without, and with lattices on patches only.
 std::vector<Case> cases()
 {
     std::vector<Case> result;
@@ -143,7 +143,7 @@ std::vector<Case> cases()
     return result;
 }
 
-/// Weights of the mass term against the stiffness: none, some, and so much that it counts on the finest level.
+/// Weights of the mass term: none, small, and so large that it matters on the finest level.
 constexpr double kMasses[] = {0.0, 0.01, 5.0};
 
 Operator operatorFor(const PlanarMesh& mesh, double mass)
@@ -156,7 +156,7 @@ struct NamedOperator {
     Operator op;
 };
 
-/// The same on every triangle, different on each, with held vertices, and all that under a ceiling.
+/// Operators with one tensor, different tensors and held vertices, each also under a ceiling.
 std::vector<NamedOperator> operatorsFor(const PlanarMesh& mesh)
 {
     std::mt19937 random(4);
@@ -219,8 +219,8 @@ TEST(Hierarchy, FinestLevelIsTheMatrix)
     }
 }
 
-// Under a ceiling the levels have to be positive, and the matrix itself stands aside.
-TEST(Hierarchy, NegativeMassIsInTheMatrixAlone)
+// Under a ceiling the levels must be positive definite, and the matrix itself is stored separately.
+TEST(Hierarchy, NegativeMassIsOnlyInTheMatrix)
 {
     for (const Case& c : cases()) {
         for (auto [name, op] : operatorsFor(c.mesh)) {
@@ -235,7 +235,7 @@ TEST(Hierarchy, NegativeMassIsInTheMatrixAlone)
     }
 }
 
-TEST(Hierarchy, UnknownsAreCountedAndFewerOnEveryLevel)
+TEST(Hierarchy, CoarserLevelsHaveFewerUnknowns)
 {
     for (const Case& c : cases()) {
         for (const auto& [name, op] : operatorsFor(c.mesh)) {
@@ -283,8 +283,8 @@ TEST(Hierarchy, RestrictionIsTheTransposeOfProlongation)
     }
 }
 
-// (Px)ᵀA(Py) = xᵀA'y: the coarser matrix is Galerkin's product, also where it is written down as a stencil.
-TEST(Hierarchy, CoarserLevelsAreGalerkinsProducts)
+// (Px)ᵀA(Py) = xᵀA'y: the coarser matrix is the Galerkin product, also where it is stored as a stencil.
+TEST(Hierarchy, CoarserLevelsAreGalerkinProducts)
 {
     std::mt19937 random(3);
     for (const Case& c : cases()) {
@@ -301,7 +301,7 @@ TEST(Hierarchy, CoarserLevelsAreGalerkinsProducts)
                 for (const double p : product) {
                     scale = std::max(scale, std::abs(p));
                 }
-                // Every row of it, not only the quadratic form; and vectors vanish where there is no unknown.
+                // Every row, not only the quadratic form. Vectors are 0 at indices without an unknown.
                 forEachUnknown(coarse,
                                [&](std::uint32_t i) { EXPECT_NEAR(product[i], wanted[i], 1e-12 * scale) << l; });
                 const Vector y = randomVector(coarse, random);
@@ -316,7 +316,7 @@ TEST(Hierarchy, CoarserLevelsAreGalerkinsProducts)
     }
 }
 
-// A lattice is worth its name only if its rows are not stored: the share of rows that are falls like the edge.
+// Rows of the lattice are not stored: the share of stored rows falls in proportion to the edge.
 TEST(Hierarchy, RegularRowsAreNotStored)
 {
     double last = 1.0;

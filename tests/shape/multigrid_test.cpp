@@ -43,7 +43,7 @@ std::vector<PlanarMesh> withoutLattice(std::vector<PlanarMesh> meshes)
     return meshes;
 }
 
-/// Without a lattice; much stretched, triangles have angles that triangulate() never makes.
+/// Stretches a mesh without its lattice, so that triangles have angles that triangulate() never makes.
 PlanarMesh stretched(PlanarMesh mesh, double by)
 {
     mesh.lattice = {};
@@ -53,7 +53,7 @@ PlanarMesh stretched(PlanarMesh mesh, double by)
     return mesh;
 }
 
-/// Of unit volume.
+/// Solution with unit volume.
 ConstrainedSolution solvedAlone(const PlanarMesh& mesh, const Operator& op,
                                 const std::function<std::unique_ptr<ConstrainedSolver>(const PlanarMesh&)>& make)
 {
@@ -67,7 +67,7 @@ ConstrainedSolution solvedByMultigrid(const PlanarMesh& mesh, const Operator& op
     return solvedAlone(mesh, op, multigridSolver);
 }
 
-/// ‖Ax − λm‖/‖λm‖ by the matrix assembled triangle by triangle.
+/// ‖Ax − λm‖/‖λm‖ with the matrix assembled triangle by triangle.
 double trueResidual(const PlanarMesh& mesh, const Operator& op, const ConstrainedSolution& solution)
 {
     const testing::Assembled system = testing::assembled(mesh, op);
@@ -77,7 +77,7 @@ double trueResidual(const PlanarMesh& mesh, const Operator& op, const Constraine
     return (load - system.matrix * x).norm() / load.norm();
 }
 
-/// The droplets of a footprint, every one 1 mm high.
+/// Droplets of a footprint, each 1 mm high.
 Solution solved(const std::vector<PlanarMesh>& meshes, double gravity, Solver solver)
 {
     SolveOptions options;
@@ -87,7 +87,7 @@ Solution solved(const std::vector<PlanarMesh>& meshes, double gravity, Solver so
     return solve(meshes, options);
 }
 
-// What is promised of every solver on whatever mesh: it converges, agrees with the others, and no height is negative.
+// On any mesh every solver converges, agrees with the others, and gives no negative height.
 TEST(Solvers, AgreeOnTheZoo)
 {
     for (const auto& [name, domain] : testing::zoo()) {
@@ -105,7 +105,7 @@ TEST(Solvers, AgreeOnTheZoo)
                     const Solution solution = solved(meshes, gravity, solver);
                     ASSERT_TRUE(solution.report.usable());
                     EXPECT_LT(solution.report.residual, 1e-9);
-                    double apart = 0.0;
+                    double difference = 0.0;
                     std::size_t not_liquid = 0;
                     for (std::size_t k = 0; k < meshes.size(); ++k) {
                         const HeightField& field = solution.droplets[k];
@@ -113,11 +113,11 @@ TEST(Solvers, AgreeOnTheZoo)
                         EXPECT_NEAR(field.pressure / wanted.pressure, 1.0, 1e-8);
                         for (std::uint32_t v = 0; v < meshes[k].vertices.size(); ++v) {
                             const double h = field.height[v];
-                            apart = std::max(apart, std::abs(h - wanted.height[v]));
+                            difference = std::max(difference, std::abs(h - wanted.height[v]));
                             not_liquid += meshes[k].onRim(v) ? (h != 0.0) : !(h > 0.0);
                         }
                     }
-                    EXPECT_LT(apart, 1e-8 * 1e-3);
+                    EXPECT_LT(difference, 1e-8 * 1e-3);
                     EXPECT_EQ(not_liquid, 0U) << "heights that are not 0 on the rim and positive inside";
                 }
             }
@@ -145,7 +145,7 @@ TEST(Multigrid, ResidualIsTheTrueOne)
     }
 }
 
-// The point of multigrid. Measured: 7 to 9 without gravity, fewer with.
+// Measured: 7 to 9 without gravity, fewer with gravity.
 TEST(Multigrid, IterationsHardlyGrowWithTheMesh)
 {
     std::vector<std::size_t> sizes{2000, 8000, 32000, 128000};
@@ -170,7 +170,7 @@ TEST(Multigrid, OneLevelIsAFactorisation)
     ASSERT_EQ(buildHierarchy(mesh, {}).levels.size(), 1U);
     const ConstrainedSolution solution = solvedByMultigrid(mesh, {});
     EXPECT_TRUE(solution.converged);
-    // The factor is exact but for single precision, which one more iteration makes up for.
+    // The factorisation is exact to single precision; a second iteration corrects this.
     EXPECT_LE(solution.iterations, 3U);
 }
 
@@ -193,13 +193,13 @@ TEST(Multigrid, SameBitsAtAnyNumberOfThreads)
     }
 }
 
-// On triangles a thousand times as long as high the iteration is not done within its limit, and says so; who did not
-// ask for it gets the factorisation instead.
-TEST(Multigrid, WhatDoesNotConvergeIsFactored)
+// On triangles a thousand times as long as high the iteration reaches its limit and reports this. Solver::Auto then
+// uses a factorisation.
+TEST(Multigrid, AutoFactorsIfItDoesNotConverge)
 {
     const std::vector<PlanarMesh> meshes{stretched(discMesh(110'000), 1000.0)};
     ASSERT_NO_THROW(meshes[0].validate());
-    // Auto tries it: fewer unknowns would be factored at once.
+    // Auto tries multigrid first on meshes of this size.
     ASSERT_GT(meshes[0].vertices.size() - meshes[0].rimVertexCount(), 50'000U);
 
     const Solution forced = solved(meshes, 0.0, Solver::Multigrid);
@@ -215,8 +215,8 @@ TEST(Multigrid, WhatDoesNotConvergeIsFactored)
     EXPECT_EQ(automatic.droplets[0].height, solved(meshes, 0.0, Solver::Llt).droplets[0].height);
 }
 
-// Among droplets that converge, one that does not is factored alone, and they all are there.
-TEST(Multigrid, OnlyWhatDoesNotConvergeIsFactored)
+// Only the droplet that does not converge is factored; all droplets are solved.
+TEST(Multigrid, AutoFactorsOnlyDropletsThatDoNotConverge)
 {
     const std::vector<PlanarMesh> meshes{discMesh(20000), stretched(discMesh(110'000), 1000.0)};
     const Solution both = solved(meshes, 0.0, Solver::Auto);

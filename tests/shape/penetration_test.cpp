@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// u ≥ h: radially symmetric obstacle problems in closed form, the conditions of Karush, Kuhn and Tucker on all others,
-// and the thesis, figure 4.14: a large disc on a tilt.
+// u ≥ h: radially symmetric obstacle problems in closed form; on all others the conditions of Karush, Kuhn and Tucker;
+// and the thesis, figure 4.14: a large disc on a tilted plane.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -39,7 +39,7 @@ using testing::unitOptions;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A hill that is flat at the rim of the disc of radius 1: h = b(1 − r²)².
+/// Hill that is flat at the rim of the disc of radius 1: h = b(1 − r²)².
 BaseSurface hill(double b)
 {
     return BaseSurface([=](Vec2 p) {
@@ -48,7 +48,7 @@ BaseSurface hill(double b)
     });
 }
 
-/// A film around a hill that pierces it in r < a, without gravity.
+/// Film without gravity around a hill that rises through it in r < a.
 struct Film {
     double pressure = 0.0;
     double volume = 0.0;
@@ -76,7 +76,7 @@ Film linearFilm(double b, double a)
     return film;
 }
 
-/// Exact model: constant mean curvature outside, touching the hill at a without a bend.
+/// Exact model: constant mean curvature outside, tangent to the hill at a.
 Film exactFilm(double b, double a)
 {
     const double fall = 4.0 * b * a * (1.0 - a * a);
@@ -136,7 +136,7 @@ void expectFilmsConverge(Model model, const Film& film, double b, double a)
         if (model == Model::Exact) {
             area_error.push_back(std::abs(figures.liquid_area - film.area));
         }
-        // Out by an edge all around would be 2πa · edge.
+        // An error of one edge all around would be 2πa · edge.
         EXPECT_LT(dry.back(), 2.0 * kPi * a * edge);
         ASSERT_EQ(field.dry.size(), field.height.size());
         for (std::uint32_t v = 0; v < field.dry.size(); ++v) {
@@ -145,7 +145,7 @@ void expectFilmsConverge(Model model, const Film& film, double b, double a)
             EXPECT_TRUE(field.dry[v] == 0 || r < a + edge) << r;
         }
     }
-    // Measured: 2.05 to 2.22, and 1.40 to 1.59 for areas, whose edge the triangles are.
+    // Measured: 2.05 to 2.22; 1.40 to 1.59 for areas, which are bounded by edges of triangles.
     EXPECT_GE(meanOrder(l2), 1.9);
     EXPECT_GE(meanOrder(pressure), 1.9);
     EXPECT_GE(meanOrder(angle), 1.9);
@@ -161,7 +161,7 @@ TEST(Penetration, LinearFilmAroundAHillConvergesWithOrderTwo)
         SCOPED_TRACE(a);
         const Film film = linearFilm(0.5, a);
         ASSERT_GT(film.volume, 0.0);
-        // The ground carries the hill: −Δh − λ ≥ 0 up to a.
+        // The ground pushes up: −Δh − λ ≥ 0 up to a.
         ASSERT_GT(8.0 * 0.5 * (1.0 - 2.0 * a * a), film.pressure);
         expectFilmsConverge(Model::Linear, film, 0.5, a);
     }
@@ -177,8 +177,8 @@ TEST(Penetration, ExactFilmAroundAHillConvergesWithOrderTwo)
     }
 }
 
-// Gentle hills: one film.
-TEST(Penetration, FilmsOfBothModelsAgreeOnGentleHills)
+// For low hills both models agree.
+TEST(Penetration, FilmsOfBothModelsAgreeOnLowHills)
 {
     const Film linear = linearFilm(1e-3, 0.4);
     const Film exact = exactFilm(1e-3, 0.4);
@@ -188,8 +188,8 @@ TEST(Penetration, FilmsOfBothModelsAgreeOnGentleHills)
     EXPECT_NEAR(exact.height(0.7) / linear.height(0.7), 1.0, 1e-4);
 }
 
-// Thesis, figure 4.14: without the condition the upper part sinks into the ground; with it, it runs dry.
-TEST(Penetration, LargeDiscOnATiltRunsDryAbove)
+// Thesis, figure 4.14: without the condition the upper part sinks into the ground; with it, the ground is dry there.
+TEST(Penetration, LargeTiltedDiscIsDryAtItsUpperEnd)
 {
     constexpr double kRadius = 5e-3;
     constexpr double kVolume = 30 * kMicrolitre;
@@ -198,7 +198,7 @@ TEST(Penetration, LargeDiscOnATiltRunsDryAbove)
     SolveOptions options;
     options.tilt = 90 * kDegree;
     options.fill = {FillBy::Volume, kVolume, FillSharing::Each};
-    // u = (R² − r²)(p/4 + ρgx/8)/σ is lowest on the slope's line through the middle.
+    // u = (R² − r²)(p/4 + ρgx/8)/σ is lowest on the line of slope through the middle.
     const double p = 8.0 * options.liquid.surface_tension * kVolume / (kPi * std::pow(kRadius, 4));
     double deepest = 0.0;
     for (int k = 0; k < 10'000; ++k) {
@@ -232,7 +232,7 @@ TEST(Penetration, LargeDiscOnATiltRunsDryAbove)
         }
         if (model == Model::Linear) {
             const double free_energy = sunk.linear_area * options.liquid.surface_tension + sunk.gravity_energy;
-            // What is dry has the area of the ground.
+            // Dry parts have the area of the ground.
             const double held_energy =
                 (figures.linear_area + figures.dry_area) * options.liquid.surface_tension + figures.gravity_energy;
             EXPECT_GT(held_energy, free_energy);
@@ -240,7 +240,6 @@ TEST(Penetration, LargeDiscOnATiltRunsDryAbove)
     }
 }
 
-// Where there is no liquid there is no angle.
 TEST(Penetration, DryRimHasNoContactAngle)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
@@ -316,7 +315,7 @@ TEST(Penetration, KktHoldOnAnyFootprintGroundAndTilt)
     EXPECT_GT(dry_runs, 30U);
 }
 
-TEST(Penetration, ChangesNothingWhereNothingSinks)
+TEST(Penetration, ChangesNothingIfNothingSinks)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.05);
     for (const Model model : {Model::Linear, Model::Exact}) {
@@ -370,7 +369,7 @@ TEST(Penetration, SolversAgreeAndThreadsDoNotMatter)
     }
 }
 
-// Discs up and down a slope, one reservoir: one pressure, together so much, and nowhere below the ground.
+// Discs on a slope with one reservoir have one pressure and the total volume, and are nowhere below the ground.
 TEST(Penetration, OneReservoirKeepsItsVolume)
 {
     Domain domain = domainOf(ellipseLoop(1, 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What one more fill adds, against solving once more with that much liquid.
+// Gains per fill are compared with solutions for that amount of liquid.
 #include "droplet/shape/refill.h"
 
 #include <gmock/gmock.h>
@@ -86,7 +86,7 @@ double largest(const std::vector<double>& values)
     return max;
 }
 
-TEST_P(Refill, LeadsToWhatSolvingAgainWould)
+TEST_P(Refill, EqualsASolutionForThatFill)
 {
     const SolveOptions& options = GetParam().options;
     const std::vector<PlanarMesh> footprints = meshes();
@@ -126,7 +126,7 @@ TEST_P(Refill, LeadsToWhatSolvingAgainWould)
     }
 }
 
-TEST_P(Refill, GainsAreOneFillInVolumeAndNothingOnTheRim)
+TEST_P(Refill, GainHasTheVolumeOfOneFillAndIsZeroOnTheRim)
 {
     const SolveOptions& options = GetParam().options;
     const std::vector<PlanarMesh> footprints = meshes();
@@ -161,7 +161,7 @@ std::string refusalOf(const SolveOptions& options, std::vector<HeightField> fiel
     return {};
 }
 
-TEST(RefillRefuses, WhatIsNotAffine)
+TEST(RefillRefuses, OptionsThatAreNotAffine)
 {
     const SolveOptions linear;
     const std::vector<HeightField> fields = solve(meshes(), linear).droplets;
@@ -172,18 +172,18 @@ TEST(RefillRefuses, WhatIsNotAffine)
     SolveOptions above;
     above.no_penetration = true;
     EXPECT_THAT(refusalOf(above, fields), HasSubstr("no_penetration"));
-    EXPECT_THAT(refusalOf(linear, {fields[0]}), HasSubstr("1 against 3"));
+    EXPECT_THAT(refusalOf(linear, {fields[0]}), HasSubstr("must have 3 entries, one per mesh, not 1"));
     EXPECT_THAT(refusalOf(linear, {fields[1], fields[0], fields[2]}), HasSubstr("field 0"));
 }
 
-TEST(RefillRefuses, WhereThereIsNothingToMultiply)
+TEST(RefillRefuses, DropletsWithoutLiquid)
 {
     std::vector<HeightField> fields = solve(meshes()).droplets;
     std::fill(fields[1].height.begin(), fields[1].height.end(), 0.0);
     EXPECT_THAT(refusalOf({}, fields), HasSubstr("droplet 2 of 3"));
 }
 
-TEST(FillRange, HoldsTheDropletItself)
+TEST(FillRange, ContainsOne)
 {
     EXPECT_NO_THROW((FillRange{0.0, 2.0}.validate()));
     EXPECT_NO_THROW((FillRange{1.0, 1.5}.validate()));

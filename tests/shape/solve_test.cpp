@@ -32,7 +32,7 @@ using testing::reversed;
 
 constexpr double kPi = std::numbers::pi;
 
-/// σ = ρ = 1, so that gravity is ρg/σ; R = 1, so that k = √gravity.
+/// Options with σ = ρ = 1, so that gravity is ρg/σ; with R = 1, k = √gravity.
 SolveOptions unitOptions(double gravity, Fill fill, Solver solver = Solver::Auto)
 {
     SolveOptions options;
@@ -43,7 +43,7 @@ SolveOptions unitOptions(double gravity, Fill fill, Solver solver = Solver::Auto
     return options;
 }
 
-/// The tests that every solver must pass.
+/// Tests that every solver must pass.
 class SolveWith : public ::testing::TestWithParam<Solver> {};
 
 INSTANTIATE_TEST_SUITE_P(Solvers, SolveWith, ::testing::Values(Solver::Auto, Solver::Llt, Solver::Multigrid),
@@ -64,20 +64,20 @@ Fill volume(double v)
     return {FillBy::Volume, v, FillSharing::Each};
 }
 
-/// Order of convergence between two errors on meshes with one half the other's edge.
+/// Order of convergence from two errors, the second on a mesh with half the edge length.
 double order(double coarse, double fine)
 {
     return std::log2(coarse / fine);
 }
 
-/// ∫φ with −Δφ = 1, which is V/λ at σ = 1 without gravity; J = 4∫φ.
+/// ∫φ with −Δφ = 1: V/λ at σ = 1 without gravity; J = 4∫φ.
 double torsion(const Loop& loop, double edge, Solver solver)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(loop), {.edge = edge});
     return 4.0 / solve(meshes, unitOptions(0.0, volume(1.0), solver)).droplets[0].pressure;
 }
 
-/// The disc of radius 1 with volume 1 under gravity.
+/// Disc of radius 1 with volume 1 under gravity.
 struct ExactDisc {
     double k = 0.0;
 
@@ -112,7 +112,7 @@ DiscErrors discErrors(double k, double edge, Solver solver)
     double squares = 0.0;
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
-            // Quadrature at the edges' middles, exact for quadratics.
+            // Quadrature at the middles of edges, exact for quadratics.
             const std::size_t j = (i + 1) % 3;
             const Vec2 p = 0.5 * (mesh.vertices[t[i]] + mesh.vertices[t[j]]);
             squares += doubleArea(mesh, t) / 6.0 * std::pow(0.5 * (h[t[i]] + h[t[j]]) - exact.height(length(p)), 2.0);
@@ -144,7 +144,7 @@ TEST_P(SolveWith, DiscConvergesWithOrderTwo)
 }
 
 // Published values: apex·R²/V and λR⁴/(σV).
-TEST_P(SolveWith, DiscUnderGravityMeetsTheTable)
+TEST_P(SolveWith, DiscUnderGravityAgreesWithTheTable)
 {
     struct Row {
         double k;
@@ -157,7 +157,7 @@ TEST_P(SolveWith, DiscUnderGravityMeetsTheTable)
         const SolveOptions options = unitOptions(row.k * row.k, volume(1.0), GetParam());
         const Solution solution = solve(meshes, options);
         const double apex = *std::max_element(solution.droplets[0].height.begin(), solution.droplets[0].height.end());
-        // Second order: half of h²(1 + k²/4), which is twice what was measured at every k.
+        // Second order: half of h²(1 + k²/4), twice the measured error at every k.
         const double tolerance = 0.5 * 0.0125 * 0.0125 * (1.0 + 0.25 * row.k * row.k);
         EXPECT_NEAR(apex / row.apex, 1.0, tolerance) << row.k;
         EXPECT_NEAR(solution.droplets[0].pressure / row.pressure, 1.0, tolerance) << row.k;
@@ -191,7 +191,7 @@ TEST_P(SolveWith, TorsionConstantsConvergeWithOrderTwo)
         for (const double edge : {0.1, 0.05, 0.025, 0.0125}) {
             errors.push_back(std::abs(torsion(s.loop, edge, GetParam()) / s.torsion - 1.0));
         }
-        // Over three halvings together: a single one also carries how the lattice happens to lie to the corners.
+        // Over three halvings: the error of one mesh also depends on the position of the lattice at the corners.
         EXPECT_GE(order(errors.front(), errors.back()) / 3.0, 1.9) << s.name;
         EXPECT_LT(errors.back(), 1e-3) << s.name;
     }
@@ -220,7 +220,7 @@ TEST_P(SolveWith, SquareHasThePublishedHeight)
         triangulate(domainOf(polygonLoop({{0, 0}, {1, 0}, {1, 1}, {0, 1}})), {.edge = 0.0125});
     const Solution solution = solve(meshes, unitOptions(0.0, volume(.0351442537), GetParam()));
     const std::vector<double>& h = solution.droplets[0].height;
-    // Second order: h²/4, against h²/8 measured.
+    // Second order: h²/4; measured: h²/8.
     EXPECT_NEAR(*std::max_element(h.begin(), h.end()), .0736713533, 0.25 * 0.0125 * 0.0125);
 }
 
@@ -249,13 +249,13 @@ TEST_P(SolveWith, HeightAndMeanAngleAreMet)
     EXPECT_NEAR(measure(meshes[0], solve(meshes, options).droplets[0], options).height_max, 3e-4, 1e-15);
     for (const double degrees : {0.1, 20.0, 40.0, 75.0}) {
         options.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
-        // Means over vertices and over edges differ by round-off only: both weigh half an edge per end.
+        // Means over vertices and over edges differ by round-off only.
         EXPECT_NEAR(measure(meshes[0], solve(meshes, options).droplets[0], options).contact_angle.mean,
                     degrees * kDegree, 1e-12);
     }
 }
 
-TEST_P(SolveWith, OneReservoirHasOnePressureAndDropletsOfTheirOwnDoNot)
+TEST_P(SolveWith, OnlyAReservoirHasOnePressure)
 {
     Domain domain = domainOf(ellipseLoop(1e-3, 1e-3));
     Loop large = ellipseLoop(3e-3, 2e-3);
@@ -287,7 +287,7 @@ TEST_P(SolveWith, OneReservoirHasOnePressureAndDropletsOfTheirOwnDoNot)
     EXPECT_NEAR(measure(meshes[1], height.droplets[1], options).height_max, 5e-4, 1e-15);
 }
 
-// What the rim pulls down with and what the liquid weighs is what the pressure pushes up: λA = σ∮slope + ρgV, exactly.
+// The pressure exactly balances the pull of the rim and the weight: λA = σ∮slope + ρgV.
 TEST_P(SolveWith, ForcesBalance)
 {
     const std::vector<PlanarMesh> meshes = triangulate(
@@ -312,7 +312,7 @@ TEST_P(SolveWith, ForcesBalance)
         1e-9);
 }
 
-// The solution minimises the discrete energy at its volume: any other field with the same volume has more.
+// The solution minimises the discrete energy: any other field with the same volume has a larger one.
 TEST_P(SolveWith, IsTheMinimumOfItsEnergy)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 0.7)), {.triangles = 400, .edge = {}});
@@ -367,7 +367,7 @@ TEST(Solve, SameBitsAtAnyNumberOfThreads)
         domain.droplets.push_back({loop, {}});
     }
     const std::vector<PlanarMesh> small = triangulate(domain, {.triangles = 6000, .edge = {}});
-    // Large enough for every loop over its unknowns to be shared out.
+    // Large enough for several threads in every loop over unknowns.
     const std::vector<PlanarMesh> large =
         triangulate(domainOf(ellipseLoop(1e-2, 1e-2)), {.triangles = 100'000, .edge = {}});
     for (const std::vector<PlanarMesh>* meshes : {&small, &large}) {
@@ -378,7 +378,7 @@ TEST(Solve, SameBitsAtAnyNumberOfThreads)
             for (const int threads : {1, 2, 2, 7}) {
                 const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                                 static_cast<std::size_t>(threads));
-                // A machine's own arena has no more slots than it has cores.
+                // The default arena has no more slots than cores.
                 tbb::task_arena arena(threads);
                 arena.execute([&] { runs.push_back(solve(*meshes, options)); });
             }
@@ -398,10 +398,10 @@ TEST(Solve, SameBitsAtAnyNumberOfThreads)
 struct Method {
     Solver solver;
     const char* name;
-    double residual;  ///< more would not be what the method is good for
+    double residual;  ///< upper limit for the method
 };
 
-TEST(Solve, ReportsWhatItDid)
+TEST(Solve, ReportsItsMethodAndFigures)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 2000, .edge = {}});
     for (const Method& method :
@@ -423,7 +423,7 @@ TEST(Solve, ReportsWhatItDid)
     EXPECT_EQ(stages, (std::vector<Stage>{Stage::Assemble, Stage::Solve}));
 }
 
-// Auto factors what is small or irregular, iterates on lattices, and names the method of the largest droplet.
+// Auto factors small or irregular meshes, iterates on lattices, and reports the method of the largest droplet.
 TEST(Solve, AutoChoosesBySizeAndLattice)
 {
     const auto method_for = [](const std::vector<PlanarMesh>& meshes) {

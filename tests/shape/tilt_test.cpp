@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Inclined planes: closed solutions of the linear model on the disc, the sideways balance of forces, which holds on
-// every footprint, and what turning the world may not change. Retention: J. De Coninck et al., arXiv 1610.06725; C. G.
-// L. Furmidge, "Studies at phase interfaces" (1962).
+// Inclined planes: closed solutions of the linear model on the disc; the balance of forces along the plane, which holds
+// on every footprint; and invariance under rotation. Retention: J. De Coninck et al., arXiv 1610.06725; C. G. L.
+// Furmidge, "Studies at phase interfaces" (1962).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ Vec2 downhill(double direction)
     return {std::cos(direction), std::sin(direction)};
 }
 
-/// Where the liquid's volume has its middle.
+/// Centroid of the liquid.
 Vec2 centroid(const PlanarMesh& mesh, const HeightField& field)
 {
     const auto moment = [&](Vec2 axis) {
@@ -63,7 +63,7 @@ Vec2 centroid(const PlanarMesh& mesh, const HeightField& field)
     return (1.0 / volume) * Vec2{moment({1, 0}), moment({0, 1})};
 }
 
-/// The linear model on the disc of radius 1, σ = ρ = 1: level shape plus what leans downhill.
+/// Linear model on the disc of radius 1, σ = ρ = 1: sum of the level shape and a part that leans downhill.
 struct LeaningDisc {
     double normal;  ///< g⊥ > 0
     double along;   ///< g∥
@@ -78,14 +78,14 @@ struct LeaningDisc {
     [[nodiscard]] double at(Vec2 p, Vec2 down) const
     {
         const double r = length(p);
-        // −Δu + k²u = g∥·x has the solution x/k² inside and I₁(kr)cos φ without a source.
+        // −Δu + k²u = g∥·x has the particular solution g∥·x/k² and the homogeneous one I₁(kr)cos φ.
         const double cosine = r > 0.0 ? dot(p, down) / r : 0.0;
         return scale() * (1.0 - std::cyl_bessel_i(0, k() * r) / std::cyl_bessel_i(0, k())) +
                along / normal * (r - std::cyl_bessel_i(1, k() * r) / std::cyl_bessel_i(1, k())) * cosine;
     }
 };
 
-TEST(Tilt, GravityIsTakenApart)
+TEST(Tilt, GravityIsSplitIntoComponents)
 {
     SolveOptions options = tilted(Model::Linear, 9.81, 1.0, 30 * kDegree, 0.0);
     EXPECT_NEAR(planeGravity(options).normal, 9.81 * std::cos(30 * kDegree), 1e-14);
@@ -134,7 +134,7 @@ TEST(Tilt, DropletOnAWallConvergesWithOrderTwo)
             EXPECT_NEAR(figures.contact_angle.min, std::atan(p / 2.0 - kGravity / 4.0), worst + edge * edge);
             // ∫x²(1 − r²) = π/12
             middle.push_back(length(centroid(meshes[0], field) - (kGravity / 8.0 * kPi / 12.0 / kVolume) * down));
-            // Angles are flat where they are extreme, and so their places are rough.
+            // Angles vary little near their extremes, so the places are inexact.
             EXPECT_LT(length(figures.contact_angle.max_at - down), 0.35);
             EXPECT_LT(length(figures.contact_angle.min_at + down), 0.35);
             EXPECT_NEAR(figures.volume / kVolume, 1.0, 1e-10);
@@ -142,7 +142,7 @@ TEST(Tilt, DropletOnAWallConvergesWithOrderTwo)
         EXPECT_GE(meanOrder(l2), 1.9) << direction;
         EXPECT_GE(meanOrder(pressure), 1.9) << direction;
         EXPECT_GE(meanOrder(middle), 1.8) << direction;
-        // The worst of all rim vertices, where single ones carry how the band lies there. Measured: 1.56.
+        // The maximum over rim vertices, some of which depend on the band of triangles at the rim. Measured: 1.56.
         EXPECT_GE(meanOrder(angle), 1.4) << direction;
     }
 }
@@ -187,8 +187,8 @@ TEST(Tilt, IsInEquilibriumInBothModels)
     }
 }
 
-// Sideways the rim holds the liquid's weight: ρVg∥ = −σ∮cos θ (n·d), whatever the footprint. (Multiply the equation by
-// ∂u/∂d and integrate by parts.) Small slopes: ½∮(∂u/∂n)²(n·d) in the linear model.
+// The rim holds the weight along the plane: ρVg∥ = −σ∮cos θ (n·d) on any footprint. (Multiply the equation by ∂u/∂d and
+// integrate by parts.) For small slopes it is ½∮(∂u/∂n)²(n·d) in the linear model.
 TEST(Tilt, RimHoldsTheWeight)
 {
     constexpr double kVolume = 0.3;
@@ -220,8 +220,8 @@ TEST(Tilt, RimHoldsTheWeight)
     }
 }
 
-// mg sin α = (π/2)σR(cos θ_min − cos θ_max) for small slopes, in both models and at any tilt: on the disc the
-// inclination is a₀ + a₁cos φ, and the sideways balance says π a₀a₁ = ρVg∥.
+// mg sin α = (π/2)σR(cos θ_min − cos θ_max) for small slopes, in both models and at any tilt. On the disc the
+// inclination is a₀ + a₁cos φ, and the balance along the plane is π a₀a₁ = ρVg∥.
 TEST(Tilt, SmallDropletsOnDiscsObeyDeConinck)
 {
     const std::vector<PlanarMesh> meshes = discMeshes(0.0125);
@@ -234,7 +234,7 @@ TEST(Tilt, SmallDropletsOnDiscsObeyDeConinck)
             ASSERT_TRUE(solution.report.usable());
             const ContactAngle angle = measure(meshes[0], solution.droplets[0], options).contact_angle;
             const double held = 0.5 * kPi * (std::cos(angle.min) - std::cos(angle.max));
-            // Slopes of 0.05 squared, and slopes recovered at two single vertices.
+            // Error of the square of the slope, 0.05², and of slopes recovered at two vertices.
             EXPECT_NEAR(held / (kVolume * kGravity * std::sin(tilt)), 1.0, 0.03) << tilt;
         }
     }
@@ -264,7 +264,7 @@ TEST(Tilt, LiquidGoesDownhill)
     }
 }
 
-// Footprint and downhill turned together: nothing happens but that.
+// If footprint and downhill are turned together, the result is turned, too.
 TEST(Tilt, TurnsWithTheFootprint)
 {
     std::vector<PlanarMesh> meshes =
@@ -296,8 +296,8 @@ TEST(Tilt, TurnsWithTheFootprint)
     }
 }
 
-// Moved along the plane a droplet is the same; λ, the pressure above the origin, gains the head between.
-TEST(Tilt, PressureIsThatAboveTheOrigin)
+// A droplet moved along the plane is the same; λ, the pressure at the origin, changes by the hydrostatic head.
+TEST(Tilt, PressureIsThatAtTheOrigin)
 {
     std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 0.7)), {.edge = 0.06});
     meshes[0].lattice = {};
@@ -319,7 +319,7 @@ TEST(Tilt, PressureIsThatAboveTheOrigin)
     }
 }
 
-// One reservoir on a slope is one level of pressure: the lower droplet holds more.
+// With one reservoir on a slope the lower droplet holds more.
 TEST(Tilt, OneReservoirFillsTheLowerDroplet)
 {
     Domain domain = domainOf(ellipseLoop(1, 1));
@@ -376,7 +376,7 @@ TEST(Tilt, RefusesTiltsOutOfRange)
 TEST(Retention, IsFurmidgesBalance)
 {
     const Hysteresis hysteresis{60 * kDegree, 40 * kDegree};
-    // σ = ρ = 1: σw(cos θ_R − cos θ_A) against Vg sin α.
+    // σ = ρ = 1: σw(cos θ_R − cos θ_A) and Vg sin α.
     for (const double gravity : {0.3, 1.0}) {
         for (const double tilt : {0.2, 1.0}) {
             const SolveOptions options = tilted(Model::Linear, gravity, 0.3, tilt, 0.3);
@@ -386,7 +386,7 @@ TEST(Retention, IsFurmidgesBalance)
             const ShapeFigures figures = measure(meshes[0], solution.droplets[0], options);
             const Retention found = retention(figures, options, hysteresis);
             EXPECT_NEAR(found.driving_force, 0.3 * gravity * std::sin(tilt), 1e-10);
-            // The disc is a polygon of edges of 0.05.
+            // The disc is a polygon with edges of 0.05.
             EXPECT_NEAR(found.retention_force, 2.0 * (std::cos(40 * kDegree) - std::cos(60 * kDegree)), 1e-3);
             EXPECT_EQ(found.wouldSlide(), found.driving_force > found.retention_force);
         }

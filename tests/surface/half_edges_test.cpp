@@ -27,7 +27,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> edgesOf(const Triangle& t)
     return {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])};
 }
 
-TEST(HalfEdges, HoldEveryTriangleOfAnySoup)
+TEST(HalfEdges, StoreEveryTriangleOfAnySoup)
 {
     constexpr std::uint32_t kPlaces = 7;
     std::mt19937 random(5);
@@ -68,17 +68,19 @@ TEST(HalfEdges, HoldEveryTriangleOfAnySoup)
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(HalfEdges, LeaveWhatDoesNotFitApart)
+TEST(HalfEdges, StoreTrianglesThatDoNotFitSeparately)
 {
-    const auto apart = [](const std::vector<Triangle>& triangles) { return halfEdges(places(8), triangles).apart; };
-    EXPECT_THAT(apart({{0, 1, 2}, {1, 0, 3}}), ::testing::IsEmpty());
-    EXPECT_THAT(apart({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), ::testing::ElementsAre(2));
-    EXPECT_THAT(apart({{0, 1, 1}, {0, 1, 2}, {0, 1, 2}}), ::testing::ElementsAre(0, 2));
-    // A closed vertex takes no more.
-    EXPECT_THAT(apart({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), ::testing::ElementsAre(3));
+    const auto separate = [](const std::vector<Triangle>& triangles) {
+        return halfEdges(places(8), triangles).separate;
+    };
+    EXPECT_THAT(separate({{0, 1, 2}, {1, 0, 3}}), ::testing::IsEmpty());
+    EXPECT_THAT(separate({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), ::testing::ElementsAre(2));
+    EXPECT_THAT(separate({{0, 1, 1}, {0, 1, 2}, {0, 1, 2}}), ::testing::ElementsAre(0, 2));
+    // A closed vertex takes no more triangles.
+    EXPECT_THAT(separate({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 4, 5}}), ::testing::ElementsAre(3));
 }
 
-TEST(HalfEdges, LeaveOpenMeshsWordsAsTheyWere)
+TEST(HalfEdges, LeaveOpenMeshsMessagesAsTheyWere)
 {
     ASSERT_TRUE(omerr().is_enabled());
     (void)halfEdges(places(3), {{0, 1, 2}, {0, 1, 2}});

@@ -23,7 +23,7 @@ using testing::domainOf;
 using testing::ellipseLoop;
 using testing::reversed;
 
-/// A solved disc of radius 1 m with σ = ρ = 1, no gravity and volume 1: u = (2/π)(1 − r²).
+/// Solved disc of radius 1 m with σ = ρ = 1, no gravity and volume 1: u = (2/π)(1 − r²).
 struct SolvedDisc {
     std::vector<PlanarMesh> meshes;
     std::vector<HeightField> fields;
@@ -41,7 +41,7 @@ SolvedDisc solvedDisc(double edge)
     return result;
 }
 
-TEST(Loft, IsClosedAndHoldsItsVolume)
+TEST(Loft, IsClosedAndHasItsVolume)
 {
     for (const std::size_t holes : {0U, 1U, 2U}) {
         std::vector<Loop> inner;
@@ -61,7 +61,7 @@ TEST(Loft, IsClosedAndHoldsItsVolume)
         const Topology t = topology(closed);
         EXPECT_TRUE(t.closed);
         EXPECT_EQ(t.components, 1U);
-        // A droplet with holes is a sphere with as many handles: V − E + F = 2 − 2·holes.
+        // A droplet with holes is a sphere with as many handles as holes: V − E + F = 2 − 2·holes.
         EXPECT_EQ(t.euler, 2 - 2 * static_cast<long>(holes));
         EXPECT_NEAR(enclosedVolume(closed), 0.5, 1e-12);
         EXPECT_NEAR(closed.mean_height, 0.5 / area(meshes[0]), 1e-12);
@@ -74,8 +74,8 @@ TEST(Loft, IsClosedAndHoldsItsVolume)
     }
 }
 
-// The ground is covered with triangles of its own, which share nothing with the liquid's but the rim.
-TEST(Loft, FlatGroundClosesEveryFootprint)
+// The base has triangles of its own, which share only the rim with the liquid's.
+TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
 {
     for (const auto& [name, domain] : testing::zoo()) {
         for (const int grading : {1, 16}) {
@@ -104,7 +104,7 @@ TEST(Loft, FlatGroundClosesEveryFootprint)
             EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-9);
             EXPECT_EQ(closed.triangles.size(), triangles);
 
-            // Without the ground it is the same liquid.
+            // Without the base the liquid is the same.
             const Surface open = loft(meshes, solution.droplets, {.open = true, .extent = domain.extent});
             EXPECT_EQ(open.mean_height, closed.mean_height);
             std::size_t flat = 0;
@@ -132,8 +132,8 @@ TEST(Loft, TrianglesWindOutward)
     }
 }
 
-// Normals of a paraboloid. Means over triangles of different sizes are of first order: the largest error inside tends
-// to 10° an edge; measured 4.9, 6.1, 8.3, 9.3, and on the rim 0.9, 0.6, 1.7, 1.7.
+// Normals of a paraboloid. Means over triangles of different sizes are of first order: the largest error inside,
+// divided by the edge length, tends to 10°. Measured: 4.9, 6.1, 8.3, 9.3; on the rim 0.9, 0.6, 1.7, 1.7.
 TEST(Loft, NormalsAreThoseOfTheParaboloid)
 {
     for (const double edge : {0.1, 0.05, 0.025, 0.0125}) {
@@ -153,7 +153,7 @@ TEST(Loft, NormalsAreThoseOfTheParaboloid)
     }
 }
 
-TEST(Loft, RimIsCrisp)
+TEST(Loft, RimHasTwoNormals)
 {
     const SolvedDisc disc = solvedDisc(0.1);
     const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}});
@@ -170,7 +170,7 @@ TEST(Loft, RimIsCrisp)
     EXPECT_EQ(split, disc.meshes[0].rimVertexCount());
 }
 
-/// Grounds under footprints of about the unit disc.
+/// Grounds for footprints with the size of the unit disc.
 std::vector<BaseSurface> grounds()
 {
     HeightMap map{5, 4, {}, false};
@@ -200,7 +200,7 @@ TEST(Loft, TheBaseFollowsTheGround)
         EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-12);
         EXPECT_NEAR(closed.mean_height * area(meshes[0]) / volume, 1.0, 1e-12);
 
-        // Liquid first, then the base: the same places and triangles, the other way round.
+        // The base comes after the liquid, with the same places and with reversed triangles.
         const std::size_t count = meshes[0].vertices.size();
         ASSERT_EQ(closed.positions.size(), 2 * count);
         for (std::size_t v = 0; v < count; ++v) {
@@ -219,7 +219,7 @@ TEST(Loft, TheBaseFollowsTheGround)
     }
 }
 
-// On ground that slopes along the rim, too, the rim's normals are those of the surface itself.
+// Normals at the rim are exact, also on ground that slopes along the rim.
 TEST(Loft, NormalsOnCurvedGroundAreExactOnTheRim)
 {
     const BaseSurface ground([](Vec2 p) {
@@ -251,7 +251,7 @@ TEST(Loft, NormalsOnCurvedGroundAreExactOnTheRim)
     }
 }
 
-TEST(Loft, ContactAnglesStandAtTheLiquidsRim)
+TEST(Loft, ContactAnglesAreAtTheLiquidsRim)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = 0.2});
     for (const BaseSurface& ground : {BaseSurface(), BaseSurface::sphere(2.0)}) {
@@ -278,7 +278,7 @@ TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
     }
 }
 
-TEST(Loft, RefusesWhatDoesNotBelongTogether)
+TEST(Loft, RefusesArgumentsThatDoNotFitTogether)
 {
     SolvedDisc disc = solvedDisc(0.2);
     EXPECT_THROW((void)loft(disc.meshes, {}, {.open = false, .extent = {2, 2}}), Error);

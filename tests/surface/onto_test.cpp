@@ -27,13 +27,13 @@ using testing::together;
 
 const OntoOptions kPicture{.extent = {kExtent, kExtent}};
 
-/// The picture's point in its plane, from its uv.
+/// Point in the picture's plane at a uv.
 Vec2 flatOf(Vec2 uv)
 {
     return {(uv.x - 0.5) * kExtent, (0.5 - uv.y) * kExtent};
 }
 
-/// The picture's own plane as an object.
+/// Object that is the picture's plane.
 Sheet plane()
 {
     return {.columns = 3, .rows = 2, .place = [](Vec2 uv) { return Vec3{flatOf(uv).x, flatOf(uv).y, 0.0}; }};
@@ -44,7 +44,7 @@ double turned(Vec3 a, Vec3 b)
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// Every triangle faces where its vertices' normals do.
+/// Whether every triangle faces in the direction of its vertices' normals.
 bool windsOutward(const Surface& surface)
 {
     return std::all_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
@@ -54,7 +54,7 @@ bool windsOutward(const Surface& surface)
     });
 }
 
-/// Volume enclosed by any closed surface; enclosedVolume goes by z alone, which is the same.
+/// Volume enclosed by a closed surface, from all coordinates.
 double volume(const Surface& surface)
 {
     EXPECT_TRUE(isClosed(surface));
@@ -66,14 +66,14 @@ void expectRefused(const Surface& droplets, const TexturedMesh& object, const On
 {
     try {
         (void)layOnto(droplets, object, options);
-        ADD_FAILURE() << "laid";
+        ADD_FAILURE() << "placed";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), code);
         EXPECT_THAT(error.what(), HasSubstr(words));
     }
 }
 
-TEST(Onto, ThePicturesOwnPlaneChangesNothing)
+TEST(Onto, ThePicturesPlaneChangesNothing)
 {
     Surface droplets = together(roundDroplet({.inner = 1e-3, .outer = 3e-3, .centre = {-5e-3, 2e-3}}),
                                 roundDroplet({.outer = 2e-3, .centre = {6e-3, -6e-3}}));
@@ -95,12 +95,12 @@ TEST(Onto, ThePicturesOwnPlaneChangesNothing)
     EXPECT_THAT(result.report.warnings, ::testing::IsEmpty());
 }
 
-// A similarity of the object is one of the droplet.
-TEST(Onto, FollowsTheObjectsPlaceTurnAndSize)
+// If the object is moved, turned and scaled, so is the droplet.
+TEST(Onto, FollowsTheObjectsPositionRotationAndSize)
 {
     const Surface droplet = roundDroplet({.centre = {1e-3, 2e-3}});
     constexpr double kSize = 2.5;
-    const auto turn = [](Vec3 a) {  // about (1, 2, 2)/3 by 70°, after Rodrigues
+    const auto turn = [](Vec3 a) {  // by 70° around (1, 2, 2)/3: formula of Rodrigues
         const Vec3 axis = (1.0 / 3.0) * Vec3{1, 2, 2};
         const double angle = 70.0 * std::numbers::pi / 180.0;
         return std::cos(angle) * a + std::sin(angle) * cross(axis, a) + (1.0 - std::cos(angle)) * dot(axis, a) * axis;
@@ -115,13 +115,14 @@ TEST(Onto, FollowsTheObjectsPlaceTurnAndSize)
         EXPECT_LT(length(result.surface.normals[v] - turn(droplet.normals[v])), 1e-12);
     }
     EXPECT_NEAR(result.report.min_scale, kSize, 1e-12);
-    EXPECT_NEAR(result.surface.mean_height / (kSize * droplet.mean_height), 1.0, 0.05);  // of a polygon, not a disc
+    EXPECT_NEAR(result.surface.mean_height / (kSize * droplet.mean_height), 1.0, 0.05);  // for a polygon, not a disc
     EXPECT_NEAR(volume(result.surface) / (kSize * kSize * kSize * enclosedVolume(droplet)), 1.0, 1e-12);
     ASSERT_EQ(result.report.warnings.size(), 1U);
     EXPECT_THAT(result.report.warnings[0], HasSubstr("2.5 times as large"));
 }
 
-// A can of radius R about y, the picture's middle on top of it: x runs around, y along. The map is known.
+// Can of radius R around y, with the middle of the picture on top: x runs around, y along the can. The exact map is
+// known.
 constexpr double kCan = 8e-3;
 
 Sheet can(std::uint32_t columns, double radius = kCan)
@@ -140,9 +141,9 @@ Sheet can(std::uint32_t columns, double radius = kCan)
                 }};
 }
 
-// Errors of places and normals against the exact map fall with the square of the can's facets; the base lies on the
-// facets. Measured with 10, 20, 40 facets: places 2.1e-5, 5.3e-6, 1.3e-6 m.
-TEST(Onto, ACanIsFollowedToSecondOrder)
+// Errors of positions and normals fall with the square of the facets' size; the base lies on the facets. Measured
+// errors of positions with 10, 20, 40 facets: 2.1e-5, 5.3e-6, 1.3e-6 m.
+TEST(Onto, FollowsACanToSecondOrder)
 {
     const Surface droplet = roundDroplet({.outer = 7e-3, .height = 1.5e-3, .rings = 16, .segments = 48});
     double place_before = 1.0;
@@ -160,7 +161,7 @@ TEST(Onto, ACanIsFollowedToSecondOrder)
             const double c = std::cos(p.x / kCan);
             const double s = std::sin(p.x / kCan);
             place = std::max(place, length(surface.positions[v] - Vec3{(kCan + p.z) * s, p.y, (kCan + p.z) * c}));
-            // Around, the layer at height z is longer by 1 + z/R, so slopes there are less.
+            // Around the can the layer at height z is longer by 1 + z/R, so slopes are smaller.
             const double around = n.x / (1.0 + p.z / kCan);
             const Vec3 exact = Vec3{c * around + s * n.z, n.y, c * n.z - s * around};
             normal = std::max(normal, turned(surface.normals[v], exact));
@@ -182,9 +183,9 @@ TEST(Onto, ACanIsFollowedToSecondOrder)
     }
 }
 
-// A layer of thickness z on a cylinder holds ∫(z + z²/2R): under a paraboloid πa²(h/2 + h²/6R). Measured 1.5, 0.4, 0.1
-// %.
-TEST(Onto, ACansDropletHoldsItsVolume)
+// A layer of thickness z on a cylinder has the volume ∫(z + z²/2R): πa²(h/2 + h²/6R) under a paraboloid. Measured
+// errors: 1.5, 0.4, 0.1 %.
+TEST(Onto, DropletOnACanHasItsVolume)
 {
     constexpr double kRadius = 7e-3;
     constexpr double kHeight = 1.5e-3;
@@ -205,12 +206,12 @@ TEST(Onto, ACansDropletHoldsItsVolume)
     EXPECT_LT(before, 1.5e-3);
 }
 
-// Between its vertices the base cuts corners: of two facets that meet at an angle θ an edge of length ℓ cuts ℓθ/4 at
-// most.
-TEST(Onto, ABaseLiesOnTheObjectButForCutCorners)
+// Between its vertices the base leaves the object: an edge of length ℓ by at most ℓθ/4, where facets meet at an angle
+// θ.
+TEST(Onto, BaseLeavesTheObjectOnlyAtItsEdges)
 {
     constexpr std::uint32_t kColumns = 10;
-    constexpr double kTurn = kExtent / kColumns / kCan;  // from facet to facet
+    constexpr double kTurn = kExtent / kColumns / kCan;  // angle between facets
     const Surface droplet = roundDroplet({.outer = 7e-3, .rings = 16, .segments = 48});
     const Surface surface = layOnto(droplet, meshOf(can(kColumns)), kPicture).surface;
     double worst = 0.0;
@@ -232,13 +233,13 @@ TEST(Onto, ABaseLiesOnTheObjectButForCutCorners)
             }
         }
     }
-    EXPECT_GT(worst, 0.1e-3 * kTurn);  // corners there are
+    EXPECT_GT(worst, 0.1e-3 * kTurn);  // there are such edges
 }
 
 TEST(Onto, TurnedTextureTurnsTheDroplet)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}});
-    Sheet sheet = plane();  // the picture's x runs along y of space
+    Sheet sheet = plane();  // x of the picture runs along y in space
     sheet.place = [](Vec2 uv) { return Vec3{-flatOf(uv).y, flatOf(uv).x, 0.0}; };
     const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
@@ -248,7 +249,7 @@ TEST(Onto, TurnedTextureTurnsTheDroplet)
     EXPECT_EQ(result.report.mirrored, 0U);
 }
 
-TEST(Onto, MirroredChartsAreReportedAndStillWindOutward)
+TEST(Onto, TrianglesOnMirroredChartsAreReportedAndWindOutward)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}});
     Sheet sheet = plane();
@@ -266,8 +267,8 @@ TEST(Onto, MirroredChartsAreReportedAndStillWindOutward)
     }
 }
 
-// The droplet rises where the object's normals point, whatever its triangles' winding says.
-TEST(Onto, NormalsSayWhereOutsideIs)
+// The droplet rises in the direction of the object's normals; the winding of triangles does not matter.
+TEST(Onto, NormalsDefineTheOutside)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3});
     Sheet sheet = plane();
@@ -275,14 +276,14 @@ TEST(Onto, NormalsSayWhereOutsideIs)
     for (const bool turned_triangles : {false, true}) {
         sheet.turned = turned_triangles;
         const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
-        EXPECT_EQ(result.report.mirrored, 1U);  // from below the picture is seen from behind
+        EXPECT_EQ(result.report.mirrored, 1U);  // from below, the picture is mirrored
         EXPECT_GT(volume(result.surface), 0.0);
         EXPECT_TRUE(windsOutward(result.surface));
         EXPECT_LT(result.surface.positions[0].z, -0.5e-3);
     }
 }
 
-TEST(Onto, OfOverlappingChartsTheFirstIsTakenAndReported)
+TEST(Onto, TheFirstOfOverlappingChartsIsUsedAndReported)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3});
     Sheet upper = plane();
@@ -301,7 +302,7 @@ TEST(Onto, OfOverlappingChartsTheFirstIsTakenAndReported)
     }
 }
 
-// A leaf whose back shares its front's places and uv, triangle by triangle: normals must not cancel.
+// A leaf whose back has the positions and uv of its front, triangle by triangle: normals must not cancel.
 TEST(Onto, ALeafsBackDoesNotDisturbItsFront)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3});
@@ -325,7 +326,7 @@ TEST(Onto, ALeafsBackDoesNotDisturbItsFront)
     EXPECT_EQ(result.report.mirrored, 0U);
 }
 
-/// Two halves of the picture's plane that do not share an edge in space.
+/// Two halves of the picture's plane that share no edge in space.
 TexturedMesh halves()
 {
     Sheet left = plane();
@@ -336,7 +337,7 @@ TexturedMesh halves()
     return together(meshOf(left), meshOf(right));
 }
 
-TEST(Onto, DropletsOffOrAcrossChartsAreLeftOutWhole)
+TEST(Onto, DropletsBesideOrAcrossChartsAreLeftOut)
 {
     const Surface left = roundDroplet({.outer = 2e-3, .centre = {-5e-3, 0}});
     const Surface middle = roundDroplet({.outer = 2e-3, .centre = {1e-3, 0}});
@@ -352,12 +353,12 @@ TEST(Onto, DropletsOffOrAcrossChartsAreLeftOutWhole)
     EXPECT_NEAR(result.surface.positions.back().z, 1.0, 1e-12);
     EXPECT_NEAR(volume(result.surface) / (2.0 * enclosedVolume(left)), 1.0, 1e-9);
     EXPECT_THAT(result.report.warnings,
-                ::testing::ElementsAre(HasSubstr("not wholly on a chart"), HasSubstr("across a seam")));
+                ::testing::ElementsAre(HasSubstr("not completely on a chart"), HasSubstr("across a seam")));
 
     expectRefused(together(middle, off), halves(), kPicture, ErrorCode::NoSuchDroplet, "none of 2 droplets");
 }
 
-// At the rim of the picture and of the chart, and on edges between triangles, round-off must not tell.
+// Round-off must not matter at the border of the picture and the chart, and on edges between triangles.
 TEST(Onto, EdgesBelongToTheChart)
 {
     const double radius = 0.5 * kExtent;
@@ -369,8 +370,8 @@ TEST(Onto, EdgesBelongToTheChart)
     }
 }
 
-// x is stretched by 1 + 4u, in facets: heights must follow √(1 + 4u) without the facets' steps.
-// Measured 1.6e-3, 4.3e-4, 1.1e-4; the facets' own stretch would be off by 2 % with 32 columns.
+// x is stretched by 1 + 4u, in facets. Heights must follow √(1 + 4u) without steps at the facets.
+// Measured errors: 1.6e-3, 4.3e-4, 1.1e-4; the stretch of single facets has an error of 2 % with 32 columns.
 TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
 {
     const Surface droplet = roundDroplet({.outer = 5e-3, .rings = 20, .segments = 60});
@@ -395,8 +396,8 @@ TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
     EXPECT_LT(before, 1e-3);
 }
 
-// On a plane stretched one way the image is a known affine map, and so are its normals and contact angles.
-TEST(Onto, AnisotropicStretchTiltsNormalsAsItMust)
+// On a plane stretched in one direction the map is affine, and normals and contact angles are known.
+TEST(Onto, AnisotropicStretchTiltsNormals)
 {
     Surface droplet = roundDroplet({.outer = 4e-3});
     droplet.contact_angle.assign(droplet.positions.size(), 0.0F);
@@ -416,7 +417,7 @@ TEST(Onto, AnisotropicStretchTiltsNormalsAsItMust)
     }
 }
 
-// Facets of a can without smooth normals of their own: vertices stand apart, but at one place in space and uv.
+// Facets of a can with flat normals: vertices are separate, but have one position in space and uv.
 TEST(Onto, FacetedNormalsAreSmoothed)
 {
     const Surface droplet = roundDroplet({.outer = 5e-3});
@@ -442,9 +443,9 @@ TEST(Onto, FacetedNormalsAreSmoothed)
     }
 }
 
-TEST(Onto, WhatWouldFoldIsLeftOut)
+TEST(Onto, DropletsThatWouldFoldAreLeftOut)
 {
-    // From inside a tube the layer shrinks by 1 − z/R: it folds where the droplet is higher than the tube's radius.
+    // Inside a tube the layer shrinks by 1 − z/R, so it folds if the droplet is higher than the tube's radius.
     constexpr double kTube = 4e-3;
     Sheet tube = can(80, kTube);
     tube.place = [](Vec2 uv) {
@@ -458,10 +459,10 @@ TEST(Onto, WhatWouldFoldIsLeftOut)
     EXPECT_EQ(result.report.laid, 1U);
     EXPECT_EQ(result.report.folded, 1U);
     EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("hollow")));
-    expectRefused(high, meshOf(tube), kPicture, ErrorCode::NoSuchDroplet, "1 thicker");
+    expectRefused(high, meshOf(tube), kPicture, ErrorCode::NoSuchDroplet, "1 too high");
 }
 
-TEST(Onto, TrianglesWithoutAreaCarryNothing)
+TEST(Onto, TrianglesWithoutAreaAreIgnored)
 {
     TexturedMesh object = meshOf(plane());
     object.triangles.insert(object.triangles.begin(), {0, 1, 1});
@@ -472,30 +473,30 @@ TEST(Onto, TrianglesWithoutAreaCarryNothing)
     EXPECT_THROW((void)metresPerUv(object), Error);
 }
 
-// A droplet of many vertices, in parallel and not.
-TEST(Onto, ThreadsDoNotTell)
+// A droplet of many vertices, with one and several threads.
+TEST(Onto, SameBitsAtAnyNumberOfThreads)
 {
     const Surface droplet = roundDroplet({.outer = 8e-3, .rings = 100, .segments = 200});
-    const auto laid = [&] { return layOnto(droplet, meshOf(can(50)), kPicture).surface; };
-    const Surface parallel = laid();
+    const auto placed = [&] { return layOnto(droplet, meshOf(can(50)), kPicture).surface; };
+    const Surface parallel = placed();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Surface sequential = laid();
+    const Surface sequential = placed();
     EXPECT_EQ(parallel.positions, sequential.positions);
     EXPECT_EQ(parallel.normals, sequential.normals);
     EXPECT_EQ(parallel.triangles, sequential.triangles);
 }
 
-TEST(Onto, MetresPerUvAreTheObjectsOwn)
+TEST(Onto, MetresPerUvMatchTheObject)
 {
     EXPECT_NEAR(metresPerUv(meshOf(plane())), kExtent, 1e-15);
     Sheet oblong = plane();
     oblong.place = [](Vec2 uv) { return Vec3{4.0 * uv.x, 9.0 * uv.y, 0.0}; };
     EXPECT_NEAR(metresPerUv(meshOf(oblong)), 6.0, 1e-12);
-    // A picture of that aspect and √a times that wide comes out at scale 1.
+    // A picture with that aspect and √a times that width has scale 1.
     const double width = metresPerUv(meshOf(oblong)) * std::sqrt(4.0 / 9.0);
     Surface droplet = roundDroplet();
     EXPECT_NEAR(layOnto(droplet, meshOf(oblong), {.extent = {width, width * 9.0 / 4.0}}).report.max_scale, 1.0, 1e-12);
-    // A lid of less area, unwrapped small, does not count.
+    // A lid with less area, unwrapped small, does not change the median.
     Sheet lid = plane();
     lid.uv_end = {0.01, 0.01};
     lid.place = [](Vec2 uv) { return Vec3{300.0 * uv.x, 300.0 * uv.y, 5.0}; };

@@ -95,7 +95,7 @@ TEST(Topology, DropletsAddUp)
     expectManifold(together(together(ring, disc), dome), {3, 3, 1});
 }
 
-TEST(Topology, WithoutWeldingDomeAndBaseAreTwoDiscs)
+TEST(Topology, DomeAndBaseAreTwoDiscsWithoutWelding)
 {
     Surface surface = roundDroplet();
     for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
@@ -104,7 +104,7 @@ TEST(Topology, WithoutWeldingDomeAndBaseAreTwoDiscs)
     expectManifold(surface, {2, 2, 2});
 }
 
-TEST(Topology, VerticesOfNoTriangleDoNotCount)
+TEST(Topology, VerticesWithoutTrianglesDoNotCount)
 {
     Surface surface = roundDroplet();
     surface.positions.push_back({9.0, 9.0, 9.0});
@@ -114,14 +114,14 @@ TEST(Topology, VerticesOfNoTriangleDoNotCount)
     expectManifold(surface, {2, 1, 0});
 }
 
-TEST(Topology, TheSmallestSurfaces)
+TEST(Topology, TheSmallestSurfacesAreManifolds)
 {
     expectManifold(soup({{0, 1, 2}}, 3), {1, 1, 1});
     expectManifold(soup({{0, 1, 2}, {0, 2, 1}}, 3), {2, 1, 0});
     expectManifold(soup({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4), {2, 1, 0});
 }
 
-TEST(Topology, NonManifoldsAreReportedInSilence)
+TEST(Topology, NonManifoldsAreReportedWithoutMessages)
 {
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
@@ -183,7 +183,8 @@ TEST(Topology, TheOrderOfTrianglesDoesNotMatter)
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-// Manifold by definition: directed edges once; around every vertex all triangles joined through edges at the vertex.
+// Definition of a manifold: every directed edge occurs once; around every vertex all triangles are joined through edges
+// at the vertex.
 bool manifoldByDefinition(const std::vector<Triangle>& triangles)
 {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -248,14 +249,14 @@ TEST(Topology, AgreesWithTheDefinitionOnEverySmallSoup)
     EXPECT_GT(manifolds, 500);
 }
 
-// A vertex of few triangles is looked at in another way than one of many.
+// Vertices with few triangles are examined in another way than those with many.
 TEST(Topology, AgreesWithTheDefinitionAroundVerticesOfAnyValence)
 {
     std::mt19937 random(3);
     std::map<bool, int> runs;
     for (std::uint32_t valence = 2; valence <= 30; ++valence) {
         for (int run = 0; run < 200; ++run) {
-            // A wheel around vertex 0, spoilt in up to two places.
+            // A wheel around vertex 0, damaged in up to two places.
             std::vector<Triangle> triangles;
             for (std::uint32_t k = 0; k < valence; ++k) {
                 triangles.push_back({0, 1 + k, 1 + (k + 1) % valence});
@@ -293,9 +294,9 @@ TEST(Topology, AgreesWithTheDefinitionAroundVerticesOfAnyValence)
     EXPECT_GT(runs[false], 1000);
 }
 
-TEST(Topology, ManyThreadsFindTheSame)
+TEST(Topology, IsTheSameAtAnyNumberOfThreads)
 {
-    // Every ring of triangles is a component of its own, of two boundary loops.
+    // Every ring of triangles is a component with two boundary loops.
     Surface surface = roundDroplet({.inner = 1e-3, .open = true});
     for (int k = 0; k < 8; ++k) {
         surface = together(surface, surface);
@@ -308,7 +309,7 @@ TEST(Topology, ManyThreadsFindTheSame)
         EXPECT_EQ(found.euler, 0);
         EXPECT_EQ(found.components, 256U);
         EXPECT_EQ(found.boundary_loops, 512U);
-        // Trouble in the last of all parts.
+        // A fault in the last part.
         Surface spoilt = surface;
         std::swap(spoilt.triangles.back()[0], spoilt.triangles.back()[1]);
         EXPECT_FALSE(topology(spoilt).manifold);
@@ -348,7 +349,7 @@ TEST(EnclosedVolume, ABaseAtZeroAddsNothing)
     EXPECT_EQ(enclosedVolume(roundDroplet({.open = true})), enclosedVolume(roundDroplet()));
 }
 
-TEST(Surface, RefusesWhatBreaksItsInvariants)
+TEST(Surface, RefusesBrokenInvariants)
 {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -395,7 +396,7 @@ TEST(Surface, RefusesWhatBreaksItsInvariants)
     }
 }
 
-TEST(Surface, NamesTheFirstFaultOfAllAtAnyNumberOfThreads)
+TEST(Surface, NamesTheFirstFaultAtAnyNumberOfThreads)
 {
     Surface surface = roundDroplet({.rings = 100, .segments = 300});
     const std::size_t count = surface.positions.size();

@@ -34,7 +34,7 @@ using testing::volumeOf;
 
 using IsDry = std::function<bool(std::uint32_t, Vec2)>;
 
-/// A field over a mesh that is dry where said.
+/// Field over a mesh with the given dry vertices.
 HeightField fieldWith(const PlanarMesh& mesh, const BaseSurface& ground, const IsDry& is_dry)
 {
     HeightField field = liquidOn(mesh, ground, [](Vec2 p) { return 0.3 + 0.1 * p.x; });
@@ -53,7 +53,7 @@ bool isGrounded(const PlanarMesh& mesh, const HeightField& field, const Triangle
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.onRim(v) || field.dry[v] != 0; });
 }
 
-/// What must hold of the parts of any droplet, and of the surface made of them.
+/// Checks the invariants of parts, and of the surface made of them.
 void expectSound(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
 {
     const std::vector<WetPart> parts = wetParts(mesh, field, ground);
@@ -85,7 +85,7 @@ void expectSound(const PlanarMesh& mesh, const HeightField& field, const BaseSur
             ASSERT_EQ(part.field.thicknessAt(v) == 0.0, held);
             ASSERT_NEAR(part.field.groundAt(v), ground.at(part.mesh.vertices[v]).height, 1e-15);
         }
-        // The outer loop first: alone it runs counter-clockwise.
+        // The outer loop comes first; only this one runs counter-clockwise.
         for (std::size_t k = 0; k < part.mesh.loopCount(); ++k) {
             double enclosed = 0.0;
             for (std::uint32_t v = part.mesh.loop_starts[k]; v < part.mesh.loop_starts[k + 1]; ++v) {
@@ -124,9 +124,9 @@ PlanarMesh discMesh(double edge)
 const BaseSurface kFlat;
 const BaseSurface kBowl = BaseSurface::sphere(-3.0);
 
-// Dry sets of all kinds: single vertices, thick and thin, patches that touch the rim or one another in a vertex, and
-// such as leave little.
-TEST(WetParts, AreSoundWhateverIsDry)
+// Dry sets of all kinds: single vertices, thick and thin patches, patches that touch the rim or each other at a vertex,
+// and sets that leave little liquid.
+TEST(WetParts, AreSoundForAnyDrySet)
 {
     std::mt19937 random(5);
     std::vector<PlanarMesh> meshes{discMesh(0.12)};
@@ -147,7 +147,7 @@ TEST(WetParts, AreSoundWhateverIsDry)
         for (const Vec2 p : mesh.vertices) {
             size = std::max(size, length(p));
         }
-        // Ground that bends as much under every mesh, whatever its size.
+        // The ground's curvature is relative to the size of the mesh.
         const BaseSurface bowl = BaseSurface::sphere(-3.0 * size);
         for (int trial = 0; trial < 24; ++trial) {
             SCOPED_TRACE("mesh " + std::to_string(m) + ", trial " + std::to_string(trial));
@@ -187,14 +187,14 @@ TEST(WetParts, AreSoundWhateverIsDry)
             splits += made - kept;
         }
     }
-    // What is awkward did occur.
+    // All awkward cases occurred.
     EXPECT_GT(splits, 1000U);
     EXPECT_GT(several, 50U);
     EXPECT_GT(holes, 50U);
     EXPECT_GT(pinched, 100U);
 }
 
-TEST(WetParts, WithoutDryVerticesAreTheDroplet)
+TEST(WetParts, AreTheDropletIfNothingIsDry)
 {
     const PlanarMesh mesh = discMesh(0.2);
     const HeightField field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2) { return false; });
@@ -206,7 +206,7 @@ TEST(WetParts, WithoutDryVerticesAreTheDroplet)
     expectSound(mesh, field, kBowl);
 }
 
-TEST(WetParts, OneDryVertexStaysInside)
+TEST(WetParts, OneDryVertexStaysAnInnerVertex)
 {
     const PlanarMesh mesh = discMesh(0.2);
     std::size_t inside = 0;
@@ -227,7 +227,7 @@ TEST(WetParts, OneDryVertexStaysInside)
     EXPECT_GT(inside, 20U);
 }
 
-TEST(WetParts, OneVertexThatIsNotDryKeepsItsTriangles)
+TEST(WetParts, OneWetVertexKeepsItsTriangles)
 {
     const PlanarMesh mesh = discMesh(0.2);
     for (std::uint32_t only = mesh.rimVertexCount(); only < mesh.vertices.size(); only += 7) {
@@ -264,10 +264,10 @@ TEST(WetParts, ADryPatchInsideIsAHoleOfTheSameArea)
     expectSound(mesh, field, kFlat);
 }
 
-// Two dry patches on both sides of a vertex they share: it is there once for the liquid on either side.
+// Two dry patches share a vertex: the liquid has two copies of it.
 TEST(WetParts, PatchesThatTouchDiagonallyPinch)
 {
-    // A square of four triangles around its middle, in a ring of others: two opposite ones dry.
+    // A square of four triangles around its middle, in a ring of others; two opposite ones are dry.
     PlanarMesh mesh;
     const auto add = [&](double x, double y) { mesh.vertices.push_back({x, y}); };
     for (int k = 0; k < 8; ++k) {
@@ -296,12 +296,12 @@ TEST(WetParts, PatchesThatTouchDiagonallyPinch)
     expectSound(mesh, field, bowl);
     const std::vector<WetPart> parts = wetParts(mesh, field, bowl);
     ASSERT_EQ(parts.size(), 1U);
-    // The two holes are one loop through the middle, which stands twice.
+    // Both holes are one loop that passes the middle twice.
     EXPECT_EQ(parts[0].mesh.loop_starts, (std::vector<std::uint32_t>{0, 8, 14}));
     EXPECT_EQ(std::count(parts[0].mesh.vertices.begin(), parts[0].mesh.vertices.end(), Vec2{}), 2);
 }
 
-// An inner edge from dry patch to rim: in the liquid's surface and in the base it must not be the same one.
+// The surface and the base must not share an inner edge from a dry patch to the rim.
 TEST(WetParts, EdgesAcrossTheLiquidAreSplit)
 {
     const PlanarMesh mesh = discMesh(0.1);
@@ -323,7 +323,7 @@ TEST(WetParts, EdgesAcrossTheLiquidAreSplit)
     EXPECT_GT(middles, 10U);
 }
 
-TEST(WetParts, LieOnTheGroundWhereTheRimIsNew)
+TEST(WetParts, LieOnTheGroundAlongANewRim)
 {
     const PlanarMesh mesh = discMesh(0.1);
     HeightField field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2 p) { return length(p - Vec2{0.5, 0}) < 0.4; });
@@ -343,7 +343,7 @@ TEST(WetParts, LieOnTheGroundWhereTheRimIsNew)
         }
     }
     EXPECT_GT(is_new, 10U);
-    // So normals there are the ground's, turned over.
+    // So normals there are the reversed normals of the base.
     const Surface surface = loft({mesh}, {field}, {.extent = {1, 1}, .ground = kBowl});
     std::size_t compared = 0;
     for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {

@@ -48,12 +48,12 @@ TEST(ContourUnion, OverlappingContoursAreOneLoop)
     EXPECT_EQ(united.loops[0].size(), 8U);
     EXPECT_EQ(polygonArea(united.loops[0]), 1.75);
     EXPECT_EQ(united.specks, 0U);
-    // Whichever way a font runs: TrueType's outer contours run clockwise, PostScript's counter-clockwise.
+    // In both directions: TrueType's outer contours run clockwise, PostScript's counter-clockwise.
     EXPECT_EQ(unite({backward(a), backward(b)}, 0.0).loops, united.loops);
     EXPECT_EQ(unite({b, a, a}, 0.0).loops, united.loops);
 }
 
-TEST(ContourUnion, HolesAreContoursThatRunTheOtherWay)
+TEST(ContourUnion, HolesAreContoursInTheOppositeDirection)
 {
     const Contour outer = square({0, 0}, 1.0);
     const Contour inner = square({0.25, 0.25}, 0.5);
@@ -66,7 +66,7 @@ TEST(ContourUnion, HolesAreContoursThatRunTheOtherWay)
     EXPECT_EQ(unite({outer, backward(outer)}, 0.0).loops, std::vector<Contour>{});
 }
 
-TEST(ContourUnion, ContoursThatAbutAreOne)
+TEST(ContourUnion, AdjacentContoursAreJoined)
 {
     const United united = unite({square({0, 0}, 1.0), square({1, 0}, 1.0)}, 0.0);
     ASSERT_EQ(united.loops.size(), 1U);
@@ -74,7 +74,7 @@ TEST(ContourUnion, ContoursThatAbutAreOne)
     EXPECT_EQ(polygonArea(united.loops[0]), 2.0);
 }
 
-TEST(ContourUnion, LoopsThatTouchArePartedByALittle)
+TEST(ContourUnion, LoopsThatTouchAreSeparatedByASmallGap)
 {
     const struct {
         const char* what;
@@ -98,24 +98,24 @@ TEST(ContourUnion, LoopsThatTouchArePartedByALittle)
         EXPECT_EQ(united.loops.size(), loops);
         EXPECT_GT(minGap(united.loops), 0.5 * kGap);
         EXPECT_LT(totalArea(united), area);
-        EXPECT_GT(totalArea(united), area - 10.001 * kGap) << "half a gap all round, no more";
+        EXPECT_GT(totalArea(united), area - 10.001 * kGap) << "at most half a gap on all sides";
     }
 }
 
-TEST(ContourUnion, WhatDoesNotTouchIsLeftAlone)
+TEST(ContourUnion, LoopsThatDoNotTouchStay)
 {
-    // Four times nearer than the gap that touching sides get.
+    // A quarter of the gap that touching sides get.
     const Contour a = square({0, 0}, 1.0);
     const Contour b = square({1 + kGap / 4, 0}, 1.0);
     EXPECT_EQ(unite({a, b}, 0.0).loops, (std::vector<Contour>{a, b}));
 }
 
-TEST(ContourUnion, NothingComesOfNothing)
+TEST(ContourUnion, ContoursWithoutAreaGiveNoLoops)
 {
     EXPECT_EQ(unite({}, 0.0).loops.size(), 0U);
     EXPECT_EQ(unite({{}, {{1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 1}, {2, 2}}}, 0.0).loops.size(), 0U);
     EXPECT_EQ(unite({{{0, 0}, {1, 0}, {0, 0}, {1, 0}}}, 0.0).loops.size(), 0U);
-    // A line that leads to a square and back encloses the square.
+    // A line to a square and back encloses only the square.
     const United united = unite({{{0, 0}, {1, 0}, {1, -1}, {2, -1}, {2, 0}, {1, 0}}}, 0.0);
     ASSERT_EQ(united.loops.size(), 1U);
     EXPECT_EQ(polygonArea(united.loops[0]), 1.0);
@@ -129,7 +129,7 @@ TEST(ContourUnion, SpecksAreDroppedAndCounted)
     const United united = unite(contours, 5e-4);
     EXPECT_EQ(united.loops.size(), 2U);
     EXPECT_EQ(united.specks, 2U);
-    EXPECT_NEAR(totalArea(united), 1.01, 1e-6) << "a dry speck fills up";
+    EXPECT_NEAR(totalArea(united), 1.01, 1e-6) << "a dry speck is filled";
 }
 
 TEST(ContourUnion, PointsAreInsideWhereContoursWindAroundThem)
@@ -140,7 +140,7 @@ TEST(ContourUnion, PointsAreInsideWhereContoursWindAroundThem)
         std::vector<Contour> contours(1 + random() % 3);
         for (Contour& contour : contours) {
             for (std::size_t i = 0, n = 3 + random() % 8; i < n; ++i) {
-                // Also on a coarse lattice, where much touches and coincides.
+                // Also on a coarse lattice, where many sides touch and coincide.
                 contour.push_back(trial % 2 == 0
                                       ? Vec2{uniform(), uniform()}
                                       : Vec2{std::floor(5.0 * uniform()) / 4.0, std::floor(5.0 * uniform()) / 4.0});
@@ -162,7 +162,7 @@ TEST(ContourUnion, PointsAreInsideWhereContoursWindAroundThem)
             for (const Contour& loop : united.loops) {
                 inside += windingNumber(loop, p);
             }
-            // Sharp corners of what is parted are cut by up to two gaps.
+            // Sharp corners of separated loops are cut by up to two gaps.
             if (away > 3.0 * kGap) {
                 EXPECT_EQ(inside, around != 0 ? 1 : 0) << trial << ": " << p.x << ", " << p.y;
             }

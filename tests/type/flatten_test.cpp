@@ -27,7 +27,7 @@ Vec2 cubicAt(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double t)
     return mix(conicAt(a, b, c, t), conicAt(b, c, d, t), t);
 }
 
-/// The farthest a curve lies from an open polygon through points of it.
+/// Largest distance of a curve from an open polyline through points of it.
 template <typename Curve>
 double farthest(const Contour& pieces, const Curve& curve)
 {
@@ -62,8 +62,8 @@ TEST(Flatten, ConicsStayWithinTheTolerance)
         const double off = farthest(pieces, [&](double t) { return conicAt(a, b, c, t); });
         EXPECT_LE(off, tolerance);
         EXPECT_EQ(pieces.back(), c);
-        // A conic's second difference is the same everywhere, so that the bound is met but for rounding up, and for
-        // the 10° a piece may turn.
+        // The second difference of a conic is constant, so the bound is sharp except for rounding up and the limit of
+        // 10° per piece.
         if (tolerance < 1e-3) {
             EXPECT_GT(off, 0.3 * tolerance);
         }
@@ -84,7 +84,7 @@ TEST(Flatten, CubicsStayWithinTheTolerance)
     }
 }
 
-TEST(Flatten, PiecesAreShortAndTurnLittleWhateverTheTolerance)
+TEST(Flatten, PiecesAreShortAndTurnLittleAtAnyTolerance)
 {
     // A quarter of a circle.
     const double k = 0.5522847498;

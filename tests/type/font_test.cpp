@@ -38,7 +38,7 @@ void expectError(ErrorCode code, const std::vector<std::string>& words, Function
     }
 }
 
-TEST(Font, SaysWhatItHolds)
+TEST(Font, HasNamesGlyphsAndCharacters)
 {
     const Font font = readFont(kSans);
     EXPECT_EQ(font.family(), "DejaVu Sans");
@@ -54,7 +54,7 @@ TEST(Font, SaysWhatItHolds)
     EXPECT_EQ(font.nameOf(font.glyphOf('&').value()), "ampersand");
 }
 
-TEST(Font, CopiesAreOneFont)
+TEST(Font, CopiesShareTheFace)
 {
     const Font font = readFont(kSans);
     const Font copy = font;
@@ -72,7 +72,7 @@ TEST(Font, AxesHaveTagsAndRanges)
     EXPECT_EQ(weight->max, 900.0);
 }
 
-TEST(Font, AxesAreRefusedWithWhatThereIs)
+TEST(Font, ErrorsOfAxesListTheExistingOnes)
 {
     expectError(ErrorCode::InvalidArgument, {"Inter.var.ttf", "axis 'wdth'", "no such axis", "wght from 100 to 900"},
                 [] {
@@ -100,8 +100,8 @@ TEST(Font, FacesAreCountedFromZero)
     });
 }
 
-/// A collection of two fonts, as the OpenType specification lays it out: `ttcf`, version 1.0, where their tables' lists
-/// begin. Places in those lists are counted from the beginning of the file, so they move.
+/// Collection of fonts after the OpenType specification: `ttcf`, version 1.0, and offsets of their table directories.
+/// Offsets in those count from the beginning of the file, so they change.
 std::vector<std::byte> collectionOf(const std::vector<std::vector<std::byte>>& fonts)
 {
     std::vector<std::byte> file;
@@ -135,7 +135,7 @@ std::vector<std::byte> collectionOf(const std::vector<std::vector<std::byte>>& f
     return file;
 }
 
-TEST(Font, CollectionsHoldSeveralFonts)
+TEST(Font, CollectionsHaveSeveralFonts)
 {
     const std::vector<std::byte> both = collectionOf({bytesOf(kSans), bytesOf(testing::kSerif)});
     EXPECT_EQ(decodeFont(both, {0, {}}).family(), "DejaVu Sans");
@@ -146,16 +146,16 @@ TEST(Font, CollectionsHoldSeveralFonts)
     expectError(ErrorCode::InvalidArgument, {"face index 65536 is too large"}, [&] { decodeFont(both, {65536, {}}); });
 }
 
-TEST(Font, WhatIsNoFontIsRefused)
+TEST(Font, FilesThatAreNotFontsAreRefused)
 {
-    expectError(ErrorCode::InvalidInput, {"is no font"}, [] { decodeFont({}); });
+    expectError(ErrorCode::InvalidInput, {"is not a font"}, [] { decodeFont({}); });
     expectError(ErrorCode::InvalidInput, {"cannot read /no/such.ttf"}, [] { readFont("/no/such.ttf"); });
     expectError(ErrorCode::InvalidInput, {"cannot read /usr"}, [] { readFont("/usr"); });
-    expectError(ErrorCode::InvalidInput, {"CMakeLists.txt: is no font"},
+    expectError(ErrorCode::InvalidInput, {"CMakeLists.txt: is not a font"},
                 [] { readFont(testing::inSource("CMakeLists.txt")); });
 }
 
-TEST(Font, FontsOfPicturesAreRefused)
+TEST(Font, BitmapFontsAreRefused)
 {
     // The smallest font in the Glyph Bitmap Distribution Format: one glyph, of pixels.
     const std::string text =
@@ -163,12 +163,12 @@ TEST(Font, FontsOfPicturesAreRefused)
         "FONTBOUNDINGBOX 8 8 0 0\nSTARTPROPERTIES 2\nFONT_ASCENT 8\nFONT_DESCENT 0\nENDPROPERTIES\nCHARS 1\n"
         "STARTCHAR A\nENCODING 65\nSWIDTH 1000 0\nDWIDTH 8 0\nBBX 8 1 0 0\nBITMAP\nFF\nENDCHAR\nENDFONT\n";
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    expectError(ErrorCode::InvalidInput, {"pictures of its glyphs, no outlines"}, [&] {
+    expectError(ErrorCode::InvalidInput, {"bitmaps of its glyphs, not outlines"}, [&] {
         decodeFont({first, text.size()});
     });
 }
 
-/// Opens, measures and draws what can be; all there may be is an Error.
+/// Opens, measures and draws everything; only an Error is allowed.
 void useAll(std::span<const std::byte> encoded)
 {
     try {
@@ -186,7 +186,7 @@ void useAll(std::span<const std::byte> encoded)
     }
 }
 
-TEST(Font, CutOffFilesAreNoMoreThanErrors)
+TEST(Font, CutOffFilesCauseOnlyErrors)
 {
     const std::vector<std::byte> whole = bytesOf(testing::kSerif);
     for (std::size_t k = 0; k < 40; ++k) {
@@ -197,14 +197,14 @@ TEST(Font, CutOffFilesAreNoMoreThanErrors)
     }
 }
 
-TEST(Font, DamagedFilesAreNoMoreThanErrors)
+TEST(Font, DamagedFilesCauseOnlyErrors)
 {
     std::mt19937 random(11);
     for (const char* path : {testing::kSerif, kVariable}) {
         const std::vector<std::byte> whole = bytesOf(path);
         for (int trial = 0; trial < 12; ++trial) {
             std::vector<std::byte> damaged = whole;
-            // The tables' list and heads, or anywhere.
+            // In the directory and heads of tables, or anywhere.
             const std::size_t reach = trial % 2 == 0 ? 2000 : damaged.size();
             for (int k = 0; k < 1 << (trial % 8); ++k) {
                 damaged[random() % reach] = static_cast<std::byte>(random() & 0xffU);
@@ -214,7 +214,7 @@ TEST(Font, DamagedFilesAreNoMoreThanErrors)
     }
 }
 
-TEST(Charset, NamesCharactersAndRanges)
+TEST(Charset, HasCharactersAndRanges)
 {
     EXPECT_THAT(parseCharset("abc"), ElementsAre('a', 'b', 'c'));
     EXPECT_THAT(parseCharset("A-C0-2"), ElementsAre('A', 'B', 'C', '0', '1', '2'));
@@ -228,20 +228,20 @@ TEST(Charset, NamesCharactersAndRanges)
     EXPECT_THAT(parseCharset("U+"), ElementsAre('U', '+'));
     EXPECT_THAT(parseCharset("U+41"), ElementsAre('U', '+', '4', '1')) << "four digits at least";
     EXPECT_THAT(parseCharset("U+00411"), ElementsAre(0x411));
-    EXPECT_EQ(parseCharset("U+0000-U+10FFFF").size(), 0x110000U - 0x800U) << "surrogates are no characters";
+    EXPECT_EQ(parseCharset("U+0000-U+10FFFF").size(), 0x110000U - 0x800U) << "surrogates are not characters";
 }
 
-TEST(Charset, IsRefusedWithAReason)
+TEST(Charset, ErrorsGiveTheReason)
 {
     expectError(ErrorCode::InvalidArgument, {"charset is empty"}, [] { parseCharset(" "); });
     expectError(ErrorCode::InvalidArgument, {"U+005A 'Z' to U+0041 'A' runs backward"}, [] { parseCharset("Z-A"); });
-    expectError(ErrorCode::InvalidArgument, {"U+110000 is no character"}, [] { parseCharset("U+110000"); });
+    expectError(ErrorCode::InvalidArgument, {"U+110000 is not a character"}, [] { parseCharset("U+110000"); });
     for (const char* text : {"a\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82", "\x80"}) {
         expectError(ErrorCode::InvalidArgument, {"not UTF-8 at byte"}, [&] { parseCharset(text); });
     }
 }
 
-TEST(Charset, OfATextIsWhatShows)
+TEST(Charset, OfATextHasItsVisibleCharacters)
 {
     EXPECT_THAT(charactersOf("to be,\r\n\tor not"), ElementsAre('t', 'o', 'b', 'e', ',', 'r', 'n'));
     EXPECT_THAT(charactersOf("a-c"), ElementsAre('a', '-', 'c'));
@@ -255,7 +255,7 @@ TEST(Charset, CharactersAreShownByCodePoint)
     EXPECT_EQ(shownCharacter(U'水'), "U+6C34 '水'");
     EXPECT_EQ(shownCharacter(U'\U0001F4A7'), "U+1F4A7 '\U0001F4A7'");
     EXPECT_EQ(shownCharacter('\n'), "U+000A");
-    EXPECT_EQ(shownCharacter(0x202e), "U+202E") << "would turn the line around";
+    EXPECT_EQ(shownCharacter(0x202e), "U+202E") << "it would reverse the line";
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Box inkOf(const Outline& outline)
     return box;
 }
 
-TEST(Glyph, HasTheLoopsAndCornersItIsDrawnWith)
+TEST(Glyph, HasTheLoopsAndCornersOfTheFont)
 {
     const Font font = readFont(kSans);
     const struct {
@@ -112,10 +112,10 @@ TEST(Glyph, HasTheLoopsAndCornersItIsDrawnWith)
     }
 }
 
-TEST(Glyph, MeasuresWhatTheFontSays)
+TEST(Glyph, HasTheSizesOfTheFont)
 {
     const Font font = readFont(kSans);
-    // The bar of l: from 193 to 377 and 0 to 1556, of 2048 to the em; its advance 569, ascender 1901, descender −483.
+    // The bar of l: from 193 to 377 and 0 to 1556, in 2048ths of an em; advance 569, ascender 1901, descender −483.
     const Outline l = glyphOf(font, 'l');
     const Box ink = inkOf(l);
     EXPECT_DOUBLE_EQ(ink.high.x - ink.low.x, 184.0 / 2048.0);
@@ -124,13 +124,13 @@ TEST(Glyph, MeasuresWhatTheFontSays)
     EXPECT_DOUBLE_EQ(l.extent.y, (1901.0 + 483.0) / 2048.0);
     EXPECT_DOUBLE_EQ(ink.low.y, -(1901.0 - 483.0) / 2.0 / 2048.0) << "the base line";
     EXPECT_EQ(l.pixel_size, 0.0);
-    // The same in the size asked for.
+    // The same in another size.
     const Outline large = glyphOutline(font, font.glyphOf('l').value(), {0.05, {}, 1e-5});
     EXPECT_NEAR(inkOf(large).high.x, 0.05 * ink.high.x, 1e-12);
     EXPECT_NEAR(large.extent.y, 0.05 * l.extent.y, 1e-12);
 }
 
-TEST(Glyph, PointsAreCloseAndCornersStand)
+TEST(Glyph, PointsAreCloseAndCornersStay)
 {
     const Font font = readFont(kSans);
     for (const char32_t character : U"lgR&@") {
@@ -191,12 +191,12 @@ TEST(Glyph, BlanksHaveNoInk)
     }
 }
 
-TEST(Glyph, StandsAtTheSameHeightAsOthersEvenIfItIsTall)
+TEST(Glyph, HasTheBaseLineOfOthersEvenIfItIsTall)
 {
     const Font font = readFont(kSans);
     const auto base = [&](char32_t c) { return inkOf(glyphOf(font, c)).low.y; };
     EXPECT_DOUBLE_EQ(base('l'), base('H'));
-    // Its box is enlarged to hold it, and stays centred.
+    // Its box grows to contain it, and stays centred.
     const Outline tall = glyphOf(font, U'⎮');
     EXPECT_GT(tall.extent.y, glyphOf(font, 'l').extent.y);
     for (GlyphId glyph = 0; glyph < font.glyphCount(); glyph += 97) {
@@ -213,12 +213,12 @@ TEST(Glyph, EnclosesTheExactAreaOfItsCurves)
 {
     for (const char* path : {kSans, testing::kSerif}) {
         const Font font = readFont(path);
-        const RenderedFont rendered(path, 2048);  // of so many units, so that nothing is rounded
+        const RenderedFont rendered(path, 2048);  // one pixel per unit, so that nothing is rounded
         for (char32_t character = '!'; character <= '~'; ++character) {
             SCOPED_TRACE(shownCharacter(character));
             const GlyphId glyph = font.glyphOf(character).value();
             const double exact = rendered.exactArea(glyph);
-            // Chords of curves cut off s²/12r of a side, and pieces are shorter than em/256.
+            // Chords of length s cut off s²/12r per length, and pieces are shorter than em/256.
             EXPECT_NEAR(inkArea(glyphOutline(font, glyph, inEms())), exact, 1e-3 * exact);
             GlyphOptions fine = inEms();
             fine.tolerance = 1e-8;
@@ -227,10 +227,10 @@ TEST(Glyph, EnclosesTheExactAreaOfItsCurves)
     }
 }
 
-/// Every so-many-th glyph against FreeType's own rasteriser, which knows nothing of unions and flattening.
+/// Compares every n-th glyph with FreeType's rasteriser, which needs neither unions nor flattening.
 void expectAsRendered(const char* path, GlyphId step)
 {
-    constexpr unsigned kPixels = 256;  // per em, of which all these fonts' units are exact parts
+    constexpr unsigned kPixels = 256;  // per em; a whole number of font units per pixel
     const Font font = readFont(path);
     const RenderedFont rendered(path, kPixels);
     for (GlyphId glyph = 0; glyph < font.glyphCount(); glyph += step) {
@@ -242,7 +242,7 @@ void expectAsRendered(const char* path, GlyphId step)
             EXPECT_EQ(pixels, 0.0);
             continue;
         }
-        // FreeType takes curves for straight pieces that lie a 16th of a pixel inside them at most.
+        // FreeType replaces curves by straight pieces that lie at most a 16th of a pixel inside them.
         const double border = std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0, [](double sum, auto c) {
             return sum + (c > 0 && c < 65535 ? 1.0 : 0.0);
         });
@@ -315,7 +315,7 @@ TEST(VariableFont, AxesChangeTheShapes)
     }
     EXPECT_EQ(inkArea(glyphOf(readFont(kVariable, {0, {{"wght", 400}}}), 'H')),
               inkArea(glyphOf(readFont(kVariable), 'H')));
-    // Letters get wider, and text is set with the new widths.
+    // Letters are wider, and text uses the new widths.
     const auto width = [](double weight) {
         return setText(readFont(kVariable, {0, {{"wght", weight}}}), "mm").outline.extent.x;
     };
@@ -353,7 +353,7 @@ Outline textOf(const Font& font, const char* text)
     return setText(font, text, options).outline;
 }
 
-/// Loops of one outline are those of another moved along x and y.
+/// Checks that the loops of one outline are those of another, shifted along x and y.
 void expectMoved(const Outline& a, const Outline& b)
 {
     ASSERT_EQ(a.loops.size(), b.loops.size());
@@ -366,7 +366,7 @@ void expectMoved(const Outline& a, const Outline& b)
     }
 }
 
-TEST(Text, OfOneLetterIsItsGlyph)
+TEST(Text, OfOneLetterEqualsItsGlyph)
 {
     const Font font = readFont(kSans);
     for (const char* letter : {"g", "B", "%"}) {
@@ -393,7 +393,7 @@ TEST(Text, HasLigaturesAndJoinedMarks)
     const Font font = readFont(kSans);
     expectMoved(textOf(font, "fi"), glyphOf(font, U'ﬁ'));
     expectMoved(textOf(font, "e\u0301"), glyphOf(font, U'é'));
-    // A mark the font has no letter for goes over the middle of its base.
+    // A mark without a combined letter is placed above the middle of its base.
     const Outline marked = textOf(font, "x\u0301");
     ASSERT_EQ(marked.loops.size(), 2U);
     const Box x = boxOf(marked.loops[0]);
@@ -403,15 +403,15 @@ TEST(Text, HasLigaturesAndJoinedMarks)
     EXPECT_LT(acute.high.x, x.high.x);
 }
 
-TEST(Text, RunsFromRightToLeftWhereItsScriptDoes)
+TEST(Text, RunsFromRightToLeftIfItsScriptDoes)
 {
     const Font font = readFont(kSans);
-    // Alef, then bet to its left: two pieces and one.
+    // Alef, with two pieces; then bet to its left, with one.
     const Outline hebrew = textOf(font, "אן");
     ASSERT_EQ(hebrew.loops.size(), 2U);
     const Outline nun = glyphOf(font, U'ן');
     EXPECT_NEAR(signedArea(hebrew.loops[0]), signedArea(nun.loops[0]), 1e-6) << "the last letter is leftmost";
-    // Arabic letters join: beh beh is one body over two dots, not two of each.
+    // Arabic letters join: beh beh is one body over two dots, not two bodies.
     const Outline joined = textOf(font, "بب");
     EXPECT_EQ(joined.loops.size(), 3U);
     EXPECT_EQ(textOf(font, "ب ب").loops.size(), 4U);
@@ -420,7 +420,7 @@ TEST(Text, RunsFromRightToLeftWhereItsScriptDoes)
 TEST(Text, OfBothDirectionsIsOrdered)
 {
     const Font font = readFont(kSans);
-    // l and i stand by their shapes: l is one bar, nun a hook. In "l ן. H" the first is leftmost, H rightmost.
+    // From left to right: l, final nun, alef, H.
     const Outline mixed = textOf(font, "l אן H");
     ASSERT_EQ(mixed.loops.size(), 4U);
     EXPECT_NEAR(signedArea(mixed.loops[0]), signedArea(glyphOf(font, 'l').loops[0]), 1e-6);
@@ -445,7 +445,7 @@ TEST(Text, MayHaveSeveralLines)
     const double pitch = 2384.0 / 2048.0;
     EXPECT_NEAR(two.outline.extent.y, 2 * pitch, 1e-9);
     EXPECT_NEAR(two.outline.extent.x, set("HHH").outline.extent.x, 1e-12);
-    // The bar of l, by its area, and where it is with every way to align lines.
+    // The bar of l, found by its area, and its place for every alignment.
     const auto bar = [&](const SetText& text) {
         const double area = signedArea(glyphOf(font, 'l').loops[0]);
         for (const Loop& loop : text.outline.loops) {
@@ -484,7 +484,7 @@ TEST(Text, LinesFromRightToLeftStartOnTheRight)
     EXPECT_GT(boxOf(*found).low.x, 0.3 * outline.extent.x);
 }
 
-TEST(Text, CharactersTheFontLacksAreLeftOutAndNamed)
+TEST(Text, MissingCharactersAreLeftOutAndReported)
 {
     const Font font = readFont(kSans);
     TextOptions options;
@@ -499,9 +499,9 @@ TEST(Text, CharactersTheFontLacksAreLeftOutAndNamed)
     EXPECT_THROW(setText(font, "a\xff"), Error);
 }
 
-TEST(Text, LettersThatOverlapRunIntoOne)
+TEST(Text, OverlappingLettersAreJoined)
 {
-    // O and a slash over it, which has no letter of its own: one body, two holes.
+    // O with an overlapping slash: one body, two holes.
     const Font font = readFont(kSans);
     const Outline struck = textOf(font, "O\u0338");
     EXPECT_EQ(struck.loops.size(), 3U);
@@ -516,7 +516,7 @@ TEST(Text, LettersThatOverlapRunIntoOne)
     EXPECT_LT(inkArea(struck), inkArea(glyphOf(font, 'O')) + inkArea(glyphOf(font, U'\u0338')));
 }
 
-TEST(Text, IsOneDropletSurface)
+TEST(Text, IsOneSurface)
 {
     const Font font = readFont(kSans);
     DropletOptions options;
@@ -526,7 +526,7 @@ TEST(Text, IsOneDropletSurface)
     EXPECT_TRUE(shape.closed);
     EXPECT_EQ(shape.components, 5U);
     EXPECT_EQ(shape.euler, 2 * 5 - 2 * 2) << "the holes of a and e";
-    // The same letters in twice the size, without gravity: eight times the volume.
+    // Without gravity the same letters in twice the size have eight times the volume.
     options.solve.gravity = 0.0;
     TextOptions large;
     large.glyph.em *= 2.0;

@@ -10,91 +10,90 @@
 
 namespace droplet {
 
-/// How exactly two surfaces are compared.
+/// Options of compare().
 struct CompareOptions {
-    /// The bounds of a largest distance are narrowed until they differ by less than this share of the upper one, in
-    /// (0, 1).
+    /// Largest difference of both bounds of a distance, as a share of the upper one, in (0, 1).
     double share = 0.01;
-    /// They are narrowed further until it is certain whether the distance is over this [m], ≥ 0.
+    /// Distance tolerance [m], ≥ 0: the bounds are narrowed until both are on one side of it.
     std::optional<double> tolerance = {};
-    /// Pieces of triangles each search may look at before it leaves its bounds as they are, which are bounds still.
+    /// Largest number of pieces of triangles per search. A search that reaches it returns the bounds it has; they hold.
     std::size_t max_pieces = std::size_t{1} << 22;
 };
 
-/// How far the points of one surface lie from the other.
+/// Distance of the points of one surface from the other.
 struct SurfaceDistance {
-    double lower = 0.0;  ///< of the largest distance [m]: that of the point `at`
-    double upper = 0.0;  ///< of the largest distance [m]: no point of the surface is farther
-    Vec3 at;             ///< [m]
-    Vec3 nearest;        ///< on the other surface [m]
-    double mean = 0.0;   ///< by area [m]
-    double rms = 0.0;    ///< by area [m]
+    double lower = 0.0;  ///< lower bound of the largest distance [m]: the distance of `at`
+    double upper = 0.0;  ///< upper bound of the largest distance [m]
+    Vec3 at;             ///< farthest point found [m]
+    Vec3 nearest;        ///< point of the other surface nearest to it [m]
+    double mean = 0.0;   ///< mean distance by area [m]
+    double rms = 0.0;    ///< root mean square distance by area [m]
 };
 
-/// Angles between normals of one surface and those of the other at the nearest points.
+/// Angles between the normals of one surface and those of the other at the nearest points.
 struct NormalDeviation {
-    double largest = 0.0;  ///< of all points looked at [rad]
-    double rms = 0.0;      ///< by area [rad]
-    Vec3 at;               ///< where the largest is [m]
+    double largest = 0.0;  ///< largest angle at a quadrature point [rad]
+    double rms = 0.0;      ///< root mean square by area [rad]
+    Vec3 at;               ///< point of the largest angle [m]
 };
 
 /// Contact angles along a surface's rim.
 struct ContactAngleRange {
-    double min = 0.0;   ///< [rad]
-    double mean = 0.0;  ///< along the rim [rad]
-    double max = 0.0;   ///< [rad]
+    double min = 0.0;   ///< smallest angle [rad]
+    double mean = 0.0;  ///< mean by rim length [rad]
+    double max = 0.0;   ///< largest angle [rad]
 };
 
-/// What a surface measures by itself.
+/// Figures of one surface.
 struct SurfaceMeasures {
-    std::size_t vertices = 0;  ///< copies of a place counted one by one
-    std::size_t triangles = 0;
-    Vec3 lowest;          ///< corner of the box around all triangles [m]
-    Vec3 highest;         ///< its opposite corner [m]
-    double area = 0.0;    ///< [m²]
-    double volume = 0.0;  ///< as enclosedVolume [m³]
-    Topology topology;
-    std::optional<ContactAngleRange> contact_angle;  ///< where the surface has angles that are not 0
+    std::size_t vertices = 0;                        ///< number of vertices, with all copies
+    std::size_t triangles = 0;                       ///< number of triangles
+    Vec3 lowest;                                     ///< lower corner of the bounding box [m]
+    Vec3 highest;                                    ///< upper corner of the bounding box [m]
+    double area = 0.0;                               ///< area of all triangles [m²]
+    double volume = 0.0;                             ///< volume by enclosedVolume() [m³]
+    Topology topology;                               ///< with copies of a vertex welded
+    std::optional<ContactAngleRange> contact_angle;  ///< empty if the surface has no angles
 };
 
-/// Two surfaces side by side.
+/// Result of comparing two surfaces.
 struct Comparison {
-    SurfaceMeasures a;
-    SurfaceMeasures b;
-    SurfaceDistance from_a;     ///< of the points of a from b
-    SurfaceDistance from_b;     ///< of the points of b from a
-    SurfaceDistance symmetric;  ///< the larger largest distance; mean and rms over both surfaces' area
-    NormalDeviation normals_of_a;
-    NormalDeviation normals_of_b;
-    NormalDeviation normals;  ///< the larger largest angle; rms over both surfaces' area
-    bool same_topology = false;
+    SurfaceMeasures a;             ///< figures of the first surface
+    SurfaceMeasures b;             ///< figures of the second surface
+    SurfaceDistance from_a;        ///< distance of the points of a from b
+    SurfaceDistance from_b;        ///< distance of the points of b from a
+    SurfaceDistance symmetric;     ///< the larger of both distances; mean and rms over both areas
+    NormalDeviation normals_of_a;  ///< angles at the points of a
+    NormalDeviation normals_of_b;  ///< angles at the points of b
+    NormalDeviation normals;       ///< the larger of both angles; rms over both areas
+    bool same_topology = false;    ///< whether all members of both topologies are equal
 
-    /// Volume of b less that of a, over the volume of a; nothing where a has none.
+    /// Difference of the volumes, (b − a)/a; empty if a has no volume.
     [[nodiscard]] std::optional<double> relativeVolume() const;
 };
 
-/// Compares two surfaces as sets of points, however they are triangulated.
+/// Compares two surfaces as sets of points; their triangulations do not matter.
 ///
-/// The largest distance of a surface's points from the other is bounded from both sides over all of its points, not
-/// over vertices or samples: what is thinner than any sampling is found (Tang, Lee and Kim 2009). Means are by
-/// quadrature of degree 4 on every triangle, triangles longer than 1/25 of the bounding box being cut.
+/// The bounds of the largest distance hold for all points of a surface, not only for vertices or samples, so it finds
+/// features thinner than any sampling (Tang, Lee and Kim 2009). Means are by quadrature of degree 4 on every triangle;
+/// triangles longer than 1/25 of the bounding box are cut first.
 ///
-/// Normals are those between the vertices' ones. They are compared with the other surface's at the nearest point of
-/// its triangles that face the same way, if there is one no farther than twice the largest distance, else of all;
-/// where triangles meet at that point, with the nearest of their normals. So a crisp rim, which has two normals at
-/// every place, differs from itself by nothing, and a thin edge's upper side is not compared with its lower one.
+/// Normals are interpolated between vertices. They are compared at the nearest point of those triangles of the other
+/// surface that face the same way, or of all triangles if that point is farther than twice the largest distance. If
+/// several triangles meet at that point, the most similar normal is taken. So a rim with two normals at every point has
+/// no deviation from itself, and the upper side of a thin edge is not compared with its lower side.
 ///
 /// Guarantees: compare(b, a) is compare(a, b) with a and b exchanged; the same bits at any number of threads; distances
-/// are exact up to 1e-12 of the size of the box around both, and round-off of the coordinates. Triangles without area
-/// count for the largest distance, not for means and normals.
-/// @throws Error InvalidArgument for invalid surfaces and options
+/// are exact to 1e-12 of the size of the box around both, and round-off of the coordinates. Triangles without area
+/// count for the largest distance, but not for means and normals.
+/// @throws Error InvalidArgument: invalid surfaces or options
 Comparison compare(const Surface& a, const Surface& b, const CompareOptions& options = {});
 
-/// The distance of every vertex of a from b, negative where it is on the inner side of b [m].
+/// Measures the distance of every vertex of a from b [m]; negative on the inner side of b.
 ///
-/// The side is that of the normals of all triangles around the nearest point, weighted by their angles there
-/// (Bærentzen and Aanæs 2005): for closed surfaces inner is inside.
-/// @throws Error InvalidArgument for invalid surfaces
+/// The normals of all triangles at the nearest point, weighted by their angles there, decide the side (Bærentzen and
+/// Aanæs 2005). The inner side of a closed surface is its inside.
+/// @throws Error InvalidArgument: invalid surfaces
 std::vector<double> signedDistances(const Surface& a, const Surface& b);
 
 }  // namespace droplet

@@ -10,63 +10,67 @@
 
 namespace droplet {
 
-/// The ground's height at a point of the plane, and the gradient of it.
+/// Height and slope of the ground at a point of the plane.
 struct GroundPoint {
     double height = 0.0;  ///< h, out of the plane [m]
     Vec2 gradient;        ///< ∇h
 };
 
-/// The ground a droplet stands on: a height field over the footprint's plane. Made without anything, it is the plane
-/// itself.
+/// Ground under a droplet: a height field over the footprint's plane. The default is the plane itself.
 class BaseSurface {
 public:
-    /// Guarantees wanted of it: the same point gives the same result on every thread.
+    /// Function that gives the ground at a point; the same on every thread.
     /// Throws Error InvalidArgument where there is no ground.
     using Sample = std::function<GroundPoint(Vec2)>;
 
+    /// Flat ground: the plane itself.
     BaseSurface() = default;
+    /// Ground of any shape.
+    /// @param sample  ground at every point; empty: flat
     explicit BaseSurface(Sample sample);
 
-    /// A sphere whose top is the plane's origin; there is no ground beyond its radius.
-    /// @param radius  [m] ≠ 0; negative: a bowl whose deepest point is there
+    /// Sphere whose top is the plane's origin. The ground ends at its radius.
+    /// @param radius  [m] ≠ 0; negative: a bowl whose deepest point is the origin
     /// @throws Error  InvalidArgument
     static BaseSurface sphere(double radius);
 
-    /// A cylinder that touches the plane from below along a line through the origin; there is no ground beyond its
-    /// radius from that line.
+    /// Cylinder that touches the plane from below along a line through the origin. The ground ends at its radius from
+    /// that line.
     /// @param radius  [m] ≠ 0; negative: a gutter
-    /// @param axis    of the line in the plane, counter-clockwise from +x [rad]
+    /// @param axis    direction of the line in the plane, counter-clockwise from +x [rad]
     /// @throws Error  InvalidArgument
     static BaseSurface cylinder(double radius, double axis);
 
-    /// A picture stretched over the footprint's: height `depth` times its level.
+    /// Height map, stretched over the footprint's picture: the height is `depth` times the level.
     ///
-    /// Guarantees: continuous with its gradient; exact in the pixels' centres, and between them where the levels are
-    /// those of a quadratic, but for the outermost two rows and columns. Beyond the outermost centres heights turn
-    /// into theirs within one pixel, and stay.
+    /// Guarantees: height and gradient are continuous. Heights are exact at pixel centres; for levels of a quadratic
+    /// function also between them, except in the outermost two rows and columns. Beyond the outermost centres the
+    /// height levels off within one pixel to the height of the nearest centre.
     /// @param map     valid
-    /// @param extent  of the picture, centred at the origin [m]; both > 0
-    /// @param depth   height of level 1 [m]; not needed of a picture of floats, whose levels are then metres
+    /// @param extent  size of the picture, centred at the origin [m]; both > 0
+    /// @param depth   height of level 1 [m]; may be empty for a picture of floats, whose levels are then metres
     /// @throws Error  InvalidArgument; InvalidInput for the map
     static BaseSurface heightMap(HeightMap map, Vec2 extent, std::optional<double> depth = {});
 
+    /// Whether the ground is the plane itself.
     [[nodiscard]] bool flat() const { return !sample_; }
+    /// Ground at a point of the plane.
+    /// @throws Error InvalidArgument where there is no ground
     [[nodiscard]] GroundPoint at(Vec2 p) const { return sample_ ? sample_(p) : GroundPoint{}; }
 
-    /// Guarantees: returns only when there is ground at all of the points; of a sphere or a cylinder, then also between
-    /// them.
-    /// @param points  of the plane [m]
-    /// @throws Error  InvalidArgument, of the point farthest out where the ground has a radius, else of the first
+    /// Checks that there is ground at all points; for a sphere or a cylinder there is then ground between them, too.
+    /// @param points  points of the plane [m]
+    /// @throws Error  InvalidArgument, for the outermost point if the ground has a radius, otherwise for the first one
     void requireAt(std::span<const Vec2> points) const;
 
 private:
-    /// How far a point is from where the ground touches the plane [m].
+    /// Distance of a point from where the ground touches the plane [m].
     using Distance = std::function<double(Vec2)>;
 
     BaseSurface(Sample sample, Distance distance);
 
     Sample sample_;
-    Distance distance_;  ///< empty where the ground has no radius
+    Distance distance_;  ///< empty if the ground has no radius
 };
 
 }  // namespace droplet

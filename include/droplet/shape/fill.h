@@ -5,25 +5,26 @@
 
 namespace droplet {
 
-/// What is prescribed to say how much liquid there is.
+/// Quantity that sets the amount of liquid.
 enum class FillBy {
-    Volume,        ///< [m³]
+    Volume,        ///< volume [m³]
     Height,        ///< largest height [m]
-    ContactAngle,  ///< mean along the rim [rad]
+    ContactAngle,  ///< mean contact angle along the rim [rad]
 };
 
 /// Whether droplets are separate or communicate.
 enum class FillSharing {
-    Each,   ///< every droplet for itself gets the prescribed volume, height or angle: each has its own pressure
-    Total,  ///< one reservoir at one pressure; total volume, largest height, mean angle over all rims
+    Each,   ///< every droplet has the volume, height or angle, and a pressure of its own
+    Total,  ///< one reservoir at one pressure: total volume, largest height, mean angle over all rims
 };
 
-/// How much liquid.
+/// Amount of liquid.
 struct Fill {
-    FillBy by = FillBy::ContactAngle;
-    double amount = 40.0 * kDegree;  ///< > 0; an angle < 90°
-    FillSharing sharing = FillSharing::Each;
+    FillBy by = FillBy::ContactAngle;         ///< quantity that is given
+    double amount = 40.0 * kDegree;           ///< its value, in SI units, > 0; an angle < 90°
+    FillSharing sharing = FillSharing::Each;  ///< for each droplet, or for all together
 
+    /// Checks the amount.
     /// @throws Error InvalidArgument
     void validate() const;
 };

@@ -8,36 +8,37 @@
 
 namespace droplet {
 
-/// How a droplet can be filled and drained without solving again, in fills: multiples of the liquid it was solved with.
+/// Range in which a droplet can be filled and drained without solving again, in multiples of its solved amount (fills).
 struct FillRange {
-    double min = 0.0;
-    double max = 2.0;
+    double min = 0.0;  ///< smallest fill
+    double max = 2.0;  ///< largest fill
 
-    /// @throws Error InvalidArgument unless 0 ≤ least ≤ 1 ≤ most, least < most, both finite
+    /// Checks the range.
+    /// @throws Error InvalidArgument unless 0 ≤ min ≤ 1 ≤ max, min < max, both finite
     void validate() const;
 };
 
-/// What one more fill adds to a height field.
+/// Change of a height field by one more fill.
 struct FillGain {
-    std::vector<double> height;     ///< at every vertex of the mesh [m]; 0 on the rim
-    std::vector<double> rim_slope;  ///< to ∂u/∂n at every rim vertex
-    double pressure = 0.0;          ///< [Pa]
+    std::vector<double> height;     ///< change of u at every vertex of the mesh [m]; 0 on the rim
+    std::vector<double> rim_slope;  ///< change of ∂u/∂n at every rim vertex
+    double pressure = 0.0;          ///< change of the pressure [Pa]
 };
 
-/// Guarantees: returns only when what these options solve is affine in the volume.
+/// Checks that the solution with these options is affine in the volume.
 /// @throws Error InvalidArgument with Model::Exact or no_penetration
 void requireRefillable(const SolveOptions& options);
 
-/// How solved droplets grow with the amount of liquid: with f times of it, heights are u + (f − 1)·gain, exactly, as
-/// the linear model is affine in the volume. With FillSharing::Each one fill is every droplet's own volume, with
-/// FillSharing::Total that of the reservoir, which fills all of them at one pressure.
+/// Computes how solved droplets grow with the amount of liquid. At fill f the heights are exactly u + (f − 1)·gain,
+/// because the linear model is affine in the volume. With FillSharing::Each one fill is the volume of each droplet.
+/// With FillSharing::Total it is the volume of the reservoir, which fills all droplets at one pressure.
 ///
-/// Guarantees: gains are volumes to 1e-10, and the same at any number of threads, as in solve.
-/// @param meshes   what was solved on
-/// @param fields   what solve returned
-/// @param options  what it was solved with; linear, without no_penetration
-/// @throws Error   InvalidArgument for options or fields of other meshes; NoSuchDroplet if there is no liquid to
-///                 multiply, or the solver fails
+/// Guarantees: volumes of the gains are exact to 1e-10; the same bits at any number of threads.
+/// @param meshes   meshes that were solved
+/// @param fields   result of solve
+/// @param options  options of solve; linear model, without no_penetration
+/// @throws Error   InvalidArgument: options, or fields that do not fit the meshes; NoSuchDroplet: there is no liquid to
+///                 multiply, or the solver failed
 std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
                                    const SolveOptions& options);
 

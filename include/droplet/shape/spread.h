@@ -8,17 +8,18 @@
 
 namespace droplet {
 
-/// Moves inner vertices toward the rim where the liquid will be steep, so that triangles that are even on the ground
-/// come out about even on the liquid's surface.
+/// Moves inner vertices toward the rim where the liquid will be steep. Triangles of equal size on the ground become
+/// triangles of about equal size on the liquid's surface.
 ///
-/// A cap's surface maps to its disc without distortion of angles by stereographic projection; seen from above, points
-/// even there crowd at the rim. Other footprints borrow that map along the slopes of their linear solution. Without it
-/// the exact model converges with little more than order 1 where liquid leaves the rim at 85°; with it, with order 2.
+/// Stereographic projection maps a disc to a spherical cap and keeps all angles. Points that are evenly spaced on the
+/// cap are dense at the rim, seen from above. Other footprints use the same map along the slopes of their linear
+/// solution. At a contact angle of 85° the exact model converges with order 2 on such meshes, and with little more than
+/// order 1 on others.
 ///
-/// Guarantees: connections, rim and area stay; triangles keep their winding. Meshes that the linear model expects to be
-/// no steeper than 60° in the mean come back as they are, lattice and all; of the others the lattice is forgotten.
+/// Guarantees: connections, rim and area stay; triangles keep their winding. A mesh with an expected mean
+/// contact angle of at most 60° does not change. The others lose their lattice.
 /// @param meshes   valid, at least one
-/// @param options  what will be solved
+/// @param options  options of the solve that follows
 /// @throws Error   as solve
 std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options);
 

@@ -12,35 +12,36 @@
 
 namespace droplet {
 
-/// How the liquid's surface changes with its amount.
+/// Change of the heights with the amount of liquid.
 struct LoftRefill {
-    FillRange range;
-    std::vector<FillGain> gains;  ///< one per mesh
+    FillRange range;              ///< allowed fills
+    std::vector<FillGain> gains;  ///< change per fill, one per mesh
 };
 
-/// How height fields become a surface in space.
+/// Options of loft().
 struct LoftOptions {
-    bool open = false;  ///< leave out the base
-    Vec2 extent;        ///< physical size of the image, centred at the origin, for texture coordinates [m]; both > 0
-    BaseSurface ground = {};                ///< what the fields were solved on
-    std::vector<PlanarMesh> bases = {};     ///< cover() of every mesh, where known already; empty: made
-    std::optional<LoftRefill> refill = {};  ///< makes a surface that can be filled and drained
+    bool open = false;        ///< leave out the base
+    Vec2 extent;              ///< size of the image, centred at the origin, for texture coordinates [m]; both > 0
+    BaseSurface ground = {};  ///< ground of the fields
+    std::vector<PlanarMesh> bases = {};     ///< cover() of every mesh, if known already; may be empty
+    std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
 
+    /// Checks all options.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// Raises every mesh to its height and closes it with a base that shares the rim's places: flat ground with few
-/// triangles, any other with the liquid's own, at the ground's height. What the liquid left dry is in neither.
+/// Turns height fields into a surface in space: raises every mesh to its heights and closes it with a base.
 ///
-/// Normals are those of the recovered gradient inside, and on the rim of the slope that balances the rim's force
-/// (Carey's boundary flux) across it and of the ground along it, so that a cap's rim shades like the cap. The base has
-/// the ground's normals: the rim is crisp.
+/// The base meets the liquid at the rim. On flat ground it has few triangles; on other ground it has the triangles of
+/// the liquid, at the height of the ground. Neither covers what the liquid left dry. Normals inside come from the
+/// recovered gradient. On the rim they come from the slope that balances the rim's force (Carey's boundary flux) across
+/// the rim, and from the ground along it, so a cap's rim shades like the cap. The base has the normals of the ground.
 /// @param meshes   one per droplet
 /// @param fields   one per mesh
 /// @param options  open or closed, extent of the image, ground
-/// @throws Error   InvalidArgument if counts differ, a field or gain is not of its mesh or of this ground, all is dry,
-///                 or something is and there are gains
+/// @throws Error   InvalidArgument: counts differ; a field or gain does not fit its mesh or the ground; all is dry; or
+///                 anything is dry and there are gains
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
 }  // namespace droplet

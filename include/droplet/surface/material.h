@@ -8,29 +8,29 @@
 
 namespace droplet {
 
-/// How a droplet looks in a viewer.
+/// Named looks of a droplet in a viewer.
 enum class Material { Water, Ink, Mercury, Honey, Plain };
 
-/// The material of that name: water, ink, mercury, honey, plain.
+/// Finds a material by its name: water, ink, mercury, honey or plain.
 /// @throws Error InvalidArgument
 Material materialNamed(std::string_view name);
 
-/// The material that a liquid looks like by its name: that of mercury and honey, else water.
+/// Material for a liquid: mercury and honey by their names, otherwise water.
 Material materialOf(const Liquid& liquid);
 
-/// A material's optics.
+/// Optical properties of a material.
 struct Look {
-    const char* name = "water";
-    Vec3 colour = {1.0, 1.0, 1.0};  ///< red, green, blue, linear; of metal and opaque matter its own, of liquid that of
-                                    ///< white light through the mean height
-    double metallic = 0.0;
-    double roughness = 0.0;
-    double transmission = 1.0;
-    double ior = 1.333;
-    bool tinted = false;  ///< colour deepens with the way through the liquid
+    const char* name = "water";     ///< name in files
+    Vec3 colour = {1.0, 1.0, 1.0};  ///< linear red, green, blue; for liquids, the colour of white light after the mean
+                                    ///< height
+    double metallic = 0.0;          ///< 1 for metal
+    double roughness = 0.0;         ///< 0 (mirror) … 1 (matt)
+    double transmission = 1.0;      ///< share of the light that passes, 0 … 1
+    double ior = 1.333;             ///< index of refraction
+    bool tinted = false;            ///< whether the colour deepens with the path through the liquid
 };
 
-/// The optics of a material.
+/// Looks up a material.
 /// @throws Error InvalidArgument
 Look lookOf(Material material);
 

@@ -10,60 +10,61 @@
 
 namespace droplet {
 
-/// The picture that is laid on an object.
+/// Options of layOnto().
 struct OntoOptions {
-    Vec2 extent;  ///< physical size of the picture [m], as lofted with: it fills uv from (0,0) to (1,1); both > 0
+    Vec2 extent;  ///< size of the picture [m], as for loft(): it fills uv from (0,0) to (1,1); both > 0
 
+    /// Checks the extent.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// What became of the droplets.
+/// Counts of droplets and charts, and scales.
 struct OntoReport {
-    std::size_t laid = 0;
-    std::size_t outside = 0;             ///< left out: part of it lies on no chart
-    std::size_t across = 0;              ///< left out: crosses from one chart to another
-    std::size_t folded = 0;              ///< left out: the object is more sharply hollow there than the droplet is thin
-    std::size_t mirrored = 0;            ///< of those laid, on charts that show the picture mirrored
-    std::size_t flipped_charts = 0;      ///< such charts with a droplet
-    std::size_t overlapping_charts = 0;  ///< charts that claim places of droplets laid on a chart before them
-    double min_scale = 0.0;              ///< of object to picture, in length, over the droplets laid
-    double max_scale = 0.0;
-    std::vector<std::string> warnings;  ///< the above in words, a line each; empty when all is well
+    std::size_t laid = 0;                ///< droplets on the object
+    std::size_t outside = 0;             ///< droplets left out because a part lies beside all charts
+    std::size_t across = 0;              ///< droplets left out because they cross from one chart to another
+    std::size_t folded = 0;              ///< droplets left out because they are too high for the hollow below them
+    std::size_t mirrored = 0;            ///< droplets on the object, on charts that mirror the picture
+    std::size_t flipped_charts = 0;      ///< charts that mirror the picture and have droplets
+    std::size_t overlapping_charts = 0;  ///< charts whose uv contain points of a droplet on an earlier chart
+    double min_scale = 0.0;              ///< smallest length on the object per length in the picture, at a droplet
+    double max_scale = 0.0;              ///< largest such ratio
+    std::vector<std::string> warnings;   ///< one line each
 };
 
 /// Droplets on an object.
 struct OntoResult {
-    Surface surface;  ///< in the object's coordinates, without the object; uv as before
-    OntoReport report;
+    Surface surface;    ///< droplets in the object's coordinates, without the object; uv do not change
+    OntoReport report;  ///< counts and scales
 };
 
-/// Lays droplets solved on the plane onto an object, as a texture is mapped through its uv (thesis 4.2.5): a point at
-/// height z over the picture's point uv comes to X(uv) + s(uv)·z·n(uv), X being the object, n its smooth normal and s
-/// its local stretch, the length on it per length in the picture.
+/// Maps droplets that were solved on the plane onto an object, through the uv of its texture (thesis 4.2.5).
 ///
-/// A chart is what of the object hangs together in uv and faces one way there. n and s are interpolated between the
-/// vertices of a chart, where they are means of what meets there, so neither jumps from triangle to triangle; s is √ of
-/// area over area, the geometric mean where the picture is stretched more one way than the other. Normals are those
-/// of the map, by its derivatives averaged alike. A droplet goes onto the first chart, in the file's order, that has
-/// all its vertices, and otherwise is left out whole; it is not wrapped from u = 1 to u = 0, and no chart repeats
-/// beyond (0,0) to (1,1). On mirrored charts triangles are turned, so that they wind outward.
+/// A point at height z over the point uv of the picture moves to X(uv) + s(uv)·z·n(uv). X is the object, n its smooth
+/// normal, and s its local stretch: length on the object per length in the picture, √ of the ratio of areas. A chart is
+/// a part of the object that is connected in uv and faces one way there. n and s are means at the vertices of a chart
+/// and interpolated between them, so they are continuous. Normals are those of the map, from derivatives averaged in
+/// the same way. A droplet is placed on the first chart, in the file's order, that contains all its vertices; otherwise
+/// it is left out as a whole. It does not wrap from u = 1 to u = 0, and charts do not repeat beyond (0,0) to (1,1). On
+/// charts that mirror the picture, triangles are reversed so that they wind outward.
 ///
-/// Guarantees: topology as before; every vertex at z = 0 lies on a triangle of the object, or within 1e-7 of the
-/// picture's size. Between vertices a base cuts the object's corners, by at most ℓθ/4 where facets meet at an angle θ
-/// and its edges are ℓ long: give droplets a base with the liquid's own triangles, as loft makes on curved ground.
-/// @param droplets  valid; z = 0 the ground, uv those of the picture
+/// Guarantees: topology does not change; every vertex at z = 0 lies on a triangle of the object, to 1e-7 of the
+/// picture's size. Between its vertices a base leaves the object by at most ℓθ/4, where facets meet at an angle θ and
+/// edges of the base are ℓ long. A base with the triangles of the liquid, as loft() makes it on curved ground, keeps
+/// this small.
+/// @param droplets  valid; z = 0 is the ground, uv are those of the picture
 /// @param object    valid
 /// @param options   extent of the picture
-/// @throws Error    InvalidArgument; InvalidInput if no triangle of the object has an area in uv; NoSuchDroplet if none
-///                  of the droplets can be laid
+/// @throws Error    InvalidArgument; InvalidInput: no triangle of the object has an area in uv; NoSuchDroplet: all
+///                  droplets are left out
 OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options);
 
-/// Length on the object per unit of uv: √(area / area in uv), the median by area, so that a lid unwrapped small does
-/// not count against a wall. A picture of aspect a = width/height has the object's own size if it is √a times as wide
-/// [m].
+/// Measures the length on the object per unit of uv [m]: √(area / area in uv), the median weighted by area, so that a
+/// lid unwrapped small does not count as much as a wall. A picture with the aspect a = width/height has the size of the
+/// object's texture if it is √a times this length wide.
 /// @param object  valid
-/// @throws Error  InvalidInput if no triangle has an area in uv
+/// @throws Error  InvalidInput: no triangle has an area in uv
 double metresPerUv(const TexturedMesh& object);
 
 }  // namespace droplet

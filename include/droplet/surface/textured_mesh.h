@@ -8,17 +8,17 @@
 
 namespace droplet {
 
-/// An object in space with the coordinates of its texture.
+/// Object in space with texture coordinates.
 ///
-/// Invariants: arrays of vertices have one length; there is a triangle; indices are in range, numbers finite, normals
-/// unit to 1e-6. Vertices stand once for every normal and uv they have.
+/// Invariants: all arrays of vertices have one length; there is a triangle; indices are in range; numbers are finite;
+/// normals have unit length to 1e-6. A vertex is stored once for every normal and uv that it has.
 struct TexturedMesh {
-    std::vector<Vec3> positions;  ///< [m], z up
-    std::vector<Vec3> normals;    ///< unit, outward
-    std::vector<Vec2> uvs;        ///< (0,0) top left of the texture, (1,1) bottom right
-    std::vector<Triangle> triangles;
+    std::vector<Vec3> positions;      ///< vertices [m], z up
+    std::vector<Vec3> normals;        ///< one per vertex, unit length, outward
+    std::vector<Vec2> uvs;            ///< one per vertex; (0,0) top left of the texture, (1,1) bottom right
+    std::vector<Triangle> triangles;  ///< indices of vertices
 
-    /// Guarantees: returns only when the invariants hold.
+    /// Checks the invariants.
     /// @throws Error InvalidArgument
     void validate() const;
 };

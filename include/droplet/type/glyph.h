@@ -11,62 +11,71 @@
 
 namespace droplet {
 
-/// How outlines of a font become outlines of droplets.
+/// Options for outlines of glyphs.
 struct GlyphOptions {
-    double em = 20e-3;                ///< edge of the em square, the font's size [m], > 0
-    std::optional<double> tolerance;  ///< farthest a curve's straight pieces may lie from it [m], > 0 [em/20000];
-                                      ///< no finer than em/2²⁶
-    double speck_size = 1e-5;         ///< loops that enclose less than this are dropped [em²], ≥ 0
+    double em = 20e-3;                ///< edge of the em square (the font size) [m], > 0
+    std::optional<double> tolerance;  ///< largest distance of a polyline from its curve [m], > 0; empty: em/20000.
+                                      ///< Smaller values than em/2²⁶ count as that
+    double speck_size = 1e-5;         ///< smallest area of a loop that is kept [em²], ≥ 0
 
+    /// Checks all options.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// The outline of one glyph, without hinting.
+/// Makes the outline of one glyph, without hinting.
 ///
-/// What the glyph's contours enclose by the non-zero rule, however they overlap and whichever way they run. Where loops
-/// would touch, they are moved apart by em/4096. Corners are where the curve turns by more than 25°. Points are at most
-/// em/256 apart, also along straight sides. The extent is the box from the font's descender to its ascender, as wide as
-/// the glyph's advance, enlarged on both sides alike if the glyph stands out of it: so the middle of the box, the
-/// origin, lies at the same height above the base line for all glyphs of a font. There are no pixels: pixel_size is 0.
-/// @param font   any
-/// @param glyph  less than font.glyphCount()
-/// @return       without loops if the glyph has no ink, like a space
-/// @throws Error InvalidArgument: options, or no such glyph; InvalidInput: the font is broken there
+/// The outline bounds what the glyph's contours enclose by the non-zero rule; they may overlap and have any direction.
+/// Loops that would touch are moved apart by em/4096. A point is a corner if the curve turns by more than 25° there.
+/// Points are at most em/256 apart, also along straight sides. The extent is the box from the font's descender to its
+/// ascender, as wide as the glyph's advance. If the glyph does not fit, the box grows equally on opposite sides. So the
+/// origin, in the middle of the box, has the same height above the base line for all glyphs of a font. pixel_size is 0.
+/// @param font     any
+/// @param glyph    less than font.glyphCount()
+/// @param options  size and tolerances
+/// @return         outline; without loops if the glyph has no ink, like a space
+/// @throws Error   InvalidArgument: options, or no such glyph; InvalidInput: the font is damaged there
 Outline glyphOutline(const Font& font, GlyphId glyph, const GlyphOptions& options = {});
 
-/// Whether glyphOutline() has loops; much quicker.
+/// Tells whether glyphOutline() has loops, much faster.
 /// @throws Error as glyphOutline()
 bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options = {});
 
-/// Where lines of a text stand in its box; for those that run from right to left, the start is on the right.
-enum class TextAlign { Start, Centre, End };
+/// Alignment of the lines of a text in its box.
+enum class TextAlign {
+    Start,   ///< left; for lines from right to left, right
+    Centre,  ///< centred
+    End,     ///< right; for lines from right to left, left
+};
 
-/// How a text is set.
+/// Options of setText().
 struct TextOptions {
-    GlyphOptions glyph;
-    TextAlign align = TextAlign::Start;
-    double line_spacing = 1.0;  ///< from base line to base line, in those of the font, > 0
+    GlyphOptions glyph;                  ///< options of every glyph
+    TextAlign align = TextAlign::Start;  ///< alignment of the lines
+    double line_spacing = 1.0;           ///< distance of base lines, as a multiple of the font's, > 0
 
+    /// Checks all options.
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// A text's outline, and what became of the text.
+/// Outline of a text, with figures.
 struct SetText {
     Outline outline;                ///< without loops if the text has no ink
-    std::vector<char32_t> missing;  ///< characters the font lacks, left out; in order of first occurrence, each once
-    std::size_t lines = 0;
+    std::vector<char32_t> missing;  ///< characters that the font lacks, in order of first occurrence, each once
+    std::size_t lines = 0;          ///< number of lines
 };
 
-/// Sets a text: kerning, ligatures, combining marks and contextual forms as the font has them, letters from left to
-/// right or right to left as their scripts run, both in one line by the Unicode bidirectional algorithm.
+/// Makes the outline of a text, with the font's kerning, ligatures, combining marks and contextual forms. Letters run
+/// from left to right or from right to left as in their script; the Unicode bidirectional algorithm orders mixed lines.
 ///
-/// What letters enclose together is liquid: overlapping ones run into one. The extent is the box of the lines, from the
-/// first one's ascender to the last one's descender, enlarged on both sides alike if letters stand out of it. Otherwise
-/// as glyphOutline().
-/// @param text   UTF-8, lines parted by line feeds; a tabulator counts as a space
-/// @throws Error InvalidArgument: options, text that is not UTF-8; InvalidInput: the font is broken where it is needed
+/// Letters that overlap become one region of liquid. The extent is the box of the lines, from the ascender of the first
+/// line to the descender of the last one. It grows equally on opposite sides if letters do not fit. All else is as in
+/// glyphOutline().
+/// @param font     any
+/// @param text     UTF-8; line feeds separate lines, and a tab counts as a space
+/// @param options  size, alignment and line spacing
+/// @throws Error   InvalidArgument: options, or text that is not UTF-8; InvalidInput: the font is damaged
 SetText setText(const Font& font, std::string_view text, const TextOptions& options = {});
 
 }  // namespace droplet
