@@ -42,9 +42,7 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
 class EarlierRun {
 public:
     /// Reads this manifest and those of shards beside it, as far as they exist.
-    /// @throws droplet::Error InvalidArgument if the file is not a manifest and must not be replaced; InvalidInput if
-    /// it
-    ///                        cannot be read
+    /// @throws droplet::Error InvalidArgument: not a manifest, so it must not be replaced; InvalidInput: unreadable
     explicit EarlierRun(const std::string& manifest);
 
     /// File that an earlier run made at the item's output path.

@@ -26,8 +26,7 @@ struct BatchShard {
 
 struct BatchOptions {
     std::string manifest;  ///< path
-    /// Given options that can change the output's bytes, for manifest and fingerprints: names without dashes, and
-    /// values.
+    /// Given options that can change the output's bytes: names without dashes, and values.
     std::vector<std::pair<std::string, std::string>> decisive;
     std::vector<std::string> read;  ///< files beside the items' inputs that no output may replace
     droplet::OutputOptions files;

@@ -66,8 +66,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
 /// Paths of all files that will be written.
 std::vector<NamedFile> previewPaths(const PreviewOptions& options);
 
-/// Output files of the pictures. Each picture is drawn when it is written; `options` and `subject` must live until
-/// then.
+/// Output files of the pictures, which are drawn when they are written; `options` and `subject` must live until then.
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject);
 
 }  // namespace cli

@@ -92,7 +92,7 @@ DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& 
         droplet.trace.width = *mask.physical_width;
         if (!(droplet.trace.width >= kLength.min && droplet.trace.width <= kLength.max)) {
             throw Error(ErrorCode::InvalidInput,
-                        fmt::format("the page states a width of {:.6g}m, must be {}; --width overrides it",
+                        fmt::format("the page states a width of {:.6g}m, which must be {}; give --width instead",
                                     droplet.trace.width, kLength.allowed));
         }
     }
@@ -259,7 +259,7 @@ struct Stages {
     }
 };
 
-/// CanonicalPaths a droplet on its object, writes its files, and returns the report.
+/// Places a droplet on its object, writes its files, and returns the report.
 droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
                        const Surroundings& around, const ShapeOptions& options, Stages& stages,
                        const std::optional<OutputFile>& mask = std::nullopt)

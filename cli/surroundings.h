@@ -35,7 +35,7 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
 /// @throws droplet::Error InvalidArgument
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent);
 
-/// CanonicalPaths the droplets on the object.
+/// Places the droplets on the object.
 /// @param path            path of the object, for the report
 /// @throws droplet::Error InvalidInput if the object has no area in uv; NoSuchDroplet if no droplet fits on it
 droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,

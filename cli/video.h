@@ -15,9 +15,8 @@ namespace cli {
 class Video {
 public:
     /// Starts ffmpeg, and gets the frame rate and the number of frames from ffprobe.
-    /// @param played_at       output frame rate: each output frame is the one that the video shows at its time; empty
-    /// for
-    ///                        every frame once
+    /// @param played_at       output frame rate: each output frame is the one that the video shows at its time;
+    ///                        empty for every frame once
     /// @throws droplet::Error InvalidInput if ffmpeg or ffprobe is missing or cannot read the file
     explicit Video(const std::string& path, std::optional<double> played_at = {});
     /// Ends ffmpeg.
