@@ -7,7 +7,8 @@
 namespace cli {
 
 /// Declares the options of liquid, air and coating: --contact-angle, --viscosity-factor, --kinetic-fraction,
-/// --drag-coefficient, --boundary-layer, --profile-exponent, --air-density, --liquid, --surface-tension, --density, --gravity.
+/// --drag-coefficient, --boundary-layer, --profile-exponent, --air-density, --liquid, --surface-tension, --density,
+/// --gravity.
 void declareForces(CommandLine& line);
 
 /// Force model in which the given options replace the values of `model`.
