@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that is measured, one after the other; what comes of it is plain data, ready for JSON."""
+"""Runs all measurements one after another. The results are plain data, ready for JSON."""
 
 import json
 import math
@@ -15,16 +15,16 @@ import freefem
 import process
 
 SIZES = [100_000, 400_000, 1_000_000, 4_000_000]
-REFERENCE = 16_000_000  # triangles whose volume and height count as exact for those up to 4 M
-MASKS = [2048, 512, 1024, 4096, 8192]  # the first is meshed at every size
+REFERENCE = 16_000_000    # triangles; their volume and height count as exact for up to 4 M
+MASKS = [2048, 512, 1024, 4096, 8192]  # the first one is meshed at every size
 DEFAULT_MASK = 1024
 LARGEST_MASK = 16384
-AGREEMENT = 1e-3  # of FreeFem++ and droplet-shape, in volume and height: else they did not do the same work
-WATER = {"tension": 0.0728, "weight": 998.2 * 9.81}  # [N/m], [N/m³]: droplet-shape's default
+AGREEMENT = 1e-3  # largest difference of volume and height from FreeFem++, so that both did the same work
+WATER = {"tension": 0.0728, "weight": 998.2 * 9.81}  # [N/m], [N/m³]: defaults of droplet-shape
 CAPILLARY_LENGTHS = 3.0
 
 
-def tell(text):
+def log(text):
     print(f"bench: {text}", file=sys.stderr, flush=True)
 
 
@@ -32,7 +32,7 @@ def runs_of(triangles):
     return 5 if triangles <= 1_000_000 else 3
 
 
-def in_short(triangles):
+def short_name(triangles):
     return f"{triangles // 1_000_000}M" if triangles % 1_000_000 == 0 else f"{triangles // 1000}k"
 
 
@@ -61,14 +61,14 @@ def machine(build):
 
 
 def tables(*command):
-    """The tables that a program prints, ready for RESULTS.md."""
+    """Tables that a program prints, ready for RESULTS.md."""
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
 
 
 # ------------------------------------------------------------------------------- stages and peers: Google Benchmark
 
 def stages(build, masks, quick):
-    """One entry per case: its name in parts, the median time, half the range of all times, and its counters."""
+    """One entry per case: parts of its name, median time, half the range of times, and counters."""
     out = build / "stages.json"
     subprocess.run([build / "bench" / "droplet_bench", f"--largest={100_000 if quick else 4_000_000}",
                     f"--benchmark_out={out}", "--benchmark_out_format=json", "--benchmark_display_aggregates_only=true",
@@ -92,7 +92,7 @@ def stages(build, masks, quick):
 # ------------------------------------------------------------------------------------------------- whole processes
 
 class Command:
-    """droplet-shape from a mask to a GLB and a report."""
+    """droplet-shape, from a mask to a GLB and a report."""
 
     def __init__(self, program, mask, folder):
         self.program, self.mask, self.folder = program, mask, folder
@@ -102,7 +102,7 @@ class Command:
         return process.run([self.program, self.mask, self.output, "--quiet", *options])
 
     def reported(self, *options):
-        """The run; in place of its output the report of another, for a report is a file more to write."""
+        """A run with the report of a second run as its output, because writing a report takes time."""
         report = self.folder / "report.json"
         run = self.start(*options)
         self.start("--json", report, *options)
@@ -129,21 +129,21 @@ def summary(runs):
 
 
 def whole(command, sizes):
-    return {in_short(size): summary([command.reported("--triangles", size) for _ in range(runs_of(size))])
+    return {short_name(size): summary([command.reported("--triangles", size) for _ in range(runs_of(size))])
             for size in sizes}
 
 
 # --------------------------------------------------------------------------------------------------------- FreeFem++
 
 def outline(build, mask, spacing):
-    """The letter's loops with points that far apart [mm]."""
+    """Loops of the letter, with points at the given spacing [mm]."""
     numbers = iter(subprocess.run([build / "bench" / "bench_outline", mask, repr(spacing)], capture_output=True,
                                   text=True, check=True).stdout.split())
     return [[(float(next(numbers)), float(next(numbers))) for _ in range(int(count))] for count in numbers]
 
 
 def against_freefem(build, command, folder, size):
-    """Both programs on the letter, in turns; FreeFem++ with as many BLAS threads as suit it best."""
+    """Both programs on the letter, in turns; FreeFem++ with its faster number of BLAS threads."""
     triangles = command.reported("--triangles", size).output["mesh"]["triangles"]
     area = command.reported("--triangles", 5_000).output["mesh"]["footprint_area_m2"]
     loops = freefem.fitted(lambda spacing: outline(build, command.mask, spacing), area, triangles, folder, WATER)
@@ -159,11 +159,11 @@ def against_freefem(build, command, folder, size):
     their_runs, our_runs = process.alternately(5, theirs, lambda: command.reported("--triangles", size))
     stages = {stage: statistics.median(getattr(s, stage) for s in found) for stage in ("mesh", "assemble", "solve")}
     ours = summary(our_runs)
-    apart = max(abs(found[0].unit_volume / ours["unit_volume"] - 1.0),
+    difference = max(abs(found[0].unit_volume / ours["unit_volume"] - 1.0),
                 abs(found[0].unit_height / ours["unit_height"] - 1.0))
-    if apart > AGREEMENT:
-        raise RuntimeError(f"FreeFem++ and droplet-shape differ by {apart} in volume or height")
-    return {"ours": ours, "apart": apart,
+    if difference > AGREEMENT:
+        raise RuntimeError(f"FreeFem++ and droplet-shape differ by {difference} in volume or height")
+    return {"ours": ours, "difference": difference,
             "theirs": {"seconds": process.median(their_runs), "spread": process.spread(their_runs), "runs": 5,
                        "peak_bytes": process.peak(their_runs), "stages": stages, "triangles": found[0].triangles,
                        "unit_volume": found[0].unit_volume, "unit_height": found[0].unit_height,
@@ -171,12 +171,12 @@ def against_freefem(build, command, folder, size):
 
 
 def bessel_i(order, x):
-    """Modified Bessel function of the first kind by its series, for small x."""
+    """Modified Bessel function of the first kind, by its series for small x."""
     return sum((0.5 * x) ** (2 * k + order) / (math.factorial(k) * math.factorial(k + order)) for k in range(40))
 
 
 def freefem_on_disc(folder, size):
-    """Errors of FreeFem++ where the solution is known: in the middle, and of the volume. One run: errors only."""
+    """Errors of FreeFem++ against the exact solution: height in the middle, and volume. Times are not measured."""
     radius = CAPILLARY_LENGTHS * math.sqrt(WATER["tension"] / WATER["weight"])
     i0, i1 = bessel_i(0, CAPILLARY_LENGTHS), bessel_i(1, CAPILLARY_LENGTHS)
     height = (1.0 - 1.0 / i0) / WATER["weight"]
@@ -207,14 +207,14 @@ def run(root, build, native, quick):
     results = {"machine": machine(build), "quick": quick}
     sizes = [size for size in SIZES if not quick or size <= 100_000]
 
-    tell("whole processes")
+    log("whole processes")
     command.start()  # loads the libraries once
     results["whole"] = whole(command, sizes)
     finest = sizes[-1] if quick else REFERENCE
     reference = summary([command.reported("--triangles", finest)])
     results["reference"] = {key: reference[key] for key in ("triangles", "unit_volume", "unit_height")}
 
-    tell("a default run")
+    log("a default run")
     default = Command(build / program, folder / f"letter_{DEFAULT_MASK}.png", folder)
     results["default"] = summary([default.reported() for _ in range(15)])
     results["default"]["plain_seconds"] = process.median([default.start() for _ in range(15)])
@@ -225,27 +225,27 @@ def run(root, build, native, quick):
     results["largest_mask"] = summary([poster.reported() for _ in range(3)])
 
     triangles = sizes[-1] if quick else 1_000_000
-    tell("threads, and the machine's own instructions")
+    log("threads and -march=native")
     portable = ["--triangles", triangles]
     ours = Command(native / program, masks[0], folder)
     one, two, own = process.alternately(5, lambda: command.reported(*portable, "-j", "1"),
                                         lambda: command.reported(*portable, "-j", "2"),
                                         lambda: ours.reported(*portable, "-j", "2"))
-    results["threads"] = {"size": in_short(triangles), "1": summary(one), "2": summary(two)}
-    results["native"] = {"size": in_short(triangles), "portable": summary(two), "native": summary(own)}
+    results["threads"] = {"size": short_name(triangles), "1": summary(one), "2": summary(two)}
+    results["native"] = {"size": short_name(triangles), "portable": summary(two), "native": summary(own)}
 
-    tell("FreeFem++")
+    log("FreeFem++")
     against = [size for size in (10_000, 100_000, 1_000_000) if not quick or size <= 100_000]
-    results["freefem"] = {in_short(size): against_freefem(build, command, folder, size) for size in against}
-    results["freefem_disc"] = {in_short(size): freefem_on_disc(folder, size) for size in against}
+    results["freefem"] = {short_name(size): against_freefem(build, command, folder, size) for size in against}
+    results["freefem_disc"] = {short_name(size): freefem_on_disc(folder, size) for size in against}
 
-    tell("stages and peers")
+    log("stages and peers")
     results["stages"] = stages(build, masks, quick)
 
-    tell("the wind tunnel")
+    log("the wind tunnel")
     results["tunnel"] = tables(build / "bench" / "bench_tunnel")
-    tell("the windshield")
+    log("the windshield")
     results["windshield"] = tables(build / "bench" / "bench_windshield", f"--hour={60 if quick else 600}")
-    tell("the driver's view")
+    log("the driver's view")
     results["view"] = tables(build / "bench" / "bench_view")
     return results

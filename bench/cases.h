@@ -11,8 +11,8 @@
 
 namespace droplet::bench {
 
-/// A footprint, and what comes of it at one number of triangles after the other: each stage's result is made when it is
-/// first asked for, and kept until another number is.
+/// Footprint with the results of the stages at one number of triangles. A result is computed at the first call, and
+/// kept until a call with another number.
 class Case {
 public:
     Case(std::string name, Domain domain);
@@ -34,9 +34,9 @@ private:
     std::optional<Surface> surface_;
 };
 
-/// What is to be measured.
+/// Masks and sizes to be measured.
 struct Plan {
-    std::vector<std::filesystem::path> masks;  ///< the first also goes through all later stages
+    std::vector<std::filesystem::path> masks;  ///< the first one is also measured in all later stages
     std::vector<std::size_t> sizes;            ///< [triangles]
 
     [[nodiscard]] bool has(std::size_t size) const;
@@ -44,7 +44,7 @@ struct Plan {
 
 TriangulateOptions meshOf(std::size_t triangles);
 
-/// As it stands in names: 5k, 1M.
+/// Short form for names: 5k, 1M.
 std::string inShort(std::size_t triangles);
 
 std::size_t triangleCount(const std::vector<PlanarMesh>& meshes);

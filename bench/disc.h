@@ -7,25 +7,24 @@
 
 namespace droplet::bench {
 
-/// A round footprint of water, for which the heights are known.
+/// Round footprint of water, whose heights are known exactly.
 class Disc {
 public:
-    /// @param capillary_lengths  the radius, in units of √(σ/ρg): well below 1 tension shapes the droplet, well above
-    /// weight
+    /// @param capillary_lengths  radius in units of √(σ/ρg); far below 1, tension shapes the droplet, far above, weight
     explicit Disc(double capillary_lengths);
 
-    /// A polygon of so many points that it counts as the circle.
+    /// Polygon with enough points to represent the circle.
     [[nodiscard]] Domain domain() const;
 
     /// Largest error of the heights at a mesh's vertices against the exact ones,
     /// u = λ/ρg (1 − I₀(κr)/I₀(κR)) with κ² = ρg/σ, relative to the height in the middle.
     [[nodiscard]] double heightError(const PlanarMesh& mesh, const HeightField& field) const;
 
-    /// Relative error of the height in the middle, the largest.
+    /// Relative error of the largest height, which is in the middle.
     [[nodiscard]] double middleError(const HeightField& field) const;
 
-    /// Error of the volume, 2πR² λ/ρg (½ − I₁(κR)/(κR I₀(κR))), relative: that of the heights in the energy norm,
-    /// squared.
+    /// Relative error of the volume, 2πR² λ/ρg (½ − I₁(κR)/(κR I₀(κR))). It is the squared error of the heights in the
+    /// energy norm.
     [[nodiscard]] double volumeError(const PlanarMesh& mesh, const HeightField& field) const;
 
 private:

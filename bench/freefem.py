@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same droplet by FreeFem++: buildmesh, P1, its sparse direct solver (F. Hecht, "New development in FreeFem++",
+"""The same droplet in FreeFem++: buildmesh, P1, its sparse direct solver (F. Hecht, "New development in FreeFem++",
 2012).
 
-Lengths are millimetres, near 1 as its mesher expects; sigma K does not change with the unit of length in the plane, the
-mass matrix and the load do, by its square. Only the heights, metres per pascal, come back: no surface is lofted and no
-file written, which is in its favour.
+Lengths are in millimetres, near 1 as its mesher expects. In the plane, sigma K does not depend on the unit of length;
+the mass matrix and the load are proportional to its square. Only the heights, in metres per pascal, are computed: no
+surface is lofted and no file is written, which favours FreeFem++.
 """
 
 import dataclasses
@@ -52,7 +52,7 @@ class Solution:
 
 
 def script(template, loops, folder, physics):
-    """The text of a program for that polygon; its points are read from files, so that the text stays short."""
+    """Text of a program for a polygon. It reads the points from files, so that it stays short."""
     arrays, borders = [], []
     for k, points in enumerate(loops):
         path = folder / f"loop_{k}"
@@ -80,20 +80,20 @@ def start(text, folder, threads):
 
 
 def count(loops, folder, physics):
-    """How many triangles buildmesh makes of a polygon."""
+    """Number of triangles that buildmesh makes of a polygon."""
     return int(answer(start(script(MESH_ONLY, loops, folder, physics), folder, 1))[0])
 
 
 def solve(loops, folder, physics, threads):
-    """The run of the whole process, and what it found."""
+    """Run of the whole process, and its solution."""
     run = start(script(SCRIPT, loops, folder, physics), folder, threads)
     numbers = answer(run)
     return run, Solution(int(numbers[0]), *map(float, numbers[1:]))
 
 
 def fitted(loops_at, area, wanted, folder, physics):
-    """Loops whose mesh has that many triangles, within 3 %: loops_at(spacing) gives those of any spacing [mm]. The
-    number goes as 1/spacing², give or take 2 % without rule."""
+    """Loops whose mesh has the wanted number of triangles within 3 %; loops_at(spacing) returns those of a spacing
+    [mm]. The number is proportional to 1/spacing², with irregular deviations of 2 %."""
     coarse = min(wanted, 50_000)
     spacing = math.sqrt(area / SQUARE_MM / coarse * 4.0 / math.sqrt(3.0))
     for _ in range(2):

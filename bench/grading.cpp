@@ -14,7 +14,7 @@ namespace {
 struct Shape {
     std::string name;
     Domain domain;
-    std::optional<Disc> disc;  // where the heights are known
+    std::optional<Disc> disc;  // set if the heights are known
 };
 
 struct Graded {

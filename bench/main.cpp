@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Google Benchmark over the river's stages and their peers:
+// Google Benchmark of the pipeline's stages and of other programs:
 //
 //   droplet_bench [--largest=TRIANGLES] [Google Benchmark's own options] MASK...
 #include <benchmark/benchmark.h>

@@ -1,19 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the letter that is measured: `masks.py FOLDER PIXELS...` writes FOLDER/letter_PIXELS.png."""
+"""Draws the measured letter: `masks.py FOLDER PIXELS...` writes FOLDER/letter_PIXELS.png."""
 
 import pathlib
 import sys
 
 from PIL import Image, ImageDraw, ImageFont
 
-Image.MAX_IMAGE_PIXELS = None  # a guard against files of others
+Image.MAX_IMAGE_PIXELS = None  # the limit protects against foreign files
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
-LETTER = "&"  # a hole, straight and round strokes, blunt and sharp and re-entrant corners
+LETTER = "&"  # has a hole, straight and round strokes, and blunt, sharp and re-entrant corners
 
 
 def letter(pixels):
-    """White on black, anti-aliased, in the middle of a square, over nine tenths of its width."""
+    """White letter on a black square, anti-aliased, centred, nine tenths as wide as the square."""
     face = ImageFont.truetype(FONT, pixels)
     left, _, right, _ = face.getbbox(LETTER)
     face = ImageFont.truetype(FONT, round(0.9 * pixels * pixels / (right - left)))

@@ -11,8 +11,8 @@
 
 namespace droplet::bench {
 
-/// Registers a case. `prepare` makes what `work` is done on, uncounted; measured are the time of `work`, the most
-/// memory it took beyond what was there, and by `judge` how good its result is.
+/// Registers a case. `prepare` makes the input of `work` and is not measured. Measured are the time of `work`, the rise
+/// of the peak memory, and by `judge` the quality of the result.
 template <class Prepare, class Work, class Judge>
 void measure(const std::string& name, int repetitions, Prepare prepare, Work work, Judge judge)
 {
@@ -28,8 +28,8 @@ void measure(const std::string& name, int repetitions, Prepare prepare, Work wor
                                          state.ResumeTiming();
                                          result.emplace(work());
                                      }
-                                     if (const auto risen = memory.risen()) {
-                                         state.counters["peak_bytes"] = static_cast<double>(*risen);
+                                     if (const auto rise = memory.rise()) {
+                                         state.counters["peak_bytes"] = static_cast<double>(*rise);
                                      }
                                      judge(*result, state.counters);
                                  })

@@ -6,14 +6,15 @@
 
 namespace droplet::bench {
 
-/// How much memory the process takes beyond what it held when this was made.
+/// Rise of the process's peak memory since construction.
 class PeakMemory {
 public:
-    /// Gives free memory back to the system, so that it counts when it is taken again, and forgets earlier peaks.
+    /// Returns free memory to the system, so that it counts when it is used again, and resets the peak.
     PeakMemory();
 
-    /// Most that was resident since, beyond what was resident then; none where Linux does not say [bytes].
-    [[nodiscard]] std::optional<std::uint64_t> risen() const;
+    /// Peak of resident memory since construction minus the resident memory then [bytes]; nothing if Linux does not
+    /// report it.
+    [[nodiscard]] std::optional<std::uint64_t> rise() const;
 
 private:
     std::optional<std::uint64_t> before_;

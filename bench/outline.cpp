@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the outline of a mask, as wide as droplet-shape takes it to be, for another mesher:
+// Writes the outline of a mask, in the width that droplet-shape uses, for another mesher:
 //
 //   bench_outline MASK SPACING_MM > loops
 //
-// For every loop, outer rims counter-clockwise and holes clockwise, its number of points and then the points [mm].
+// For every loop it writes the number of points and the points [mm]; outer rims are counter-clockwise, holes clockwise.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -31,11 +31,11 @@ using Triangulation =
 using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 using Mesher = CGAL::Delaunay_mesher_2<Triangulation, Criteria>;
 
-// B = 1/(4 sin² of the smallest angle): 20.7°, the manual's bound for which it is proved to end.
+// B = 1/(4 sin² of the smallest angle), here 20.7°: the manual's bound for which termination is proved.
 constexpr double kShape = 0.125;
 
-// Where the loops enclose an even number of times it is dry: there lie CGAL's seeds, one for each hole. A line at the
-// height of the middle of one of the loop's sides enters the hole, and leaves it next.
+// Point inside a hole, a seed for CGAL. A horizontal line through the middle of one of the loop's sides enters the hole
+// at its first crossing and leaves it at the second.
 Point insideOf(const Loop& loop)
 {
     const auto& points = loop.points;
@@ -107,7 +107,8 @@ Refined countTriangles(const Triangulation& triangulation)
     return refined;
 }
 
-/// The edge at which CGAL makes that many triangles within 2 %. Coarse meshes tell: the number goes as 1/edge².
+/// Edge length at which CGAL makes the wanted number of triangles within 2 %. It is extrapolated from coarse meshes:
+/// the number is proportional to 1/edge².
 double edgeFor(const Domain& domain, std::size_t wanted)
 {
     double ground = 0.0;
@@ -135,7 +136,7 @@ void registerMesher(const std::shared_ptr<Case>& letter, std::size_t size)
         });
 }
 
-/// The matrix alone: putting it together is not counted.
+/// Measures ordering, factorisation and solution; the assembly of the matrix is not counted.
 void registerCholesky(const std::shared_ptr<Case>& letter, std::size_t size)
 {
     const auto system = std::make_shared<System>();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Log-log charts as SVG, by hand: straight lines and words need no library."""
+"""Log-log charts as SVG; lines and texts need no library."""
 
 import html
 import math
@@ -9,7 +9,7 @@ COLOURS = ["#1f5fa8", "#c23b22", "#2e8b57", "#8a5fb0", "#d08a1d", "#4f9fb8", "#7
 
 
 class Chart:
-    """One pair of logarithmic axes within the picture."""
+    """Chart with logarithmic axes, as a part of the picture."""
 
     def __init__(self, column, row, title, x_label, y_label, curves):
         self.left, self.top, self.width, self.height = 70 + 600 * column, 50 + 500 * row, 330, 380
@@ -74,12 +74,12 @@ def power(value):
 
 
 def span(values):
-    """Whole decades around some numbers."""
+    """Range of whole decades around numbers."""
     return 10.0 ** math.floor(math.log10(min(values))), 10.0 ** math.ceil(math.log10(max(values)))
 
 
 def growth(results):
-    """Four charts: time, memory and error against triangles, and what exactness costs."""
+    """Four charts: time, memory and error against triangles, and error against time."""
     by_size = {**{size: both["ours"] for size, both in results.data["freefem"].items()}, **results.data["whole"]}
     ours = by_size.values()
     theirs = [both["theirs"] for both in results.data["freefem"].values()]
@@ -114,7 +114,7 @@ def growth(results):
         Chart(0, 0, "Time", "triangles", "seconds", time),
         Chart(1, 0, "Peak memory", "triangles", "bytes", memory),
         Chart(0, 1, "Error on the disc, against the exact solution", "triangles", "relative error", error),
-        Chart(1, 1, "What exactness costs", "seconds, whole process", "error of the letter's volume", exactness)))
+        Chart(1, 1, "Error against time", "seconds, whole process", "error of the letter's volume", exactness)))
     return f"""\
 <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="13">
 <!-- SPDX-License-Identifier: GPL-3.0-or-later -->

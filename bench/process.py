@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs programs and measures them from outside: wall time from before the start to after the end, peak memory as the
-kernel counted it."""
+"""Runs programs and measures them from outside: wall time from before the start to after the end, and peak memory by the
+kernel's count."""
 
 import dataclasses
 import os
@@ -17,7 +17,7 @@ class Run:
 
 
 def run(arguments, environment=None, folder=None):
-    """One run; one that fails ends the measurement."""
+    """One run; a failure ends the measurement."""
     begin = time.perf_counter()
     child = subprocess.Popen([str(a) for a in arguments], stdout=subprocess.PIPE, cwd=folder,
                              env={**os.environ, **(environment or {})})
@@ -32,7 +32,7 @@ def run(arguments, environment=None, folder=None):
 
 
 def alternately(count, *cases):
-    """Each case, a function that gives a Run, that often, in turns: what slows the machine slows all of them."""
+    """Runs cases, which are functions that return a Run, in turns, so that a slow machine slows all of them."""
     runs = [[] for _ in cases]
     for _ in range(count):
         for results, case in zip(runs, cases):

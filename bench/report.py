@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""RESULTS.md, growth.svg and README.md's profile from what campaign.py measured."""
+"""Writes RESULTS.md, growth.svg and the profile in README.md from the measurements of campaign.py."""
 
 import math
 
 import picture
 
-# A million triangles when CGAL refined everything, Eigen factorised at every size, and the base was as fine as the
-# dome [s].
+# Times of a million triangles before optimisation: CGAL refined everything, Eigen factorised at every size, and the
+# base was as fine as the dome [s].
 BEFORE = {"read": 0.017, "trace": 0.036, "triangulate": 1.54, "assemble": 0.17, "solve": 2.81, "loft": 0.79,
           "write": 0.22, "total": 5.6}
 STAGES = ["read", "trace", "triangulate", "assemble", "solve", "loft", "write"]
@@ -19,7 +19,7 @@ def count(triangles):
 
 
 def seconds(value):
-    """Three significant digits, never as a power of ten."""
+    """Time with three significant digits, without exponent."""
     digits = 2 - math.floor(math.log10(value)) if value > 0 else 0
     return f"{value:.{max(0, digits)}f} s" if value >= 0.1 else f"{1000 * value:.{max(0, digits - 3)}f} ms"
 
@@ -33,7 +33,7 @@ def small(value):
 
 
 def exponent(points):
-    """Slope of the straight line that fits the logarithms best."""
+    """Slope of the straight line fitted to the logarithms."""
     logs = [(math.log(x), math.log(y)) for x, y in points]
     x_mean = sum(x for x, _ in logs) / len(logs)
     y_mean = sum(y for _, y in logs) / len(logs)
@@ -41,14 +41,14 @@ def exponent(points):
 
 
 def table(head, rows, words=(0,)):
-    """Columns of numbers stand to the right, those of words to the left."""
+    """Markdown table: columns in `words` are aligned left, all others right."""
     lines = ["| " + " | ".join(head) + " |",
              "| " + " | ".join("---" if k in words else "---:" for k in range(len(head))) + " |"]
     return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows]) + "\n"
 
 
 class Results:
-    """What was measured, by name."""
+    """Measurements by name."""
 
     def __init__(self, results):
         self.data = results
@@ -61,7 +61,7 @@ class Results:
         return [case for case in self.data["stages"] if case["name"][:len(prefix)] == list(prefix)]
 
     def volume_error(self, case):
-        """Of the volume at unit pressure, against the finest mesh; none of the finest itself."""
+        """Error of the volume at unit pressure against the finest mesh; None for that mesh itself."""
         reference = self.data["reference"]
         if case["triangles"] > 0.9 * reference["triangles"]:
             return None
@@ -74,7 +74,7 @@ class Results:
         return abs(case["unit_height"] / reference["unit_height"] - 1.0)
 
     def growth(self, stage):
-        """Exponent of a stage's time, or the total's, over whole processes from the smallest size to the largest."""
+        """Exponent of the time of a stage, or of the whole process, from the smallest size to the largest."""
         points = [(whole["triangles"], whole["seconds"] if stage == "process" else whole["stages"][stage])
                   for whole in self.data["whole"].values()]
         return exponent(points) if len(points) > 1 else None
@@ -84,36 +84,36 @@ def error(value):
     return "–" if value is None else small(value)
 
 
-# ------------------------------------------------------------------------------------------------------------- bars
+# ---------------------------------------------------------------------------------------------------------- targets
 
 def verdict(reached):
     return "**reached**" if reached else "**not reached**"
 
 
-def bars(results):
-    """Each bar with what was measured and whether it is reached; those that were not measured are left out."""
+def targets(results):
+    """Each target with its measurement and whether it is reached; targets without a measurement are left out."""
     data, rows = results.data, []
 
-    def bar(work, wanted, found, reached):
-        rows.append((work, wanted, found, verdict(reached)))
+    def add(work, target, found, reached):
+        rows.append((work, target, found, verdict(reached)))
 
     for size, wanted in (("1M", 45.0), ("100k", 9.0)):
         if size in data["freefem"]:
             ours, theirs = data["freefem"][size]["ours"], data["freefem"][size]["theirs"]
             ratio = theirs["seconds"] / ours["seconds"]
-            bar(f"mask to GLB, {count(ours['triangles'])} footprint triangles, whole process, against FreeFem++",
+            add(f"mask to GLB, {count(ours['triangles'])} footprint triangles, whole process, against FreeFem++",
                 f"≥ {wanted:.0f}×", f"{ratio:.1f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])})",
                 ratio >= wanted)
     ours, theirs = results.stage("Triangulate/letter/1M"), results.stage("Triangulate/Delaunay_mesher_2/1M")
     if ours and theirs:
         ratio = theirs["seconds"] / ours["seconds"]
-        bar("triangulation at 1 M, against `CGAL::Delaunay_mesher_2`", "≥ 80×, angles ≥ 20°",
+        add("triangulation at 1 M, against `CGAL::Delaunay_mesher_2`", "≥ 80×, angles ≥ 20°",
             f"{ratio:.0f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])}), smallest angle "
             f"{ours['min_angle_deg']:.1f}°", ratio >= 80.0 and ours["min_angle_deg"] >= 20.0)
     ours, theirs = results.stage("Solve/multigrid-pcg/letter/1M"), results.stage("Solve/Eigen SimplicialLLT/1M")
     if ours and theirs:
         ratio = theirs["seconds"] / ours["seconds"]
-        bar("linear solve at 1 M, assembly and set-up included, against Eigen `SimplicialLLT` (AMD), assembly not "
+        add("linear solve at 1 M, assembly and set-up included, against Eigen `SimplicialLLT` (AMD), assembly not "
             "included", "≥ 20×, residual ≤ 1e-9, less memory",
             f"{ratio:.1f}× ({seconds(ours['seconds'])} against {seconds(theirs['seconds'])}), residual "
             f"{small(ours['residual'])}, {megabytes(ours['peak_bytes'])} against {megabytes(theirs['peak_bytes'])}",
@@ -121,23 +121,23 @@ def bars(results):
     exponents = {stage: results.growth(stage) for stage in [*STAGES, "process"]}
     if all(value is not None for value in exponents.values()):
         worst = max(exponents, key=exponents.get)
-        bar("growth of time from 100 k to 4 M triangles, every stage and the whole process", "exponent ≤ 1.1",
+        add("growth of time from 100 k to 4 M triangles, every stage and the whole process", "exponent ≤ 1.1",
             f"at most {exponents[worst]:.2f} ({worst}); whole process {exponents['process']:.2f}",
             exponents[worst] <= 1.1)
     memory = {size: whole["peak_bytes"] / whole["triangles"] for size, whole in data["whole"].items()
               if size in ("1M", "4M")}
     if memory:
-        bar("peak memory per footprint triangle, closed output included", "≤ 300 bytes",
+        add("peak memory per footprint triangle, closed output included", "≤ 300 bytes",
             ", ".join(f"{value:.0f} at {size}" for size, value in memory.items()), max(memory.values()) <= 300.0)
     plain = data["default"]["plain_seconds"]
-    bar("default run on a 1024 px PNG, process start included", "≤ 0.045 s", seconds(plain), plain <= 0.045)
+    add("default run on a 1024 px PNG, process start included", "≤ 0.045 s", seconds(plain), plain <= 0.045)
     largest = data["largest_mask"]
-    bar("a 16384² mask, default run", "< 2 GiB",
+    add("a 16384² mask, default run", "< 2 GiB",
         f"{largest['peak_bytes'] / 2**30:.2f} GiB, {seconds(largest['seconds'])}", largest["peak_bytes"] < 2**31)
     draft = results.stage("Draft/1024px")
-    bar("draft of 5 k triangles, 1024 px mask in memory to surface in memory", "≤ 10 ms", seconds(draft["seconds"]),
+    add("draft of 5 k triangles, 1024 px mask in memory to surface in memory", "≤ 10 ms", seconds(draft["seconds"]),
         draft["seconds"] <= 0.01)
-    return table(["work", "bar", "measured", ""], rows, words=range(4))
+    return table(["work", "target", "measured", ""], rows, words=range(4))
 
 
 # --------------------------------------------------------------------------------------------------------- sections
@@ -173,9 +173,9 @@ def freefem(results):
         if ours:
             disc.append((count(ours["triangles"]), small(ours["volume_error"]), small(ours["middle_error"]),
                          count(theirs["triangles"]), small(theirs["volume_error"]), small(theirs["height_error"])))
-    return (whole + "\nTimes of ours / of FreeFem++:\n\n"
+    return (whole + "\nTimes of droplet-shape / FreeFem++:\n\n"
             + table(["triangles", "mesh", "assemble", "solve", "BLAS threads of FreeFem++"], parts, words=())
-            + "\nOn the disc of three capillary lengths, where the solution is known:\n\n"
+            + "\nOn the disc of three capillary lengths, whose exact solution is known:\n\n"
             + table(["triangles", "error of volume", "of height", "FreeFem++: triangles", "error of volume",
                      "of height"], disc, words=()))
 
@@ -243,8 +243,8 @@ def pixel_growth(results):
     lines = []
     for stage in ("Read", "Trace"):
         points = [(case["pixels"], case["seconds"]) for case in results.stages(stage)]
-        lines.append(f"{stage.lower()} as pixels^{exponent(points):.2f}")
-    return f"With the number of pixels grow: {', '.join(lines)} (512 px to 8192 px square).\n"
+        lines.append(f"{stage} grows as pixels^{exponent(points):.2f}")
+    return f"{', '.join(lines)} (512 px to 8192 px square).\n"
 
 
 def threads_and_instructions(results):
@@ -258,12 +258,12 @@ def threads_and_instructions(results):
             for stage in [*STAGES, "process"]]
     gain = portable["seconds"] / native["seconds"]
     return (table(["stage", "1 thread", "2 threads", "2 threads, `-march=native`", "2 threads faster by"], rows)
-            + f"\nThe machine's own instructions make the whole process {gain:.2f}× as fast "
+            + f"\nWith `-march=native` the whole process is {gain:.2f}× as fast "
               f"({count(portable['triangles'])} triangles).\n")
 
 
 def grading(results):
-    """How many triangles each grading takes for the error of the volume of a uniform mesh."""
+    """Number of triangles of each grading for the same error of the volume as a uniform mesh."""
     cases = results.stages("Grading")
     if not cases:
         return None
@@ -284,7 +284,7 @@ def grading(results):
 
 
 def triangles_for(wanted, curve):
-    """Where a curve of (triangles, error) comes down to an error, straight between its points in logarithms."""
+    """Number of triangles at which a curve of (triangles, error) reaches an error, interpolated in logarithms."""
     for (n0, e0), (n1, e1) in zip(curve, curve[1:]):
         if e0 >= wanted >= e1:
             share = math.log(e0 / wanted) / math.log(e0 / e1)
@@ -293,7 +293,7 @@ def triangles_for(wanted, curve):
 
 
 def profile(data):
-    """The stages' shares of a million triangles, before the work on speed and now; none unless that was measured."""
+    """Shares of the stages at a million triangles, before optimisation and now; None if that was not measured."""
     now = data["whole"].get("1M")
     if not now:
         return None
@@ -309,21 +309,20 @@ def profile(data):
 
 TEXT = """\
 <!-- SPDX-License-Identifier: GPL-3.0-or-later -->
-<!-- Written by scripts/bench: what is changed here is lost. -->
-# How fast, how large, how exact
+<!-- Written by scripts/bench, which overwrites changes. -->
+# Speed, memory and accuracy
 
-[README.md](README.md) tells how all of this was measured. Times are medians; beside them stands half the range of all
-runs.
+[README.md](README.md) describes the measurements. Times are medians; ± is half the range of all runs.
 
 {machine}
-## The bars
+## Targets
 
-{bars}
+{targets}
 ## Whole processes against FreeFem++
 
-From the same outline, of "&" on a 2048 px mask, as many triangles within 3 %. droplet-shape reads the mask, traces,
-triangulates, solves, and writes a closed GLB; FreeFem++ reads the outline, triangulates and solves. Errors are of
-volume and height at unit pressure, against {reference} triangles; in both the two programs agree to {apart}.
+Both programs mesh the same outline, of "&" on a 2048 px mask, with the same number of triangles within 3 %.
+droplet-shape reads the mask, traces, triangulates, solves, and writes a closed GLB; FreeFem++ reads the outline,
+triangulates and solves. Errors are those of volume and height at unit pressure, against {reference} triangles. Both programs agree within {difference}.
 
 {freefem}
 ![Seconds against triangles, and error against seconds](growth.svg)
@@ -334,12 +333,12 @@ volume and height at unit pressure, against {reference} triangles; in both the t
 {small}
 ## Solvers
 
-Time and memory of droplet-shape's include assembly; those of Eigen's factorisation do not. Residuals are true ones,
-‖Au − m‖/‖m‖ with A assembled by the benchmark. Errors on the disc are against the exact solution (heights: largest at
-any vertex, relative to the middle), of the letter's volume against {reference} triangles.
+Time and memory of droplet-shape's solvers include assembly; those of Eigen's factorisation do not. Residuals are
+‖Au − m‖/‖m‖ with A assembled by the benchmark. Errors on the disc are against the exact solution (heights: largest error
+at a vertex, relative to the middle); errors of the letter's volume are against {reference} triangles.
 
 {solvers}
-## Other stages and peers
+## Other stages and programs
 
 {other}
 {pixels}
@@ -348,33 +347,33 @@ any vertex, relative to the middle), of the letter's volume against {reference} 
 {threads}
 ## The wind tunnel
 
-Errors of sweeps are the largest against closed forms in long double, of hemispheres with n = ½; thresholds are found as
-roots for every case. Errors of series are against the closed form of a droplet that climbs through 100 gusts.
+Errors of sweeps are the largest deviations from closed forms in long double, for hemispheres with n = ½; thresholds are
+roots, computed for every case. Errors of traces are deviations from the closed form of a droplet that climbs through 100
+gusts.
 
 {tunnel}
 
 ## The windshield
 
-Steps of droplets that all move, with an hour's beginning at 25 mm/h last; the balance is what of the water is not found
-again, of all rained.
+Steps with moving droplets; the last table is the beginning of an hour at 25 mm/h. The balance error is the water that is
+missing, relative to all rain.
 
 {windshield}
 
 ## The driver's view
 
-1280 × 720 pixels with 1000 large droplets and 200 000 small ones, without encoding.
+Frames of 1280 × 720 pixels with 1000 large droplets and 200 000 small ones, without encoding.
 
 {view}
 """
 
-PROFILE_BEGINS = "<!-- scripts/bench writes from here -->\n"
-PROFILE_ENDS = "<!-- to here -->\n"
+PROFILE_BEGINS = "<!-- begin: written by scripts/bench -->\n"
+PROFILE_ENDS = "<!-- end: written by scripts/bench -->\n"
 
 GRADING = """\
 ## Grading
 
-Triangles that a mesh takes for the same error of the volume, which is the squared error of the heights in the energy
-norm.
+Number of triangles for the same error of the volume, which is the squared error of the heights in the energy norm.
 
 {grading}
 """
@@ -382,9 +381,9 @@ norm.
 
 def write(data, folder):
     results = Results(data)
-    text = TEXT.format(machine=machine(data), bars=bars(results), reference=count(data["reference"]["triangles"]),
+    text = TEXT.format(machine=machine(data), targets=targets(results), reference=count(data["reference"]["triangles"]),
                        freefem=freefem(results), whole=whole(results), small=small_runs(data), solvers=solvers(results),
-                       apart=small(max(both["apart"] for both in data["freefem"].values())),
+                       difference=small(max(both["difference"] for both in data["freefem"].values())),
                        other=other_stages(results), pixels=pixel_growth(results),
                        threads=threads_and_instructions(results), tunnel=data["tunnel"],
                        windshield=data["windshield"], view=data["view"])

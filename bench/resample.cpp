@@ -10,7 +10,7 @@
 namespace droplet::bench {
 namespace {
 
-/// Puts points evenly along a chain of the loop's points, the first included, the last not.
+/// Adds evenly spaced points along a chain, with its first point and without its last.
 void addEvenly(const std::vector<Vec2>& chain, double spacing, bool begins_at_corner, Loop& loop)
 {
     std::vector<double> at{0.0};

@@ -5,8 +5,8 @@
 
 namespace droplet::bench {
 
-/// A domain whose loops have points about `spacing` apart, all of them on the old loops and every corner among them:
-/// what other programs are given to mesh [m].
+/// Domain whose loops have points about `spacing` [m] apart, for other meshers. All points are on the old loops, and
+/// all corners are kept.
 Domain resampled(const Domain& domain, double spacing);
 
 }  // namespace droplet::bench

@@ -24,8 +24,8 @@ constexpr const char* kOutput = "droplet_bench.glb";
 struct SolverCase {
     const char* name;
     Solver solver;
-    std::size_t max;          // triangles; beyond, it takes minutes
-    std::size_t max_on_disc;  // which has wider separators than strokes have
+    std::size_t max;          // largest number of triangles; more would take minutes
+    std::size_t max_on_disc;  // the same on the disc, which has wider separators than strokes
 };
 
 constexpr std::array kSolvers = {
@@ -86,7 +86,7 @@ void registerTriangulate(const std::shared_ptr<Case>& footprint, std::size_t siz
         });
 }
 
-/// Heights per pressure are what another program's can be compared with.
+/// Adds size and quality of a solution. Heights per pressure can be compared with those of another program.
 void judge(const std::vector<PlanarMesh>& meshes, const Solution& solution, Counters& counters)
 {
     counters["triangles"] = static_cast<double>(triangleCount(meshes));
@@ -172,7 +172,7 @@ void registerStages(const Plan& plan)
     registerPictures(plan);
     const Outline outline = trace(readMask(plan.masks.front()));
     const auto letter = std::make_shared<Case>("letter", split(outline));
-    const Disc disc(3.0);  // as wide as neither tension nor weight is negligible
+    const Disc disc(3.0);  // neither tension nor weight is negligible
     const auto round = std::make_shared<Case>("disc", disc.domain());
     for (const std::size_t size : plan.sizes) {
         registerTriangulate(letter, size);

@@ -5,13 +5,14 @@
 
 namespace droplet::bench {
 
-/// The river's stages: Read, Trace, Draft by picture; Triangulate, Solve, Loft, Topology, Write by number of triangles.
+/// Registers the pipeline's stages: Read, Trace, Draft for each picture; Triangulate, Solve, Loft, Topology, Write for
+/// each number of triangles.
 void registerStages(const Plan& plan);
 
-/// Triangles and errors with --grading, over three shapes.
+/// Registers triangles and errors with --grading on three shapes.
 void registerGrading(const Plan& plan);
 
-/// What others do of the same work: CGAL's mesher on the same outline, Eigen's Cholesky on the same matrix.
+/// Registers other programs on the same work: CGAL's mesher on the same outline, Eigen's Cholesky on the same matrix.
 void registerPeers(const Plan& plan);
 
 }  // namespace droplet::bench

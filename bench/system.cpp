@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // P1 stiffness by cotangents: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates"
-// (1993); the library has it from gradients.
+// (1993); the library computes it from gradients.
 #include "system.h"
 
 #include <array>
@@ -52,8 +52,8 @@ System assemble(const PlanarMesh& mesh, const SolveOptions& physics)
 double residual(const System& system, const PlanarMesh& mesh, const HeightField& field)
 {
     const Eigen::Map<const Eigen::VectorXd> height(field.height.data() + mesh.rimVertexCount(), system.load.size());
-    const Eigen::VectorXd wanted = field.pressure * system.load;
-    return (wanted - system.matrix.selfadjointView<Eigen::Lower>() * height).norm() / wanted.norm();
+    const Eigen::VectorXd load = field.pressure * system.load;
+    return (load - system.matrix.selfadjointView<Eigen::Lower>() * height).norm() / load.norm();
 }
 
 double volume(const PlanarMesh& mesh, const HeightField& field)

@@ -8,18 +8,19 @@
 
 namespace droplet::bench {
 
-/// The equations of one droplet at unit pressure, put together without the library: what solvers are judged by.
+/// Equations of one droplet at unit pressure, assembled without the library, to judge solvers.
 struct System {
     Eigen::SparseMatrix<double> matrix;  ///< σK + ρgM over inner vertices, lower triangle
-    Eigen::VectorXd load;                ///< ∫φ
+    Eigen::VectorXd load;                ///< ∫φ over inner vertices
 };
 
+/// Equations on a mesh.
 System assemble(const PlanarMesh& mesh, const SolveOptions& physics);
 
-/// ‖Au − λm‖/‖λm‖ of a droplet's heights.
+/// Relative residual of a droplet's heights, ‖Au − λm‖/‖λm‖.
 double residual(const System& system, const PlanarMesh& mesh, const HeightField& field);
 
-/// ∫u [m³].
+/// Volume of a height field, ∫u [m³].
 double volume(const PlanarMesh& mesh, const HeightField& field);
 
 }  // namespace droplet::bench

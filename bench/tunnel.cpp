@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long sweeps of the wind tunnel and series of one droplet take, and how exact they are, as tables in Markdown:
+// Times and errors of the wind tunnel's sweeps and of one droplet's trace, as tables in Markdown:
 //
 //   bench_tunnel [--points=N]
 //
-// Hemispheres in a boundary layer of n = ½ have closed forms, evaluated here in long double.
+// Hemispheres in a boundary layer with n = ½ have closed forms, which are evaluated in long double.
 #include "droplet/wind/tunnel.h"
 
 #include <tbb/global_control.h>
@@ -27,7 +27,7 @@ using namespace droplet;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Median of seven runs, with half their range.
+/// Median and half the range of seven runs.
 struct Times {
     double median = 0.0;  ///< [s]
     double spread = 0.0;
@@ -57,22 +57,22 @@ std::vector<double> spaced(double from, double to, std::size_t count)
 
 TunnelSweep hemispheres()
 {
-    TunnelSweep what;
-    what.model.wetting.contact_angle = 0.5 * kPi;
-    what.model.air.boundary_layer = 20e-3;
-    return what;
+    TunnelSweep swept;
+    swept.model.wetting.contact_angle = 0.5 * kPi;
+    swept.model.air.boundary_layer = 20e-3;
+    return swept;
 }
 
 struct Errors {
-    double thresholds = 0.0;     ///< largest, relative to the upper one
-    double accelerations = 0.0;  ///< largest, relative to g
+    double thresholds = 0.0;     ///< largest error, relative to the upper threshold
+    double accelerations = 0.0;  ///< largest error, relative to g
 };
 
-Errors errorsOf(const TunnelSweep& what, const Tunnel& found)
+Errors errorsOf(const TunnelSweep& swept, const Tunnel& found)
 {
     using Real = long double;
     const Real pi = std::numbers::pi_v<Real>;
-    const ForceModel& model = what.model;
+    const ForceModel& model = swept.model;
     const Real g = model.gravity;
     Errors errors;
     const auto raise = [](double& max, Real error) { max = std::max(max, static_cast<double>(std::abs(error))); };
@@ -87,7 +87,7 @@ Errors errorsOf(const TunnelSweep& what, const Tunnel& found)
         const Real upper = std::sqrt((weight + held) / drag);
         raise(errors.thresholds, (of.thresholds.upper.value_or(0.0) - upper) / upper);
         if (weight > held) {
-            // Relative to the larger: where the lower one is nearly 0 it has no digits.
+            // The error is relative to the upper threshold, because the lower one may be almost 0.
             raise(errors.thresholds, (of.thresholds.lower.value_or(0.0) - std::sqrt((weight - held) / drag)) / upper);
         }
         for (std::size_t w = 0; w < found.winds.size(); ++w) {
@@ -101,7 +101,8 @@ Errors errorsOf(const TunnelSweep& what, const Tunnel& found)
 
 void sweeps(std::size_t points)
 {
-    std::printf("| sweep | points | 1 thread | 2 threads | threshold's error | acceleration's error, of g |\n");
+    std::printf(
+        "| sweep | points | 1 thread | 2 threads | error of thresholds | error of accelerations, relative to g |\n");
     std::printf("| --- | ---: | ---: | ---: | ---: | ---: |\n");
     const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(points)));
     const auto root = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(side))));
@@ -112,25 +113,25 @@ void sweeps(std::size_t points)
     for (const Shape& shape : {Shape{"volumes × winds", side, side, 1, 1},
                                Shape{"volumes × winds × slopes × hystereses", root, root, root, root},
                                Shape{"volumes, at one wind", points, 1, 1, 1}}) {
-        TunnelSweep what = hemispheres();
-        what.volumes = spaced(1e-9, 100e-9, shape.volumes);
-        what.winds = spaced(0.0, 25.0, shape.winds);
-        what.slopes = spaced(0.3, 1.2, shape.slopes);
-        what.hystereses = spaced(0.05, 0.5, shape.hystereses);
+        TunnelSweep swept = hemispheres();
+        swept.volumes = spaced(1e-9, 100e-9, shape.volumes);
+        swept.winds = spaced(0.0, 25.0, shape.winds);
+        swept.slopes = spaced(0.3, 1.2, shape.slopes);
+        swept.hystereses = spaced(0.05, 0.5, shape.hystereses);
         Tunnel found;
         Times times[2];
         for (std::size_t threads = 1; threads <= 2; ++threads) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-            times[threads - 1] = timed([&] { found = sweep(what); });
+            times[threads - 1] = timed([&] { found = sweep(swept); });
         }
-        const Errors errors = errorsOf(what, found);
+        const Errors errors = errorsOf(swept, found);
         std::printf("| %s | %zu | %.1f ± %.1f ms | %.1f ± %.1f ms | %.0e | %.0e |\n", shape.name, found.rows.size(),
                     1e3 * times[0].median, 1e3 * times[0].spread, 1e3 * times[1].median, 1e3 * times[1].spread,
                     errors.thresholds, errors.accelerations);
     }
 }
 
-/// Velocity of a droplet that climbs throughout a gust, k (U + A sin ωt)² against viscous drag.
+/// Velocity of a droplet that climbs during all gusts: k (U + A sin ωt)² against viscous drag.
 double climbing(const DropletForces& forces, double slope, const Gust& wind, double time)
 {
     const double k = forces.drag / forces.mass;
@@ -147,9 +148,10 @@ double climbing(const DropletForces& forces, double slope, const Gust& wind, dou
     return particular(time) - particular(0.0) * std::exp(-l * time);
 }
 
-void series()
+void traces()
 {
-    std::printf("\n| a gust, tolerance | steps a period | time a step | velocity's error, of the fastest |\n");
+    std::printf(
+        "\n| tolerance, in gusts | steps per period | time per step | error of velocity, relative to the largest |\n");
     std::printf("| ---: | ---: | ---: | ---: |\n");
     const ForcePreset& preset = forcePresetNamed("thesis");
     const DropletForces forces = forcesOn(preset.model, preset.reference_volume);
@@ -157,8 +159,7 @@ void series()
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
         MotionOptions options;
         options.duration = 40.0;
-        options.interval = 0.37;  // not with the gusts
-
+        options.interval = 0.37;  // not a multiple of the gusts' period
         options.tolerance = tolerance;
         Motion found;
         const Times times = timed([&] { found = traceMotion(forces, preset.slope, wind, options); });
@@ -189,7 +190,7 @@ int main(int argc, char** argv)
     }
     try {
         sweeps(std::max<std::size_t>(1, points));
-        series();
+        traces();
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_tunnel: %s\n", error.what());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long the driver's view takes, without encoding, as a table in Markdown:
+// Time of the driver's view, without encoding, as a table in Markdown:
 //
 //   bench_view
 //
-// Frames of 1280 x 720 pixels of figure 3.12 once it has rained 200 000 still droplets: 1000 larger ones are left in
-// view, and it goes on to rain, 60 frames a second; behind it a picture that stays, a new one for every frame, or the
-// built-in road, which is painted for every frame. The step of the simulation is not counted. Processor time, of all
-// threads together, is told beside the clock's: on a machine that has other things to do, it is what to go by.
+// Frames of 1280 x 720 pixels of figure 3.12, after rain of 200 000 still droplets. 1000 larger droplets are left in
+// view, and the rain continues, at 60 frames per second. The background is one picture for all frames, a new one for
+// every frame, or the built-in road, which is painted for every frame. The simulation's step is not counted. Processor
+// time is the sum over all threads; on a busy machine it is more reliable than wall time.
 #include "droplet/view/view.h"
 
 #include <tbb/global_control.h>
@@ -33,13 +33,13 @@ double now()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of all threads.
+/// Processor time of all threads [s].
 double processorTime()
 {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The part of the glass that is seen, as a box.
+/// Box around the visible part of the glass.
 std::pair<Vec2, Vec2> seenBox(const DriversView& view, const ViewOptions& options)
 {
     Vec2 low{1e9, 1e9};
@@ -55,9 +55,9 @@ std::pair<Vec2, Vec2> seenBox(const DriversView& view, const ViewOptions& option
     return {low, high};
 }
 
-/// It rains until there are so many still droplets; then all but so many of the larger ones in view are taken away.
-WindshieldState rained(const WindshieldParameters& parameters, std::size_t running, std::size_t still,
-                       const std::pair<Vec2, Vec2>& box)
+/// State after rain of `still` still droplets, with only `running` of the larger droplets in view.
+WindshieldState stateAfterRain(const WindshieldParameters& parameters, std::size_t running, std::size_t still,
+                               const std::pair<Vec2, Vec2>& box)
 {
     WindshieldState state = startWindshield(parameters);
     while (state.still.count() < still) {
@@ -71,7 +71,7 @@ WindshieldState rained(const WindshieldParameters& parameters, std::size_t runni
         }
     }
     state.droplets.clear();
-    for (std::size_t k = 0; k < running; ++k) {  // evenly among small and large, by their age
+    for (std::size_t k = 0; k < running; ++k) {  // evenly by age, and so by size
         state.droplets.push_back(in_view[k * in_view.size() / running]);
     }
     return state;
@@ -83,10 +83,10 @@ double medianOf(std::vector<double> values)
     return values[kFrames / 2];
 }
 
-enum class Behind { Stays, Changes, Road };
+enum class Background { Still, Changing, Road };
 
 void timeFrames(const WindshieldParameters& parameters, const WindshieldState& begin_state, std::size_t threads,
-                Behind behind, int samples)
+                Background background, int samples)
 {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     ViewOptions options;
@@ -107,9 +107,9 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
         state = step(std::move(state), parameters, kStep);
         const double processor_begin = processorTime();
         const double begin = now();
-        if (behind == Behind::Changes) {
+        if (background == Background::Changing) {
             view.lookAt(roads[k % 2]);
-        } else if (behind == Behind::Road) {
+        } else if (background == Background::Road) {
             view.lookAt(road.at(15.0 * kStep * static_cast<double>(k)));
         }
         const double looked = now();
@@ -125,9 +125,9 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
     }
     std::printf("| %zu | %d x %d | %s | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.0f |\n", threads, samples,
                 samples,
-                behind == Behind::Stays     ? "stays"
-                : behind == Behind::Changes ? "a new one each frame"
-                                            : "the built-in road",
+                background == Background::Still      ? "one for all frames"
+                : background == Background::Changing ? "a new one per frame"
+                                                     : "the built-in road",
                 1e3 * medianOf(look), 1e3 * medianOf(show), 1e3 * medianOf(frame), 1e3 * medianOf(processor),
                 1e3 * medianOf(all), 1.0 / medianOf(all));
     std::fflush(stdout);
@@ -141,18 +141,19 @@ int main()
         const WindshieldParameters parameters = windshieldPresetNamed("figure-3.12").parameters;
         const ViewOptions options;
         const WindshieldState state =
-            rained(parameters, 1000, 200'000, seenBox(DriversView(parameters.glass, options), options));
+            stateAfterRain(parameters, 1000, 200'000, seenBox(DriversView(parameters.glass, options), options));
         std::puts(
-            "| threads | rays a pixel | picture behind | it and its levels | what changed | light | processor | frame "
+            "| threads | rays per pixel | background | background and levels | changed water | light | processor | "
+            "frame "
             "| "
             "frames/s |");
         std::puts("| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
         for (const std::size_t threads : {1U, 2U}) {
-            for (const Behind behind : {Behind::Stays, Behind::Changes, Behind::Road}) {
-                timeFrames(parameters, state, threads, behind, 2);
+            for (const Background background : {Background::Still, Background::Changing, Background::Road}) {
+                timeFrames(parameters, state, threads, background, 2);
             }
         }
-        timeFrames(parameters, state, 2, Behind::Changes, 1);
+        timeFrames(parameters, state, 2, Background::Changing, 1);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_view: %s\n", error.what());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long steps of the windshield take, as tables in Markdown:
+// Times of the windshield's steps, as tables in Markdown:
 //
 //   bench_windshield [--hour=SECONDS]
 //
-// 1. The default glass with 2000 droplets that all move, alone and among 200 000 that stand still, dry and in the rain.
-// 2. The same droplets per area on ever larger glasses: what a droplet costs.
-// 3. An hour of rain at 25 mm/h, or so many seconds of it: the balance, and how many droplets there are.
+// 1. The default glass with 2000 moving droplets, alone and among 200 000 still ones, dry and in the rain.
+// 2. Larger and larger glasses with the same number of droplets per area: time per droplet.
+// 3. An hour, or SECONDS, of rain at 25 mm/h: water balance and number of droplets.
 #include "droplet/windshield/windshield.h"
 
 #include <tbb/global_control.h>
@@ -44,7 +44,7 @@ double uniform(std::mt19937_64& bits)
     return static_cast<double>(bits() >> 11U) * 0x1p-53;
 }
 
-/// Everything runs: slippery glass, a strong wind.
+/// Slippery glass and a strong wind, so that all droplets run.
 WindshieldParameters slippery(const Glass::Cylinder& form)
 {
     WindshieldParameters p = windshieldPresetNamed("figure-3.12").parameters;
@@ -60,7 +60,7 @@ WindshieldState scattered(const WindshieldParameters& p, std::size_t running, st
     std::mt19937_64 bits(1);
     WindshieldState state = startWindshield(p);
     const Vec2 size{p.glass.width(), p.glass.height()};
-    // On a lattice, each at random within its cell, so that they begin apart.
+    // Each droplet has a random position in its own cell of a lattice, so that none overlap.
     const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(running) * size.x / size.y));
     const double cell = size.x / static_cast<double>(columns);
     for (std::size_t k = 0; k < running; ++k) {
@@ -87,15 +87,15 @@ WindshieldState scattered(const WindshieldParameters& p, std::size_t running, st
 }
 
 struct Timing {
-    double step = 0.0;     // the median [s]
-    double droplet = 0.0;  // the median of a step by its droplets [s]
-    double droplets = 0.0;
-    double moving = 0.0;
+    double step = 0.0;      // median time of a step [s]
+    double droplet = 0.0;   // median time of a step per droplet [s]
+    double droplets = 0.0;  // mean number of running droplets
+    double moving = 0.0;    // mean number of moving droplets
 };
 
 Timing time(WindshieldState state, const WindshieldParameters& p)
 {
-    for (int k = 0; k < kSettling; ++k) {  // what stands where droplets were scattered is taken up
+    for (int k = 0; k < kSettling; ++k) {  // running droplets absorb the still ones below them
         state = step(std::move(state), p, kStep);
     }
     std::vector<double> steps;
@@ -121,7 +121,7 @@ Timing time(WindshieldState state, const WindshieldParameters& p)
 
 void timeDefaultGlass()
 {
-    std::puts("| glass of 1.4 m x 0.8 m | still droplets | threads | running droplets | of them moving | a step |");
+    std::puts("| glass of 1.4 m x 0.8 m | still droplets | threads | running droplets | moving | time per step |");
     std::puts("| --- | ---: | ---: | ---: | ---: | ---: |");
     struct Case {
         double rainfall;  // [mm/h]
@@ -141,11 +141,11 @@ void timeDefaultGlass()
 
 void timeGrowth()
 {
-    std::puts("\n| running droplets | glass | still ones to each | a step | a droplet |");
+    std::puts("\n| running droplets | glass | still ones per running | time per step | time per droplet |");
     std::puts("| ---: | ---: | ---: | ---: | ---: |");
     for (const std::size_t still : {0U, 10U}) {
         for (const std::size_t count : {1'000U, 3'000U, 10'000U, 30'000U, 100'000U}) {
-            const double side = std::sqrt(static_cast<double>(count) / 5000.0);  // 5000 to a square metre
+            const double side = std::sqrt(static_cast<double>(count) / 5000.0);  // 5000 per square metre
             const WindshieldParameters p = slippery({.width = side, .height = side, .radius = 10.0});
             const Timing t = time(scattered(p, count, still * count), p);
             std::printf("| %.0f | %.1f m² | %zu | %.3f ms | %.0f ns |\n", t.droplets, side * side, still, 1e3 * t.step,
@@ -160,7 +160,8 @@ void timeHour(double seconds)
     p.rainfall = 25.0 * kMillimetrePerHour;
     constexpr double kLongStep = 1.0 / 30.0;
     std::puts(
-        "\n| simulated | running droplets | still ones | water, of all rained: left | balance | memory | wall time |");
+        "\n| simulated | running droplets | still droplets | run off, of all rain | balance error | memory | wall time "
+        "|");
     std::puts("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     const bench::PeakMemory memory;
     WindshieldState state = startWindshield(p);
@@ -172,7 +173,7 @@ void timeHour(double seconds)
             const WaterBalance balance = balanceOf(state);
             std::printf("| %.0f s | %zu | %zu | %.1f %% | %.0e | %.0f MB | %.0f s |\n", state.time,
                         state.droplets.size(), state.still.count(), 100.0 * balance.left / balance.rained,
-                        std::abs(balance.residual()), static_cast<double>(memory.risen().value_or(0)) / 1e6,
+                        std::abs(balance.residual()), static_cast<double>(memory.rise().value_or(0)) / 1e6,
                         now() - begin);
             std::fflush(stdout);
         }

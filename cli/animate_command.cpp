@@ -41,7 +41,7 @@ using droplet::ErrorCode;
 using droplet::Frame;
 using droplet::Stage;
 
-/// What is known to fail fails before any work is done.
+/// Checks all paths before any work is done.
 void check(const AnimateOptions& options, const Frames& frames)
 {
     std::vector<NamedFile> inputs;
@@ -56,7 +56,7 @@ void check(const AnimateOptions& options, const Frames& frames)
     }
     std::vector<NamedFile> outputs;
     const auto for_frames = [&](const char* name, const std::optional<NumberedPath>& files, const std::string& path) {
-        // A video's frames are counted only as they come; the first stands for them.
+        // The number of a video's frames is not known yet; the first one represents all.
         std::vector<std::size_t> numbers = frames.numbers();
         if (numbers.empty() || !files) {
             numbers = {1};
@@ -84,7 +84,7 @@ void check(const AnimateOptions& options, const Frames& frames)
     checkFiles(inputs, outputs, options.run.files);
 }
 
-/// As in `3-7, 9`; of more than eight parts the rest is counted.
+/// Short form of a list, such as `3-7, 9`. After eight parts, the rest is only counted.
 std::string compactList(const std::vector<std::size_t>& numbers)
 {
     constexpr std::size_t kMaxParts = 8;
@@ -105,7 +105,7 @@ std::string compactList(const std::vector<std::size_t>& numbers)
     return text;
 }
 
-/// The sequence on its way to files and report.
+/// Makes the droplets of all frames, their files and the report.
 class Sequence {
 public:
     Sequence(const AnimateOptions& options, Frames& frames, ProgressDisplay& display)
@@ -214,9 +214,9 @@ private:
         }
         if (options_.contact_sheet || options_.preview) {
             const auto surface = std::make_shared<const droplet::Surface>(frame_->droplet.surface);
-            seen_ = droplet::around(*surface, seen_);
+            bounds_ = droplet::around(*surface, bounds_);
             if (options_.preview) {
-                film_.push_back({surface, picture.number});
+                preview_frames_.push_back({surface, picture.number});
             }
             if (options_.contact_sheet) {
                 keepForSheet(report, surface);
@@ -225,7 +225,8 @@ private:
         report_.frames.push_back(std::move(report));
     }
 
-    /// Files of frames without liquid wait for the first that has some: without any, nothing is written.
+    /// Writes a frame's file. Files of leading frames without liquid are written with the first frame that has some, so
+    /// that a sequence without liquid writes nothing.
     void writeFrame(const std::string& path, bool closed)
     {
         const auto write = [&](const std::string& file, const droplet::Surface& surface) {
@@ -251,17 +252,17 @@ private:
         write(path, frame_->droplet.surface);
     }
 
-    /// So many of a sequence's frames are enough to see how it goes.
+    /// Maximum number of frames on the contact sheet.
     static constexpr std::size_t kMaxTiles = 60;
 
-    /// Whether one of so many is on the sheet.
+    /// Whether a frame, of `count`, is on the sheet.
     [[nodiscard]] static bool isChosen(std::size_t frame, std::size_t count)
     {
         return count <= kMaxTiles || frame * kMaxTiles / count != (frame + 1) * kMaxTiles / count;
     }
 
-    /// Keeps a frame's surface until all are known, for they have one camera. Where nobody knows how many will come,
-    /// twice as many as the sheet takes are kept at most, evenly.
+    /// Keeps a frame's surface until all frames are known, because they share one camera. If the number of frames is
+    /// unknown, at most twice the sheet's number is kept, evenly spaced.
     void keepForSheet(const droplet::FrameReport& report, const std::shared_ptr<const droplet::Surface>& surface)
     {
         const std::size_t number = report_.frames.size();
@@ -277,17 +278,17 @@ private:
                                        : fmt::format("{} droplets", report.droplets.size());
             caption += fmt::format(", {:.3g} mm high", report.total.height_max / droplet::kMillimetre);
         }
-        shots_.push_back({surface, std::move(caption)});
-        if (count == 0 && shots_.size() == 2 * kMaxTiles) {
+        sheet_frames_.push_back({surface, std::move(caption)});
+        if (count == 0 && sheet_frames_.size() == 2 * kMaxTiles) {
             for (std::size_t k = 0; k < kMaxTiles; ++k) {
-                shots_[k] = std::move(shots_[2 * k]);
+                sheet_frames_[k] = std::move(sheet_frames_[2 * k]);
             }
-            shots_.resize(kMaxTiles);
+            sheet_frames_.resize(kMaxTiles);
             sheet_step_ *= 2;
         }
     }
 
-    /// One for all frames, once they are known.
+    /// Camera that shows all frames.
     [[nodiscard]] droplet::RenderOptions cameraOf(const PreviewOptions& preview) const
     {
         droplet::RenderOptions render;
@@ -297,7 +298,7 @@ private:
         render.camera = preview.camera;
         render.look = droplet::lookOf(options_.settings.material);
         render.extent = frame_->droplet.domain.extent;
-        render.framed = seen_;
+        render.framed = bounds_;
         if (!sequence_.droplet.solve.ground.flat()) {
             render.stand = droplet::groundMesh(sequence_.droplet.solve.ground, render.extent);
             render.frames_stand = false;
@@ -305,31 +306,31 @@ private:
         return render;
     }
 
-    /// A picture for the preview or the sheet.
+    /// Draws a picture for the preview or the sheet.
     [[nodiscard]] droplet::Picture draw(const droplet::Surface& surface, const droplet::RenderOptions& render)
     {
         droplet::Picture picture = droplet::render(surface, render);
-        display_.tellDrawn(++drawn_, film_.size() + std::min(shots_.size(), kMaxTiles));
+        display_.reportDrawn(++drawn_, preview_frames_.size() + std::min(sheet_frames_.size(), kMaxTiles));
         return picture;
     }
 
-    void filmFrames()
+    void writePreviewPictures()
     {
         const droplet::RenderOptions render = cameraOf(*options_.preview);
-        for (const FilmFrame& frame : film_) {
+        for (const PreviewFrame& frame : preview_frames_) {
             droplet::writeWhole(
                 options_.preview_files->at(frame.number),
                 [&](std::ostream& out) { droplet::writePng(draw(*frame.surface, render), out); }, options_.run.files);
         }
     }
 
-    void filmVideo(std::ostream& out)
+    void writePreviewVideo(std::ostream& out)
     {
         const PreviewOptions& preview = *options_.preview;
         const droplet::RenderOptions render = cameraOf(preview);
         VideoWriter video(
             {preview.path, codecFor(preview.path), preview.width, preview.height, report_.frames_per_second});
-        for (const FilmFrame& frame : film_) {
+        for (const PreviewFrame& frame : preview_frames_) {
             video.add(draw(*frame.surface, render));
         }
         video.finish(out);
@@ -342,19 +343,19 @@ private:
         tile.height = 240;
         const droplet::RenderOptions render = cameraOf(tile);
         std::vector<droplet::Tile> tiles;
-        for (std::size_t k = 0; k < shots_.size(); ++k) {
-            if (isChosen(k, shots_.size())) {
-                tiles.push_back({draw(*shots_[k].surface, render), shots_[k].caption});
+        for (std::size_t k = 0; k < sheet_frames_.size(); ++k) {
+            if (isChosen(k, sheet_frames_.size())) {
+                tiles.push_back({draw(*sheet_frames_[k].surface, render), sheet_frames_[k].caption});
             }
         }
         return droplet::contactSheet(tiles);
     }
 
-    /// Frames tend to have the same to complain of; once is enough.
+    /// Adds a warning, unless an earlier frame had the same kind of warning.
     void warn(const std::string& name, const std::string& warning, bool is_grave)
     {
         const std::string kind = warning.substr(0, warning.find_first_of("0123456789"));
-        if (told_.insert(kind).second) {
+        if (warned_.insert(kind).second) {
             report_.warnings.insert(is_grave ? report_.warnings.begin() : report_.warnings.end(),
                                     name + ": " + warning);
             report_.grave_warnings += is_grave ? 1 : 0;
@@ -369,8 +370,8 @@ private:
         const Frames::Decision& decided = *frames_.decision();
         const bool dark = (decided.levels.liquid < decided.levels.dry) != options_.footprint.mask.invert;
         report_.warnings.push_back(fmt::format(
-            "{} {} by {} would be read otherwise; {} read as {}, by {} with {} as liquid; --channel and "
-            "--invert decide otherwise",
+            "{} {} by {} would be read differently; {} read like {}, by {} with {} as liquid; give --channel or "
+            "--invert to change this",
             disagreeing_.size() == 1 ? "frame" : "frames", compactList(disagreeing_),
             disagreeing_.size() == 1 ? "itself" : "themselves", disagreeing_.size() == 1 ? "it is" : "they are",
             decided.name, decided.levels.channel == droplet::Channel::Alpha ? "alpha" : "luma",
@@ -381,11 +382,11 @@ private:
     void save()
     {
         if (options_.preview_files) {
-            filmFrames();
+            writePreviewPictures();
         }
         std::vector<OutputFile> files;
         if (options_.preview && !options_.preview_files) {
-            files.push_back({options_.preview->path, [&](std::ostream& out) { filmVideo(out); }});
+            files.push_back({options_.preview->path, [&](std::ostream& out) { writePreviewVideo(out); }});
         }
         if (!options_.files) {
             files.push_back({options_.output, [&](std::ostream& out) { report_.bytes = animation_->write(out); }});
@@ -438,20 +439,20 @@ private:
     std::optional<droplet::Animation> animation_;
     std::optional<Frame> frame_;
     std::vector<std::size_t> disagreeing_;  ///< numbers of frames
-    std::set<std::string> told_;
-    struct Shot {
+    std::set<std::string> warned_;          ///< kinds of warnings so far
+    struct SheetFrame {
         std::shared_ptr<const droplet::Surface> surface;
         std::string caption;
     };
-    struct FilmFrame {
+    struct PreviewFrame {
         std::shared_ptr<const droplet::Surface> surface;
         std::size_t number = 0;
     };
-    std::optional<droplet::ViewBox> seen_;  ///< around all frames
-    std::vector<FilmFrame> film_;           ///< for the preview
-    std::vector<Shot> shots_;               ///< for the sheet
-    std::size_t sheet_step_ = 1;            ///< every so manieth frame is kept for it
-    std::size_t drawn_ = 0;                 ///< pictures of film and sheet
+    std::optional<droplet::ViewBox> bounds_;  ///< box around the droplets of all frames
+    std::vector<PreviewFrame> preview_frames_;
+    std::vector<SheetFrame> sheet_frames_;
+    std::size_t sheet_step_ = 1;  ///< distance of the frames that are kept for the sheet
+    std::size_t drawn_ = 0;       ///< number of drawn pictures of preview and sheet
     droplet::SequenceReport report_;
 };
 
@@ -488,8 +489,8 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
             gained += frame.volume_gained;
             lost += frame.volume_lost;
         }
-        text << " at first, " << inMicrolitres(last.total.volume) << " at last, " << inMicrolitres(gained) << " came, "
-             << inMicrolitres(lost) << " went";
+        text << " in the first frame, " << inMicrolitres(last.total.volume) << " in the last, " << inMicrolitres(gained)
+             << " gained, " << inMicrolitres(lost) << " lost";
     }
     if (count > 1) {
         text << "; vertices kept in " << report.kept() << " of " << count - 1 << " steps";
@@ -498,15 +499,15 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
     return text.str();
 }
 
-void tell(const droplet::SequenceReport& report, const RunOptions& run)
+void printSummary(const droplet::SequenceReport& report, const RunOptions& run)
 {
     const bool is_quiet = run.verbosity == Verbosity::Quiet;
     if (!is_quiet && run.progress != ProgressMode::Json) {
         std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    const std::size_t told = is_quiet ? report.grave_warnings : report.warnings.size();
-    for (std::size_t i = 0; i < told; ++i) {
-        tellWarning(report.warnings[i], run.progress);
+    const std::size_t printed = is_quiet ? report.grave_warnings : report.warnings.size();
+    for (std::size_t i = 0; i < printed; ++i) {
+        printWarning(report.warnings[i], run.progress);
     }
 }
 
@@ -535,7 +536,7 @@ int runAnimate(int argc, const char* const* argv)
                                  : options.run.progress);
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
     progress.finish();
-    tell(report, options.run);
+    printSummary(report, options.run);
     return 0;
 }
 

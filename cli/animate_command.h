@@ -3,9 +3,9 @@
 
 namespace cli {
 
-/// `droplet-shape animate`.
+/// Runs `droplet-shape animate`: frames or a video in, an animated droplet out.
 /// @return                exit code
-/// @throws droplet::Error as the manual page says of exit codes
+/// @throws droplet::Error with the code that stands for the exit code in the manual page
 int runAnimate(int argc, const char* const* argv);
 
 }  // namespace cli

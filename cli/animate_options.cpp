@@ -65,11 +65,12 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
         return;
     }
     if (extension.empty()) {
-        refuse(named + " has no extension to tell the format; an animation is a .glb");
+        refuse(named + " has no extension that gives the format; an animation must be a .glb");
     }
     options.format = forOption(named, [&] { return droplet::formatNamed(extension); });
     if (!options.files && options.format != droplet::Format::Glb) {
-        refuse(named + " must be a .glb to hold an animation, or have a place for the frame's number, as in out/%04d" +
+        refuse(named +
+               " must be a .glb with the animation, or have a placeholder for the frame's number, as in out/%04d" +
                extension);
     }
     warnOfFormat(line, options.format, false, options.settings);
@@ -78,8 +79,8 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
     }
 }
 
-/// Frames of one camera, as pictures or a video.
-void readFilm(const CommandLine& line, AnimateOptions& options)
+/// Reads --preview and its options.
+void readSequencePreview(const CommandLine& line, AnimateOptions& options)
 {
     PreviewOptions preview;
     readView(line, preview);
@@ -120,12 +121,13 @@ void readSequence(const CommandLine& line, AnimateOptions& options)
     droplet::Fill& fill = options.settings.droplet.solve.fill;
     if (options.volume_mode == VolumeMode::Total) {
         if (line.value("--fill") && fill.sharing == droplet::FillSharing::Each) {
-            refuse("--fill each and --volume-mode total exclude each other: the total is one reservoir's");
+            refuse(
+                "--fill each and --volume-mode total exclude each other: the total volume is shared by all droplets");
         }
         fill.sharing = droplet::FillSharing::Total;
     }
     if (options.settings.onto) {
-        refuse("--onto has no place in a sequence");
+        refuse("--onto cannot be used for a sequence");
     }
     if (options.settings.hysteresis) {
         options.settings.warnings.push_back("--advancing and --receding have no effect on a sequence");
@@ -139,7 +141,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     CommandLine line(commandText());
     declareAnimate(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         return *text;
     }
     AnimateOptions options;
@@ -168,7 +170,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     options.output = files.back().text;
     readSequence(line, options);
-    readFilm(line, options);
+    readSequencePreview(line, options);
     readOutput(line, options);
     return options;
 }

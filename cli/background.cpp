@@ -58,14 +58,14 @@ Background::Background(const BackgroundOptions& options) : options_(options)
         if (width_ < kMin || height_ < kMin || width_ > kMax || height_ > kMax) {
             throw Error(ErrorCode::InvalidInput,
                         path + ": has " + sizeOf(width_, height_) +
-                            " pixels; a frame has 16 to 8192 each way: --size and --fit make one");
+                            " pixels; a frame must have 16 to 8192 in each direction; give --size and --fit");
         }
     }
     if (!options_.fit) {
         requireSize(first.width, first.height);
     }
     if (video_) {
-        ahead_ = std::move(first);
+        first_frame_ = std::move(first);
     } else {
         picture_ = fitted(std::move(first));
     }
@@ -74,9 +74,9 @@ Background::Background(const BackgroundOptions& options) : options_(options)
 void Background::requireSize(int width, int height) const
 {
     if (width != width_ || height != height_) {
-        throw Error(ErrorCode::InvalidInput, *options_.path + ": has " + sizeOf(width, height) + " pixels, the frame " +
-                                                 sizeOf(width_, height_) +
-                                                 "; they must be the same, or --fit scales and crops it");
+        throw Error(ErrorCode::InvalidInput, *options_.path + ": has " + sizeOf(width, height) +
+                                                 " pixels, but the frame has " + sizeOf(width_, height_) +
+                                                 "; both must be the same, or give --fit to scale and crop it");
     }
 }
 
@@ -95,7 +95,7 @@ Picture Background::videoFrame()
             bytes = video_->next();
         }
         if (!bytes) {
-            throw Error(ErrorCode::InvalidInput, *options_.path + ": there is no frame in this video");
+            throw Error(ErrorCode::InvalidInput, *options_.path + ": this video has no frames");
         }
     }
     Picture picture = droplet::decodePicture(*bytes);
@@ -110,22 +110,22 @@ Picture Background::videoFrame()
     return picture;
 }
 
-std::optional<Picture> Background::next(double travelled, double passed)
+std::optional<Picture> Background::next(double travelled, double blur_distance)
 {
     if (video_) {
-        return fitted(ahead_ ? *std::exchange(ahead_, std::nullopt) : videoFrame());
+        return fitted(first_frame_ ? *std::exchange(first_frame_, std::nullopt) : videoFrame());
     }
     if (options_.path) {
         return std::exchange(picture_, std::nullopt);
     }
-    return road_ ? std::optional(road_->at(travelled, passed)) : std::nullopt;
+    return road_ ? std::optional(road_->at(travelled, blur_distance)) : std::nullopt;
 }
 
 void Background::skip(std::size_t frames)
 {
     for (std::size_t k = 0; video_ && k < frames; ++k) {
-        if (ahead_) {
-            ahead_.reset();
+        if (first_frame_) {
+            first_frame_.reset();
         } else {
             videoFrame();
         }

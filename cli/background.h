@@ -13,35 +13,34 @@
 namespace cli {
 
 struct BackgroundOptions {
-    std::optional<std::string> path;  ///< empty: the evening road, unless the surroundings are all
-    bool surroundings = false;        ///< without a path, there is nothing but these
-    std::optional<int> width;         ///< of the frame, if it is asked for [px]
-    std::optional<int> height;
-    bool fit = false;                 ///< scale and crop to it
-    double frames_per_second = 30.0;  ///< at which a video is shown, at its own speed
-    double field_of_view = 0.0;       ///< of the made-up road [rad]
+    std::optional<std::string> path;  ///< picture or video; if empty, the evening road unless `surroundings` is set
+    bool surroundings = false;        ///< without a path, the panorama is the whole background
+    std::optional<int> width;         ///< frame width, if given [px]
+    std::optional<int> height;        ///< frame height, if given [px]
+    bool fit = false;                 ///< scale and crop the background to the frame
+    double frames_per_second = 30.0;  ///< frame rate of the result; a video keeps its own speed
+    double field_of_view = 0.0;       ///< horizontal field of view of the evening road [rad]
 };
 
-/// What is behind the glass, frame by frame: a picture stays, a video goes on at its own speed and begins again when it
-/// has ended, and the evening road goes by.
+/// Background behind the glass, frame by frame: a still picture, a video that plays at its own speed and repeats, or
+/// the evening road, which moves with the car.
 class Background {
 public:
     /// Reads the picture, or the video's first frame.
-    /// @throws droplet::Error InvalidInput: unreadable, or of another size than the frame that is asked for
+    /// @throws droplet::Error InvalidInput: unreadable, or not of the frame's size
     explicit Background(const BackgroundOptions& options);
 
-    /// Of the frame [px].
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int width() const { return width_; }    ///< frame width [px]
+    [[nodiscard]] int height() const { return height_; }  ///< frame height [px]
 
-    /// What is seen next.
-    /// @param travelled       how far the car has come [m]
-    /// @param passed          how far it comes while the shutter is open [m]; a video has its own shutter's blur
-    /// @return                nothing where it is what was seen before
+    /// Returns the next frame's background.
+    /// @param travelled       distance of the car since the first frame [m]
+    /// @param blur_distance   distance of the car while the shutter is open [m]; a video has its own motion blur
+    /// @return                nothing if the background has not changed
     /// @throws droplet::Error InvalidInput
-    std::optional<droplet::Picture> next(double travelled, double passed);
+    std::optional<droplet::Picture> next(double travelled, double blur_distance);
 
-    /// Passes over frames, as next() would.
+    /// Skips frames, as if next() had been called.
     void skip(std::size_t frames);
 
 private:
@@ -53,9 +52,10 @@ private:
     int width_ = 0;
     int height_ = 0;
     std::optional<droplet::DefaultBackground> road_;
-    std::optional<droplet::Picture> picture_;  ///< that stays, until it has been seen
+    std::optional<droplet::Picture> picture_;  ///< still picture, until next() has returned it
     std::unique_ptr<Video> video_;
-    std::optional<droplet::Picture> ahead_;  ///< of the video, read to know its size
+    std::optional<droplet::Picture>
+        first_frame_;  ///< first frame of the video, read for its size, until it is returned
     int video_width_ = 0;
     int video_height_ = 0;
 };

@@ -58,13 +58,13 @@ void declare(CommandLine& line)
     declareRun(line);
 }
 
-/// A picture, and where it was found.
+/// Input picture and its folder.
 struct Picture {
     fs::path path;
-    fs::path below;  ///< its folder, from the folder given on the command line
+    fs::path below;  ///< its folder, relative to the folder on the command line
 };
 
-/// Every picture in a folder by name, then those in its folders; what begins with a dot is hidden.
+/// Adds the pictures of a folder in alphabetical order, then those of its subfolders. Hidden files are left out.
 void addFolder(const fs::path& folder, const fs::path& below, bool recursive, std::vector<Picture>& pictures)
 {
     std::vector<fs::path> files;
@@ -112,9 +112,9 @@ std::vector<Picture> readInputs(const CommandLine& line)
         const std::size_t before = pictures.size();
         addFolder(given.text, {}, line.flag("--recursive"), pictures);
         if (pictures.size() == before) {
-            throw droplet::Error(
-                droplet::ErrorCode::InvalidInput,
-                given.text + " holds no pictures" + (line.flag("--recursive") ? "" : "; --recursive looks deeper"));
+            throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                                 given.text + " holds no pictures" +
+                                     (line.flag("--recursive") ? "" : "; --recursive reads subfolders, too"));
         }
     }
     if (pictures.empty()) {
@@ -138,11 +138,11 @@ PatternValues valuesOf(const Picture& picture, std::size_t index, std::size_t co
 
 constexpr const char* kPlaceholders = "{stem}, {name}, {ext}, {dir}, {parent} or {index}";
 
-/// A text for everything that decides the bytes of an output but the picture itself.
+/// Hash of everything that decides an output's bytes, except the picture.
 std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions& batch)
 {
     std::vector<std::string> parts{droplet::name(options.format)};
-    for (const auto& [name, value] : batch.told) {
+    for (const auto& [name, value] : batch.decisive) {
         parts.push_back(name);
         parts.push_back(value);
     }
@@ -152,7 +152,7 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
     return fingerprintOf(parts);
 }
 
-/// Whether a path is rather where droplets go than a picture or a folder of them.
+/// Whether a path looks like an output: it has a placeholder or the extension of a droplet's file.
 bool namesDroplets(const std::string& path)
 {
     if (path.find('{') != std::string::npos) {
@@ -173,7 +173,7 @@ int runBatch(int argc, const char* const* argv)
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         print(*text);
         return 0;
     }
@@ -183,7 +183,7 @@ int runBatch(int argc, const char* const* argv)
         if (!output && !inputs.empty() && namesDroplets(inputs.back().text)) {
             refuse("--output is missing; did you mean -o '" + inputs.back().text + "'?");
         }
-        refuse("--output is missing, or no path: where each droplet goes, such as -o 'out/{stem}.glb'");
+        refuse("--output is missing: give a path for each droplet, such as -o 'out/{stem}.glb'");
     }
     const auto report = line.value("--json");
     ShapeOptions named;
@@ -206,9 +206,9 @@ int runBatch(int argc, const char* const* argv)
         BatchItem item;
         item.name = pictures[i].path.string();
         item.input = item.name;
-        item.output = filled(*output, values, kPlaceholders);
+        item.output = fillPattern(*output, values, kPlaceholders);
         if (report) {
-            item.others.push_back(filled(*report, values, kPlaceholders));
+            item.others.push_back(fillPattern(*report, values, kPlaceholders));
         }
         if (const auto material = materialFile(item.output, shared.format)) {
             item.others.push_back(*material);
@@ -223,7 +223,7 @@ int runBatch(int argc, const char* const* argv)
             auto picture = readPicture(job);
             BatchWork work;
             work.fingerprint = fingerprintOf({settings, hashOf(picture)});
-            // Taken by what is made, and gone as soon as that no longer needs it.
+            // The picture's memory is released as soon as it is no longer needed.
             work.make = [&job, &around, picture = std::move(picture)]() mutable {
                 return figuresOf(makeShape(job, around, std::move(picture)));
             };

@@ -3,9 +3,9 @@
 
 namespace cli {
 
-/// Runs `droplet-shape batch`: many pictures in, a file for each out.
+/// Runs `droplet-shape batch`: many pictures in, one file for each out.
 /// @return                exit code
-/// @throws droplet::Error for whatever is known to fail before any work is done
+/// @throws droplet::Error if an error can be found before any work is done
 int runBatch(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -10,7 +10,7 @@
 
 namespace cli {
 
-/// What the manifest says of a file that was made.
+/// Figures of a finished file, for the manifest.
 struct BatchFigures {
     std::size_t triangles = 0;
     std::size_t vertices = 0;
@@ -18,37 +18,37 @@ struct BatchFigures {
     double volume = 0.0;      ///< [m³]
     double height_max = 0.0;  ///< [m]
     std::vector<std::string> warnings;
-    std::size_t grave_warnings = 0;  ///< so many of the first, when it is made: they are told even if all is quiet
+    std::size_t grave_warnings = 0;  ///< number of leading warnings that are printed in spite of --quiet
 };
 
-/// What the manifest says of a droplet, from the report of the run that made it.
+/// Manifest figures of a droplet, taken from its report.
 BatchFigures figuresOf(const droplet::Report& report);
 
-/// One item about to be made: its input has been read.
+/// Item whose input has been read.
 struct BatchWork {
-    /// Hash of everything that decides the output's bytes, but for the program's version, which the runner adds; of
-    /// fingerprintOf.
+    /// Hash of everything that decides the output's bytes, by fingerprintOf. The runner adds the program's version.
     std::string fingerprint;
 
-    /// Makes the item and writes its files, each whole or not at all.
+    /// Makes the item and writes its files, each completely or not at all.
     std::function<BatchFigures()> make;
 };
 
-/// One output of many.
+/// One item of a batch.
 struct BatchItem {
-    std::string name;                 ///< how messages call it, as in "glyph 'A'" or the input's path
-    std::string input;                ///< path, or empty: the item comes from no file of its own
-    std::string output;               ///< path of the file made
-    std::vector<std::string> others;  ///< paths of further files made along with it, such as its report
+    std::string name;                 ///< name in messages, such as "glyph 'A'" or the input's path
+    std::string input;                ///< path; empty if the item has no file of its own
+    std::string output;               ///< path of the droplet's file
+    std::vector<std::string> others;  ///< paths of further files, such as its report
 
-    /// Reads the input, so that the fingerprint and what is made come of the same bytes. Called from any thread, once,
-    /// shortly before `make`: inputs of items that wait take no memory. May throw anything, as may `make`: this item
-    /// has failed then, no other.
+    /// Reads the input once, so that fingerprint and output come from the same bytes. Called once, from any thread,
+    /// shortly before `make`, so that waiting items take no memory. If it or `make` throws, only this item fails.
     std::function<BatchWork()> open;
 };
 
+/// Result of an item.
 enum class ItemStatus { NotStarted, Made, Skipped, Failed };
 
+/// Status as the manifest writes it.
 const char* name(ItemStatus status);
 
 }  // namespace cli

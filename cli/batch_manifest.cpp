@@ -76,7 +76,7 @@ std::optional<MadeFile> fileIn(const Json& row)
     return file;
 }
 
-/// Whether what stands between a manifest's stem and its extension is that of a shard, as in -2-of-8.
+/// Whether the text between a manifest's stem and its extension is that of a shard, such as -2-of-8.
 bool isShard(std::string_view text)
 {
     const auto skip = [&](std::string_view word) {
@@ -92,12 +92,12 @@ bool isShard(std::string_view text)
     return skip("-") && skip_number() && skip("-of-") && skip_number() && text.empty();
 }
 
-/// The manifest and those of shards beside it, as far as there are any.
+/// Existing manifests: this one, and those of shards beside it.
 std::vector<fs::path> manifestsOf(const fs::path& manifest)
 {
     std::vector<fs::path> found;
     std::error_code failure;
-    if (fs::is_regular_file(manifest, failure)) {  // a device may be endless
+    if (fs::is_regular_file(manifest, failure)) {  // a device may have no end
         found.push_back(manifest);
     }
     const std::string stem = manifest.stem().string();
@@ -114,7 +114,7 @@ std::vector<fs::path> manifestsOf(const fs::path& manifest)
     return found;
 }
 
-/// A text as it comes back from JSON, in which everything is UTF-8.
+/// Text after writing to and reading from JSON, which replaces bytes that are not UTF-8.
 std::string inJson(const std::string& text)
 {
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
@@ -125,9 +125,9 @@ std::string inJson(const std::string& text)
 void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<BatchItem>& items,
                    const BatchOptions& options, double seconds)
 {
-    Json told = Json::object();
-    for (const auto& [key, value] : options.told) {
-        told[key] = value;
+    Json decisive = Json::object();
+    for (const auto& [key, value] : options.decisive) {
+        decisive[key] = value;
     }
     Json item_rows = Json::array();
     std::map<ItemStatus, std::size_t> counts;
@@ -148,7 +148,7 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
     const auto& shard = options.shard;
     const Json manifest{{"schema", kSchema},
                         {"version", droplet::kVersion},
-                        {"options", told},
+                        {"options", decisive},
                         {"shard", shard ? Json{{"index", shard->index}, {"count", shard->count}} : Json()},
                         {"items", item_rows},
                         {"left_out", left_out},
@@ -168,7 +168,7 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
 
 EarlierRun::EarlierRun(const std::string& manifest)
 {
-    // The later a file was written, the more it knows.
+    // Later manifests override earlier ones.
     std::vector<std::pair<fs::file_time_type, fs::path>> found;
     std::error_code failure;
     for (const fs::path& path : manifestsOf(manifest)) {
@@ -198,7 +198,8 @@ void EarlierRun::read(const std::string& manifest, bool is_replaced)
         }
     } catch (const std::exception&) {
         if (is_replaced) {
-            refuse("--manifest: " + manifest + " exists and is no " + kSchema + "; name another file, or remove it");
+            refuse("--manifest: " + manifest + " exists and is not a " + kSchema +
+                   "; give another path, or remove the file");
         }
     }
 }
@@ -209,7 +210,7 @@ std::optional<MadeFile> EarlierRun::at(const BatchItem& item) const
     return found == files_.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool stands(const BatchItem& item, const std::string& fingerprint, const std::optional<MadeFile>& earlier)
+bool isUpToDate(const BatchItem& item, const std::string& fingerprint, const std::optional<MadeFile>& earlier)
 {
     std::error_code failure;
     if (!earlier || earlier->fingerprint != fingerprint || !fs::is_regular_file(item.output, failure) ||
@@ -226,7 +227,7 @@ bool stands(const BatchItem& item, const std::string& fingerprint, const std::op
     try {
         return hashOfFile(item.output) == earlier->sha256;
     } catch (const droplet::Error&) {
-        return false;  // making it anew will tell what is wrong
+        return false;  // making the item again will report the cause
     }
 }
 

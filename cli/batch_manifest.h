@@ -13,49 +13,48 @@
 
 namespace cli {
 
-/// What is known of a file: how it was made, how it can be told that it is still the same, and what it holds.
+/// Finished file: what it was made from, size and hash to detect changes, and its figures.
 struct MadeFile {
     std::string fingerprint;
     std::uint64_t bytes = 0;
     std::string sha256;
-    std::vector<std::string> others;  ///< made along with it
+    std::vector<std::string> others;  ///< paths of further files of the same item
     BatchFigures figures;
 };
 
-/// A row of the manifest: what became of an item.
+/// Row of the manifest: the result of one item.
 struct ManifestRow {
-    std::size_t index = 0;  ///< among all items, whatever the shard
+    std::size_t index = 0;  ///< among the items of all shards
     ItemStatus status = ItemStatus::NotStarted;
     std::string error;
     int exit_code = 0;
-    std::optional<MadeFile> file;  ///< as this run left it, or an earlier one if the item was not started
-    double time = 0.0;             ///< [s]
+    std::optional<MadeFile> file;  ///< written by this run, or by an earlier one if the item was not started
+    double time = 0.0;             ///< working time [s]
 };
 
-/// Writes the manifest, whole or not at all.
-/// @param seconds         that the batch has taken
+/// Writes the manifest, completely or not at all.
+/// @param seconds         duration of the batch so far [s]
 /// @throws droplet::Error OutputFailed
 void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<BatchItem>& items,
                    const BatchOptions& options, double seconds);
 
-/// What the manifest of an earlier run says.
+/// Files of earlier runs, read from their manifests.
 class EarlierRun {
 public:
-    /// Reads that manifest and those that shards have left beside it; knows of nothing if there are none.
-    /// @throws droplet::Error InvalidArgument if it is something else, which must not be replaced; InvalidInput if it
-    ///                        cannot be read
+    /// Reads this manifest and those of shards beside it, as far as they exist.
+    /// @throws droplet::Error InvalidArgument: not a manifest, so it must not be replaced; InvalidInput: unreadable
     explicit EarlierRun(const std::string& manifest);
 
-    /// What was made where the item's output goes.
+    /// File that an earlier run made at the item's output path.
     [[nodiscard]] std::optional<MadeFile> at(const BatchItem& item) const;
 
 private:
     void read(const std::string& manifest, bool is_replaced);
 
-    std::unordered_map<std::string, MadeFile> files_;  ///< by output
+    std::unordered_map<std::string, MadeFile> files_;  ///< by output path
 };
 
-/// Whether an item's files are there, as an earlier run left them.
-bool stands(const BatchItem& item, const std::string& fingerprint, const std::optional<MadeFile>& earlier);
+/// Whether all files of an item exist, unchanged since an earlier run with the same fingerprint.
+bool isUpToDate(const BatchItem& item, const std::string& fingerprint, const std::optional<MadeFile>& earlier);
 
 }  // namespace cli

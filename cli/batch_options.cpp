@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shard as in `2/8`.
+/// Parses a shard such as `2/8`.
 BatchShard shardOf(const Given& given)
 {
     constexpr std::size_t kMax = 1'000'000;
@@ -32,7 +32,7 @@ BatchShard shardOf(const Given& given)
     return shard;
 }
 
-/// The path that a share of a batch has: with the share in its name.
+/// Path with the shard in the file's name.
 std::string ofShard(fs::path path, const std::optional<BatchShard>& shard)
 {
     if (shard) {
@@ -42,7 +42,7 @@ std::string ofShard(fs::path path, const std::optional<BatchShard>& shard)
     return path.string();
 }
 
-/// The manifest in the folder that all outputs share.
+/// Path of the manifest in the common folder of all outputs.
 fs::path manifestBeside(const std::string& output_pattern)
 {
     const std::string fixed = output_pattern.substr(0, output_pattern.find_first_of("{%"));
@@ -90,7 +90,7 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
     const auto manifest = line.value("--manifest");
     options.manifest = ofShard(manifest ? fs::path(manifest->text) : manifestBeside(output_pattern), options.shard);
     if (line.flag("--one-scale") && !line.value("--contact-sheet")) {
-        refuse("--one-scale goes with --contact-sheet");
+        refuse("--one-scale needs --contact-sheet");
     }
     if (const auto sheet = line.value("--contact-sheet")) {
         if (fs::path(sheet->text).extension() != ".png") {
@@ -103,7 +103,7 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
             refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);
         }
     }
-    options.told = decisiveOptions(line);
+    options.decisive = decisiveOptions(line);
     if (run.config) {
         options.read.push_back(*run.config);
     }

@@ -12,13 +12,13 @@
 
 namespace cli {
 
-/// What was asked for and has no output, and why.
+/// Requested item without output, and the reason.
 struct BatchLeftOut {
     std::string name;
     std::string reason;
 };
 
-/// The share `index` of `count`: items index, index + count, index + 2 count, … counted from 1.
+/// Share of a batch: the items index, index + count, index + 2 count, … counted from 1.
 struct BatchShard {
     std::size_t index = 1;  ///< from 1
     std::size_t count = 1;
@@ -26,32 +26,31 @@ struct BatchShard {
 
 struct BatchOptions {
     std::string manifest;  ///< path
-    /// The options given that can change a byte of what is made, for the manifest and fingerprints: all but those of
-    /// the run and of the batch. Names without dashes, and values.
-    std::vector<std::pair<std::string, std::string>> told;
-    std::vector<std::string> read;  ///< files that are read, which no item may replace; inputs of items need no mention
+    /// Given options that can change the output's bytes: names without dashes, and values.
+    std::vector<std::pair<std::string, std::string>> decisive;
+    std::vector<std::string> read;  ///< files beside the items' inputs that no output may replace
     droplet::OutputOptions files;
-    std::vector<BatchLeftOut> left_out;  ///< told in the manifest
-    bool keep_going = false;             ///< go on after an item that failed
-    bool resume = true;  ///< skip items whose files are there already, made from the same input and options
+    std::vector<BatchLeftOut> left_out;  ///< listed in the manifest
+    bool keep_going = false;             ///< continue after an item that failed
+    bool resume = true;                  ///< skip items that are up to date
     std::optional<BatchShard> shard;
-    std::optional<std::string> contact_sheet;  ///< path of a picture of all that was made, or stood already
-    bool one_scale = false;                    ///< of it
-    droplet::Material material = droplet::Material::Water;  ///< what they are drawn in there
-    std::optional<std::size_t> threads;                     ///< items worked on at one time [all cores]
+    std::optional<std::string> contact_sheet;               ///< path of a picture of all droplets
+    bool one_scale = false;                                 ///< draw all droplets of the contact sheet at one scale
+    droplet::Material material = droplet::Material::Water;  ///< material on the contact sheet
+    std::optional<std::size_t> threads;                     ///< maximum number of items in work [all cores]
     Verbosity verbosity = Verbosity::Normal;
     ProgressMode progress = ProgressMode::Auto;
 };
 
-/// Declares what every batch takes: --keep-going, --no-resume, --shard, --manifest, --contact-sheet.
+/// Declares the options of every batch: --keep-going, --no-resume, --shard, --manifest, --contact-sheet, --one-scale.
 void declareBatch(CommandLine& line);
 
-/// Reads those.
+/// Reads the options of declareBatch.
 ///
-/// Without --manifest it is manifest.json in the folder that all outputs share: that of `output_pattern` as far as it
-/// has no placeholder. A shard's has the shard in its name, as in manifest-2-of-8.json.
-/// @param run             of the same line
-/// @param output_pattern  how the paths of outputs are made
+/// Without --manifest, the manifest is manifest.json in the folder of all outputs: the part of `output_pattern` before
+/// its first placeholder. The name of a shard's manifest contains the shard, as in manifest-2-of-8.json.
+/// @param run             run options of the same command line
+/// @param output_pattern  pattern of the output paths
 /// @throws droplet::Error InvalidArgument
 BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std::string& output_pattern);
 

@@ -31,15 +31,15 @@ BatchProgress::BatchProgress(std::size_t items, const BatchOptions& options)
 {
 }
 
-void BatchProgress::tell(const BatchItem& item, const ManifestRow& row)
+void BatchProgress::reportItem(const BatchItem& item, const ManifestRow& row)
 {
-    ++told_;
+    ++reported_;
     for (std::size_t i = 0; row.file && i < row.file->figures.grave_warnings; ++i) {
         eraseBar();
-        tellWarning(item.name + ": " + row.file->figures.warnings[i], options_.progress);
+        printWarning(item.name + ": " + row.file->figures.warnings[i], options_.progress);
     }
     if (options_.progress == ProgressMode::Json) {
-        std::cerr << Json{{"item", told_},
+        std::cerr << Json{{"item", reported_},
                           {"of", items_},
                           {"name", item.name},
                           {"output", item.output},
@@ -60,7 +60,7 @@ void BatchProgress::tell(const BatchItem& item, const ManifestRow& row)
     }
 }
 
-void BatchProgress::tellDrawn(std::size_t drawn, std::size_t count)
+void BatchProgress::reportDrawn(std::size_t drawn, std::size_t count)
 {
     drawn_tiles_ = drawn;
     if (options_.progress == ProgressMode::Json) {
@@ -107,20 +107,21 @@ void BatchProgress::summarise(const std::vector<ManifestRow>& rows)
     });
     std::ostringstream text;
     text << paint("made", Colour::Bold) << "       " << with(ItemStatus::Made) << " of " << rows.size();
-    const auto tell_some = [&](long count, const char* words) {
+    const auto add_count = [&](long count, const char* label) {
         if (count > 0) {
-            text << ", " << count << words;
+            text << ", " << count << label;
         }
     };
-    tell_some(with(ItemStatus::Skipped), " skipped: they stand as they would be made");
-    tell_some(with(ItemStatus::Failed), " failed");
-    tell_some(with(ItemStatus::NotStarted), " not started");
+    add_count(with(ItemStatus::Skipped), " skipped: they are up to date");
+    add_count(with(ItemStatus::Failed), " failed");
+    add_count(with(ItemStatus::NotStarted), " not started");
     text << "; " << std::fixed << std::setprecision(1) << made_after_ << " s\n";
     if (warned > 0) {
         text << paint("warnings", Colour::Yellow) << "   on " << warned << (warned == 1 ? " item" : " items") << "\n";
     }
     if (!options_.left_out.empty()) {
-        text << paint("left out", Colour::Bold) << "   " << options_.left_out.size() << ", the manifest says why\n";
+        text << paint("left out", Colour::Bold) << "   " << options_.left_out.size()
+             << "; the manifest lists the reasons\n";
     }
     if (drawn_tiles_ > 0) {
         text << paint("sheet", Colour::Bold) << "      " << oneLine(*options_.contact_sheet) << ": " << drawn_tiles_

@@ -10,23 +10,24 @@
 
 namespace cli {
 
-/// Says on standard error how far a batch has come, one item after another.
+/// Reports the progress of a batch on standard error.
 class BatchProgress {
 public:
     BatchProgress(std::size_t items, const BatchOptions& options);
 
-    void tell(const BatchItem& item, const ManifestRow& row);
+    /// Prints the result of an item.
+    void reportItem(const BatchItem& item, const ManifestRow& row);
 
-    /// Draws the bar anew, if there is one and it is not fresh.
+    /// Redraws the bar, at most ten times a second.
     void drawBar(std::size_t ended) { drawBar("", ended, items_); }
 
-    /// Ends the time that making takes.
+    /// Stops the clock of the items.
     void endMaking() { made_after_ = elapsed(); }
 
-    /// Says how many of the contact sheet's droplets are drawn.
-    void tellDrawn(std::size_t drawn, std::size_t count);
+    /// Shows how many droplets of the contact sheet are drawn.
+    void reportDrawn(std::size_t drawn, std::size_t count);
 
-    /// The last words.
+    /// Prints the summary.
     void summarise(const std::vector<ManifestRow>& rows);
 
     [[nodiscard]] double elapsed() const { return secondsSince(start_); }
@@ -38,10 +39,10 @@ private:
     const BatchOptions& options_;
     std::size_t items_;
     bool bar_;
-    std::size_t told_ = 0;
+    std::size_t reported_ = 0;
     std::size_t drawn_tiles_ = 0;
-    double made_after_ = 0.0;  ///< how long it took to make all [s]
-    bool drawn_ = false;
+    double made_after_ = 0.0;  ///< time until all items were made [s]
+    bool drawn_ = false;       ///< whether the bar is on the screen
     Clock::time_point start_ = Clock::now();
     Clock::time_point drawn_at_ = start_;
 };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Threads are those of TBB, as many as items are worked on at one time. A thread that waits for the parts of its item
-// takes no other item in the meantime, which would bind two items' memory to it; one that finds no more items helps
-// with those still in work.
+// TBB runs as many threads as items in work. A thread that waits for parts of its item does not start another item,
+// which would keep the memory of two items. A thread without items helps with the items still in work.
 #include "batch_runner.h"
 
 #include <tbb/global_control.h>
@@ -40,13 +39,13 @@ namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// What is known to fail must fail before any work is done.
+/// Creates the folder of an output, and checks that the output can be written.
 void prepare(const std::string& output, const droplet::OutputOptions& options = {})
 {
     const fs::path folder = fs::path(output).parent_path();
     std::error_code failure;
     if (!folder.empty() && !fs::is_directory(folder, failure) && !fs::create_directories(folder, failure) && failure) {
-        throw Error(ErrorCode::OutputFailed, "folder " + folder.string() + " cannot be made: " + failure.message());
+        throw Error(ErrorCode::OutputFailed, "folder " + folder.string() + " cannot be created: " + failure.message());
     }
     droplet::checkWritable(output, options);
 }
@@ -56,7 +55,7 @@ std::size_t threadsOf(const BatchOptions& options)
     return options.threads.value_or(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-/// Items on their way, and what becomes of them.
+/// Items of a batch, their results and their progress.
 class Batch {
 public:
     Batch(const std::vector<BatchItem>& items, const BatchOptions& options, EarlierRun earlier)
@@ -72,7 +71,7 @@ public:
     void run()
     {
         const std::size_t threads = threadsOf(options_);
-        constexpr std::size_t kStack = std::size_t{8} << 20;  // as the first thread has
+        constexpr std::size_t kStack = std::size_t{8} << 20;  // the main thread's size
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const tbb::global_control stacks(tbb::global_control::thread_stack_size, kStack);
         tbb::task_arena arena(static_cast<int>(threads));
@@ -89,7 +88,7 @@ public:
         });
     }
 
-    /// The files that are as they were asked for, in their order.
+    /// Paths of the finished outputs, in the order of the items.
     [[nodiscard]] std::vector<std::string> outputs() const
     {
         std::vector<std::string> paths;
@@ -103,13 +102,13 @@ public:
 
     int finish()
     {
-        settle();
+        discardAfterFailure();
         progress_.endMaking();
         writeManifest(rows_, items_, options_, progress_.elapsed());
         return std::any_of(rows_.begin(), rows_.end(), hasFailed) ? kSomeFailed : 0;
     }
 
-    /// Draws what stands, if asked for.
+    /// Draws the contact sheet of the finished outputs, if --contact-sheet is given.
     void drawSheet()
     {
         if (!options_.contact_sheet) {
@@ -118,7 +117,7 @@ public:
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadsOf(options_));
         const ContactSheet sheet{*options_.contact_sheet, options_.material, options_.one_scale, outputs()};
         writeContactSheet(sheet, options_.files,
-                          [&](std::size_t drawn) { progress_.tellDrawn(drawn, sheet.droplets.size()); });
+                          [&](std::size_t drawn) { progress_.reportDrawn(drawn, sheet.droplets.size()); });
     }
 
     void summarise() { progress_.summarise(rows_); }
@@ -144,11 +143,11 @@ private:
         return rows;
     }
 
-    /// The row to work on next.
+    /// Index of the next row to work on.
     std::optional<std::size_t> next()
     {
         const std::lock_guard lock(mutex_);
-        if (next_ == rows_.size() || Interruption::asked() != 0 || (failed_ && !options_.keep_going)) {
+        if (next_ == rows_.size() || Interruption::receivedSignal() != 0 || (failed_ && !options_.keep_going)) {
             return std::nullopt;
         }
         return next_++;
@@ -166,12 +165,12 @@ private:
         has_ended_[place] = true;
         ++ended_;
         failed_ = failed_ || hasFailed(rows_[place]);
-        tellInOrder();
+        reportInOrder();
         progress_.drawBar(ended_);
-        keepManifest();
+        updateManifest();
     }
 
-    /// Whatever happens to one item must not end the others.
+    /// Makes one item. Its failure does not affect other items.
     void make(ManifestRow& row) const
     {
         const auto fail = [&](const std::string& error, ExitCode code) {
@@ -184,7 +183,7 @@ private:
         try {
             BatchWork work = item.open();
             const std::string fingerprint = fingerprintOf({droplet::kVersion, work.fingerprint});
-            if (options_.resume && stands(item, fingerprint, row.file)) {
+            if (options_.resume && isUpToDate(item, fingerprint, row.file)) {
                 row.status = ItemStatus::Skipped;
                 return;
             }
@@ -199,7 +198,7 @@ private:
             file.figures = work.make();
             work = {};  // the input's memory
             file.sha256 = hashOfFile(item.output);
-            std::error_code no_size;  // of a device
+            std::error_code no_size;  // devices have no size
             const auto bytes = fs::file_size(item.output, no_size);
             file.bytes = no_size ? 0 : bytes;
             row.file = std::move(file);
@@ -207,8 +206,7 @@ private:
         } catch (const Error& error) {
             fail(error.what(), exitCodeOf(error.code()));
         } catch (const std::bad_alloc&) {
-            fail("out of memory; fewer --triangles, a smaller picture or fewer --threads need less",
-                 ExitCode::InternalError);
+            fail("out of memory; use fewer --triangles, a smaller picture or fewer --threads", ExitCode::InternalError);
         } catch (const std::exception& error) {
             fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
         } catch (...) {
@@ -216,17 +214,17 @@ private:
         }
     }
 
-    void tellInOrder()
+    void reportInOrder()
     {
-        while (told_ < rows_.size() && has_ended_[told_] && !told_failure_) {
-            const ManifestRow& row = rows_[told_++];
-            progress_.tell(items_[row.index], row);
-            told_failure_ = hasFailed(row) && !options_.keep_going;
+        while (reported_ < rows_.size() && has_ended_[reported_] && !reported_failure_) {
+            const ManifestRow& row = rows_[reported_++];
+            progress_.reportItem(items_[row.index], row);
+            reported_failure_ = hasFailed(row) && !options_.keep_going;
         }
     }
 
-    /// What comes after the first that failed counts as not started, as if one had been worked on after another.
-    void settle()
+    /// Marks all items behind the first failed one as not started, as if items had been made one after another.
+    void discardAfterFailure()
     {
         const auto failed = std::find_if(rows_.begin(), rows_.end(), hasFailed);
         if (options_.keep_going || failed == rows_.end()) {
@@ -235,37 +233,37 @@ private:
         std::for_each(failed + 1, rows_.end(), [&](ManifestRow& row) { row = notStarted(row.index); });
     }
 
-    void keepManifest()
+    void updateManifest()
     {
-        if (secondsSince(kept_at_) < interval_) {
+        if (secondsSince(updated_at_) < interval_) {
             return;
         }
         const auto start = Clock::now();
         try {
             writeManifest(rows_, items_, options_, progress_.elapsed());
         } catch (const Error&) {
-            // It is tried again, and at the end the cause is told.
+            // Writing is tried again later; the last failure is reported.
         }
-        // A manifest of a million rows must not take the time of the work.
+        // Writing a manifest of a million rows must take a small share of the time.
         constexpr double kShare = 20.0;
         interval_ = std::max(interval_, kShare * secondsSince(start));
-        kept_at_ = Clock::now();
+        updated_at_ = Clock::now();
     }
 
     const std::vector<BatchItem>& items_;
     const BatchOptions& options_;
     EarlierRun earlier_;
 
-    std::mutex mutex_;  ///< over all below while threads run
+    std::mutex mutex_;  ///< guards all members below while threads run
     std::vector<ManifestRow> rows_;
     std::vector<bool> has_ended_;  ///< by row
     BatchProgress progress_;
     std::size_t next_ = 0;
     std::size_t ended_ = 0;
-    std::size_t told_ = 0;
+    std::size_t reported_ = 0;
     bool failed_ = false;
-    bool told_failure_ = false;
-    Clock::time_point kept_at_ = Clock::now();
+    bool reported_failure_ = false;
+    Clock::time_point updated_at_ = Clock::now();
     double interval_ = 5.0;  ///< [s]
 };
 
@@ -274,7 +272,7 @@ private:
 int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
 {
     if (items.empty()) {
-        refuse("there is nothing to make");
+        refuse("there are no items to make");
     }
     refuseClashes(items, options);
     prepare(options.manifest);
@@ -288,7 +286,7 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
         const Interruption interruption;
         batch.run();
         code = batch.finish();
-        signal = Interruption::asked();
+        signal = Interruption::receivedSignal();
     }
     if (signal != 0) {
         batch.summarise();

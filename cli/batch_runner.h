@@ -8,25 +8,25 @@
 
 namespace cli {
 
-/// The exit code of a batch of which some items failed.
+/// Exit code of a batch in which some items failed.
 inline constexpr int kSomeFailed = 6;
 
-/// Makes all items (or those of one shard), several at one time, and writes the manifest.
+/// Makes all items, or those of one shard, in parallel, and writes the manifest.
 ///
-/// What is left behind is what working on one item after another would leave, whatever the number of threads: rows of
-/// the manifest and messages come in the order of the items. Without keep_going no item is begun once one has failed,
-/// and whatever comes after the first that failed counts as not started, even if another thread has already made it.
+/// The result does not depend on the number of threads: rows of the manifest and messages come in the order of the
+/// items. Without keep_going, no item starts after a failure, and all items behind the first failed one count as not
+/// started, even if another thread has already made them.
 ///
-/// An item is skipped if the manifest of an earlier run says that its files were made with the same fingerprint, and
-/// the output has the size and hash written there. The manifest is replaced every few seconds, and at the end, each
-/// time whole. SIGINT, SIGTERM and SIGHUP let items in work be finished, write the manifest and end the process by that
-/// signal; a second one ends it at once.
+/// An item is skipped if the manifest of an earlier run lists its files with the same fingerprint, and the output still
+/// has the listed size and hash. The manifest is replaced every few seconds and at the end, always completely. On
+/// SIGINT, SIGTERM or SIGHUP, items in work are finished, the manifest is written, and the process ends by that signal;
+/// a second signal ends it at once.
 ///
-/// Folders of outputs are made where missing.
+/// Missing folders of outputs are created.
 /// @return                0, or kSomeFailed
-/// @throws droplet::Error InvalidArgument: no items, two files of one path, an output that is an input, something else
-///                        than a manifest where the manifest goes; OutputFailed: the manifest cannot be written. All
-///                        but a full disk is found before any work is done
+/// @throws droplet::Error InvalidArgument: no items, two files of one path, an output that is an input, a file that is
+///                        not a manifest at the manifest's path; OutputFailed: the manifest cannot be written. All
+///                        errors but a full disk are found before any work is done
 int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options);
 
 }  // namespace cli

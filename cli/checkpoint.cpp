@@ -17,7 +17,8 @@ namespace cli {
 namespace {
 
 constexpr std::string_view kBeginning = "droplet-shape windshield checkpoint 1\n";
-static_assert(std::is_trivially_copyable_v<droplet::BalanceRow>, "rows are kept as they are, by the same program");
+static_assert(std::is_trivially_copyable_v<droplet::BalanceRow>,
+              "rows are written as bytes and read by the same program");
 
 void put(std::string& bytes, std::uint64_t number)
 {
@@ -30,7 +31,7 @@ void put(std::string& bytes, std::string_view text)
     bytes.append(text);
 }
 
-/// Takes bytes from the front of what is left.
+/// Reads a checkpoint's bytes from front to back.
 class Reader {
 public:
     Reader(std::string_view bytes, const std::string& path) : left_(bytes), path_(path) {}
@@ -39,7 +40,7 @@ public:
     {
         if (count > left_.size()) {
             throw droplet::Error(droplet::ErrorCode::InvalidInput,
-                                 path_ + ": is no whole checkpoint; remove it to begin anew");
+                                 path_ + ": is not a complete checkpoint; remove it to start from the first frame");
         }
         const std::string_view part = left_.substr(0, count);
         left_.remove_prefix(count);
@@ -87,7 +88,7 @@ void removeCheckpoint(const std::string& path, const droplet::OutputOptions& opt
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
     if (beginning != kBeginning) {
         throw droplet::Error(droplet::ErrorCode::OutputFailed,
-                             path + ": stands where a checkpoint goes, and is none; it will not be replaced");
+                             path + ": is not a checkpoint, and will not be replaced by one; move it away");
     }
     if (!std::filesystem::remove(path, failure)) {
         throw droplet::Error(droplet::ErrorCode::OutputFailed, path + ": " + failure.message());
@@ -103,7 +104,8 @@ std::optional<Checkpoint> readCheckpoint(const std::string& path)
     const std::string bytes = textOf(path);
     Reader reader(bytes, path);
     if (reader.take(std::min(bytes.size(), kBeginning.size())) != kBeginning) {
-        throw droplet::Error(droplet::ErrorCode::InvalidInput, path + ": is no checkpoint of this program's");
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             path + ": is not a checkpoint of droplet-shape; move it away");
     }
     Checkpoint checkpoint;
     checkpoint.fingerprint = reader.text();

@@ -12,24 +12,25 @@
 
 namespace cli {
 
-/// Where a windshield stands between two frames: all that is needed to go on as if nothing had happened.
+/// State of a windshield run between two frames, from which it can resume exactly.
 struct Checkpoint {
-    std::string fingerprint;  ///< of the options
-    std::size_t frames = 0;   ///< that are whole
+    std::string fingerprint;  ///< hash of options and input files
+    std::size_t frames = 0;   ///< number of finished frames
     std::vector<droplet::BalanceRow> balance;
     droplet::WindshieldState state;
 };
 
-/// Writes it whole or not at all.
+/// Writes a checkpoint, completely or not at all.
 /// @throws droplet::Error OutputFailed
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
-/// Takes away what an earlier run left.
-/// @throws droplet::Error OutputFailed if what stands there is no checkpoint, or must not be replaced
+/// Removes the checkpoint of an earlier run, if there is one.
+/// @throws droplet::Error OutputFailed if the file is not a checkpoint, or must not be replaced
 void removeCheckpoint(const std::string& path, const droplet::OutputOptions& options);
 
-/// @return                nothing if there is none
-/// @throws droplet::Error InvalidInput if it is damaged
+/// Reads a checkpoint.
+/// @return                nothing if the file does not exist
+/// @throws droplet::Error InvalidInput if the file is damaged
 std::optional<Checkpoint> readCheckpoint(const std::string& path);
 
 }  // namespace cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CLI11 splits the command line and lays out the help; what values mean and how a refusal reads is decided here.
+// CLI11 splits the command line and formats the help. This file parses values and words the error messages.
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@
 namespace cli {
 namespace {
 
-constexpr std::size_t kColumn = 26;  // where descriptions begin
+constexpr std::size_t kColumn = 26;  // column of the descriptions
 constexpr std::size_t kWidth = 80;
 
 /// Breaks a description into lines that fit beside the names.
@@ -54,7 +54,7 @@ public:
         return has_arguments ? usage_ : usage_ + "\n";
     }
 
-    /// One empty line between groups: the base class leaves two between all but the first.
+    /// Puts one empty line between groups; the base class puts two.
     std::string make_group(std::string group, bool is_positional,
                            std::vector<const CLI::Option*> options) const override
     {
@@ -115,7 +115,7 @@ public:
 
     void addArguments(const char* name, const std::string& description)
     {
-        // CLI11 wants to know how many at most, and fills up to the least number but where extra ones are allowed.
+        // CLI11 needs a maximum, and demands the minimum number unless extra arguments are allowed.
         app_.add_option(name)->description(wrapped(description))->expected(0, 1 << 29)->allow_extra_args()->take_all();
     }
 
@@ -203,7 +203,7 @@ public:
     [[nodiscard]] std::string help() const { return app_.help(); }
 
 private:
-    /// Whether the rest of the line does not matter.
+    /// Whether --help or --version is given, so that other options do not matter.
     [[nodiscard]] bool asksForText() const
     {
         return (has("--help") && flag("--help")) || (has("--version") && flag("--version"));
@@ -211,7 +211,7 @@ private:
 
     [[nodiscard]] bool isList(const CLI::Option* option) const { return lists_.count(option) > 0; }
 
-    /// CLI11 takes `--width= in.png` for `--width in.png`.
+    /// Refuses empty values: CLI11 reads `--width= in.png` as `--width in.png`.
     static void refuseEmptyValues(int argc, const char* const* argv)
     {
         for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
@@ -243,8 +243,7 @@ private:
             const std::string known = nearest(name);
             const bool is_output = name == "-o" || name == "--output";
             if (is_output && text_.usage.find(" OUTPUT") != std::string::npos) {
-                refuse("unknown option " + name + ": OUTPUT stands without one, as in " + text_.name + " " +
-                       text_.usage);
+                refuse("unknown option " + name + ": OUTPUT needs no option, as in " + text_.name + " " + text_.usage);
             }
             refuse("unknown option " + name + (known.empty() ? "" : ", did you mean " + known + "?") +
                    (known.empty() ? "; " + text_.name + " --help lists all" : ""));
@@ -272,7 +271,7 @@ private:
 
     static bool isFlag(const CLI::Option* option) { return option->get_expected_max() == 0; }
 
-    /// CLI11 takes any word in `--open=word`.
+    /// Refuses other values of a flag: CLI11 accepts any word in `--open=word`.
     static void requireBoolean(const Given& given)
     {
         if (given.text != "true" && given.text != "false") {
@@ -280,8 +279,8 @@ private:
         }
     }
 
-    /// Whether the command line decides what an option of this name would decide.
-    [[nodiscard]] bool settled(const std::string& name) const
+    /// Whether the command line has this option, or one that excludes it, and so overrides the configuration file.
+    [[nodiscard]] bool isOverridden(const std::string& name) const
     {
         const auto given = [&](const std::string& other) {
             return app_.get_option(other)->count() > 0 && origins_.find(other) == origins_.end();
@@ -308,7 +307,7 @@ private:
             if (isFlag(option)) {
                 requireBoolean({entry.value, name + origin});
             }
-            if (!settled(name)) {
+            if (!isOverridden(name)) {
                 option->add_result(entry.value);
                 origins_[name] = origin;
             }
@@ -332,10 +331,10 @@ private:
 
     CommandText text_;
     CLI::App app_;
-    std::string arguments_;  ///< their names, for a message
+    std::string arguments_;  ///< names of the arguments, for messages
     std::vector<std::vector<std::string>> exclusive_;
     std::unordered_set<const CLI::Option*> lists_;
-    std::unordered_map<std::string, std::string> origins_;  ///< of options that come from the configuration file
+    std::unordered_map<std::string, std::string> origins_;  ///< places of options in the configuration file
 };
 
 CommandLine::CommandLine(const CommandText& text) : parser_(std::make_unique<Parser>(text)) {}

@@ -11,12 +11,12 @@ void declareCommon(CommandLine& line, const char* group, const std::string& exam
     line.add(group, "-j,--threads", "N", "Maximum number of threads [all cores]");
     line.addFlag(group, "-q,--quiet", "Print only errors");
     line.add(group, "--config", "FILE",
-             "take options from lines such as " + example + ";\nthe command line goes before them");
+             "Read options from a TOML file with lines such as " + example + "; the command line takes precedence");
     line.addFlag(group, "-h,--help", "Print this help");
     line.addFlag(group, "--version", "Print the version");
 }
 
-std::optional<std::string> textAskedFor(const CommandLine& line)
+std::optional<std::string> requestedText(const CommandLine& line)
 {
     if (line.flag("--help")) {
         return line.help();

@@ -9,14 +9,14 @@
 
 namespace cli {
 
-/// --threads, --quiet, --config, --help and --version.
-/// @param example  a line of such a configuration file
+/// Declares --threads, --quiet, --config, --help and --version.
+/// @param example  line of a configuration file, for the help
 void declareCommon(CommandLine& line, const char* group, const std::string& example);
 
-/// What --help or --version asks for.
-std::optional<std::string> textAskedFor(const CommandLine& line);
+/// Text that --help or --version prints, if one of them is given.
+std::optional<std::string> requestedText(const CommandLine& line);
 
-/// --threads; empty: all cores.
+/// Value of --threads; empty for all cores.
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::optional<std::size_t> readThreads(const CommandLine& line);
 

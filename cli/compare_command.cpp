@@ -77,7 +77,7 @@ void declare(CommandLine& line)
     declareCommon(line, kRun, "tolerance = \"0.01mm\"");
 }
 
-/// A share in per cent: of a bare number it is a guess whether it is one.
+/// Parses a share in per cent. The sign is required: a bare number would be ambiguous.
 double share(const Given& given)
 {
     const std::string& text = given.text;
@@ -131,14 +131,14 @@ std::string millimetres(double metres)
     return fmt::format("{:.4g}", metres / droplet::kMillimetre) + " mm";
 }
 
-std::string place(droplet::Vec3 p)
+std::string positionText(droplet::Vec3 p)
 {
     return "(" + fmt::format("{:.4g}", p.x / droplet::kMillimetre) + ", " +
            fmt::format("{:.4g}", p.y / droplet::kMillimetre) + ", " +
            fmt::format("{:.4g}", p.z / droplet::kMillimetre) + ") mm";
 }
 
-/// A row of the table: columns of one width, by characters, not bytes.
+/// Row of the table. Columns have one width, counted in characters, not bytes.
 std::string row(const std::vector<std::string>& cells)
 {
     std::string line;
@@ -159,7 +159,7 @@ std::string shareOf(double a, double b)
 std::string topologyOf(const droplet::Topology& topology)
 {
     if (!topology.manifold) {
-        return "no manifold";
+        return "not manifold";
     }
     return (topology.closed ? "closed" : "open") + std::string(", Euler ") + std::to_string(topology.euler);
 }
@@ -197,19 +197,19 @@ std::string table(const droplet::Comparison& found)
         row({"normals, rms", angle(found.normals_of_a.rms), angle(found.normals_of_b.rms), angle(found.normals.rms)});
     lines += row({"  largest", angle(found.normals_of_a.largest), angle(found.normals_of_b.largest),
                   angle(found.normals.largest)});
-    lines += "farthest at " + place(found.symmetric.at) + "\n";
+    lines += "farthest at " + positionText(found.symmetric.at) + "\n";
     return lines;
 }
 
-/// A surface as a body on the table: what repeats in its file is no rim.
-droplet::Surface standing(droplet::Surface surface)
+/// Moves a surface's lowest point to height 0. Vertices are not welded, so that repeated vertices do not become a rim.
+droplet::Surface placedOnGround(droplet::Surface surface)
 {
     std::iota(surface.weld.begin(), surface.weld.end(), 0U);
     const auto lowest = std::min_element(surface.positions.begin(), surface.positions.end(),
                                          [](const droplet::Vec3& a, const droplet::Vec3& b) { return a.z < b.z; });
     const double ground = lowest->z;
-    for (droplet::Vec3& place : surface.positions) {
-        place.z -= ground;
+    for (droplet::Vec3& position : surface.positions) {
+        position.z -= ground;
     }
     return surface;
 }
@@ -221,7 +221,7 @@ int runCompare(int argc, const char* const* argv)
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         print(*text);
         return 0;
     }
@@ -247,9 +247,9 @@ int runCompare(int argc, const char* const* argv)
     const droplet::ReadSurface b = droplet::readSurface(options.path_b);
     droplet::ComparisonReport report{options.path_a, options.path_b, {}, options.tolerances, {}, a.warnings};
     report.warnings.insert(report.warnings.end(), b.warnings.begin(), b.warnings.end());
-    droplet::CompareOptions how;
-    how.tolerance = options.tolerances.distance;
-    report.comparison = droplet::compare(a.surface, b.surface, how);
+    droplet::CompareOptions compare_options;
+    compare_options.tolerance = options.tolerances.distance;
+    report.comparison = droplet::compare(a.surface, b.surface, compare_options);
     report.exceeded = droplet::exceeded(report.comparison, options.tolerances);
 
     std::vector<OutputFile> files;
@@ -260,7 +260,7 @@ int runCompare(int argc, const char* const* argv)
     if (options.picture) {
         droplet::RenderOptions scene;
         scene.paint = droplet::differencePaint(a.surface, b.surface);
-        picture = droplet::render(standing(a.surface), scene);
+        picture = droplet::render(placedOnGround(a.surface), scene);
         files.push_back({*options.picture, [&](std::ostream& out) { writePng(picture, out); }});
     }
     if (!files.empty()) {

@@ -3,9 +3,9 @@
 
 namespace cli {
 
-/// Runs `compare`: two surfaces in, how far they differ out.
-/// @return                exit code: 1 where they differ by more than a tolerance
-/// @throws droplet::Error for whatever goes wrong
+/// Runs `droplet-shape compare`: two surfaces in, their difference out.
+/// @return                exit code: 1 if they differ by more than a tolerance
+/// @throws droplet::Error on any failure
 int runCompare(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// toml++ reads what CLI11's own reader takes too little care of: that one skips lines of one or two characters, cuts
-// strings at a '#' and takes a key without value for true.
+// toml++ replaces CLI11's own reader, which skips lines of one or two characters, cuts strings at a '#' and reads a key
+// without a value as true.
 #include "config_file.h"
 
 #include <fmt/core.h>
@@ -17,7 +17,7 @@
 namespace cli {
 namespace {
 
-/// A file's lines, for what a message names of them.
+/// Lines of the file, for error messages.
 class Lines {
 public:
     explicit Lines(const std::string& path) : path_(path)
@@ -44,9 +44,9 @@ public:
 
     [[noreturn]] void refuse(std::size_t line, const std::string& reason) const
     {
-        const std::string words = line > 0 && line <= lines_.size() ? "'" + lines_[line - 1] + "' " : "the end ";
+        const std::string quoted = line > 0 && line <= lines_.size() ? "'" + lines_[line - 1] + "' " : "the end ";
         throw droplet::Error(droplet::ErrorCode::InvalidArgument,
-                             fmt::format("--config: {}:{}: {}{}", path_, line, words, reason));
+                             fmt::format("--config: {}:{}: {}{}", path_, line, quoted, reason));
     }
 
 private:
@@ -75,18 +75,18 @@ std::vector<ConfigEntry> readConfig(const std::string& path)
         for (const auto& [key, value] : toml::parse(lines.text())) {
             const std::size_t line = value.source().begin.line;
             if (value.is_table()) {
-                lines.refuse(line, "begins a table; tables are not known here, only 'key = value'");
+                lines.refuse(line, "begins a table; only 'key = value' is allowed");
             }
             if (!value.is_string() && !value.is_boolean() && !value.is_number()) {
-                lines.refuse(line, "must give a number, true, false or text in quotes");
+                lines.refuse(line, "must have a number, true, false or text in quotes as value");
             }
             entries.push_back({std::string(key.str()), textOf(value), static_cast<int>(line)});
         }
     } catch (const toml::parse_error& error) {
-        const std::string words(error.description());  // "Error while parsing string: unknown escape sequence"
-        const auto colon = words.find(": ");
+        const std::string description(error.description());  // "Error while parsing string: unknown escape sequence"
+        const auto colon = description.find(": ");
         lines.refuse(error.source().begin.line,
-                     "is not TOML: " + (colon == std::string::npos ? words : words.substr(colon + 2)) +
+                     "is not TOML: " + (colon == std::string::npos ? description : description.substr(colon + 2)) +
                          "; lines are of the form 'key = value', with text in quotes: width = \"8cm\"");
     }
     std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.line < b.line; });

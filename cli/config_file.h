@@ -13,8 +13,8 @@ struct ConfigEntry {
     int line = 0;
 };
 
-/// Reads TOML, of which options need no tables, arrays or dates: what it does not read it refuses, so that nothing in a
-/// file is passed over in silence. A number is given by its value, in the fewest digits that tell it.
+/// Reads `key = value` lines of TOML. Tables, arrays and dates are refused, so that nothing in a file is silently
+/// ignored. A number becomes the shortest text that has the same value.
 /// @throws droplet::Error InvalidArgument, naming file and line
 std::vector<ConfigEntry> readConfig(const std::string& path);
 

@@ -15,7 +15,7 @@
 namespace cli {
 namespace {
 
-/// Volume over the area that is covered seen from above, which files do not hold: how deep coloured liquid is.
+/// Mean height: volume over the area seen from above. Files do not contain it; coloured liquids need it.
 double meanHeight(const droplet::Surface& surface)
 {
     double area = 0.0;
@@ -26,7 +26,7 @@ double meanHeight(const droplet::Surface& surface)
     return area > 0.0 ? std::abs(droplet::enclosedVolume(surface)) / area : 0.0;
 }
 
-/// Boxes of one size, each on the ground around the middle of its droplet.
+/// Boxes of one size, each centred on its droplet and standing on the ground.
 std::vector<droplet::ViewBox> boxesOfOneSize(const std::vector<std::string>& droplets)
 {
     std::vector<droplet::ViewBox> boxes(droplets.size());
@@ -55,7 +55,7 @@ void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& 
     if (count == 0) {
         return;
     }
-    // As many pixels as a large screen shows, however many share them.
+    // The sheet has about as many pixels as a large screen, whatever the number of tiles.
     constexpr int kWidest = 320;
     constexpr int kNarrowest = 48;
     constexpr double kSheet = 3200.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// SHA-256: FIPS 180-4, of libmd.
+// SHA-256 (FIPS 180-4) from libmd.
 #include "content_hash.h"
 
 #include <sha256.h>

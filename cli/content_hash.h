@@ -12,11 +12,11 @@ namespace cli {
 /// SHA-256 in hexadecimal digits.
 std::string hashOf(std::span<const std::byte> bytes);
 
-/// The same of what is in a file; empty where there is none to be read.
-/// @throws droplet::Error InvalidInput: it cannot be read
+/// SHA-256 of a file's content; empty without a path.
+/// @throws droplet::Error InvalidInput if the file cannot be read
 std::string hashOfFile(const std::optional<std::string>& path);
 
-/// A hash of several texts, of which none can run into the next.
+/// Hash of several texts. Different lists have different hashes, even if the joined texts are the same.
 std::string fingerprintOf(const std::vector<std::string>& parts);
 
 }  // namespace cli

@@ -17,7 +17,7 @@ using droplet::Dimension;
 
 constexpr Range kArea{Dimension::Area, 0.0, 1e6, "from 0mm2 to 1e6m2"};
 constexpr Range kVolume{Dimension::Volume, 1e-27, 1e9, "from 1e-18uL to 1e9m3"};
-// 90° would stand upright: the height has no finite slope there.
+// Below 90°, where the height's slope is finite.
 constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 89.999 * droplet::kDegree,
                        "from 0.001deg to 89.999deg"};
 constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
@@ -79,7 +79,7 @@ void readGravity(const CommandLine& line, DropletSettings& settings)
     if (const auto direction = line.value("--tilt-direction")) {
         solve.tilt_direction = quantity(*direction, kDirection);
         if (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max) {
-            settings.warnings.push_back("--tilt-direction has no effect: no side of level ground is downhill");
+            settings.warnings.push_back("--tilt-direction has no effect: level ground has no downhill direction");
         }
     }
 }
@@ -104,7 +104,7 @@ void readHysteresis(const CommandLine& line, DropletSettings& settings)
     settings.hysteresis = hysteresis;
 }
 
-/// How liquid is told from dry, and what is done to the mask then.
+/// Reads the options that separate liquid from dry and clean the mask.
 void readSegment(const CommandLine& line, FootprintOptions& options)
 {
     using droplet::Segmentation;
@@ -117,7 +117,8 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
     }
     const auto channel = line.value("--channel");
     if (segment && channel && channel->text == "alpha" && (segment->text == "adaptive" || segment->text == "grabcut")) {
-        refuse("--segment " + segment->text + " and --channel alpha exclude each other: alpha needs no search");
+        refuse("--segment " + segment->text +
+               " and --channel alpha exclude each other: alpha already separates liquid from dry");
     }
     options.mask.insist = line.value("--threshold").has_value();
     const auto colour = line.value("--colour");
@@ -140,10 +141,10 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
     }
 }
 
-constexpr const char* kGroundWords =
+constexpr const char* kGroundForms =
     "a height map's file, sphere:R=LENGTH or cylinder:R=LENGTH,axis=ANGLE, where axis may also be x or y";
 
-/// The values in a list such as `R=33mm,axis=y`, in the order of `keys`, each of which it must have once.
+/// Values of a list such as `R=33mm,axis=y`, in the order of `keys`. The list must contain every key once.
 std::vector<Given> partsOf(const Given& given, std::string_view list, const std::vector<std::string>& keys)
 {
     std::vector<std::optional<std::string>> values(keys.size());
@@ -155,27 +156,27 @@ std::vector<Given> partsOf(const Given& given, std::string_view list, const std:
         const auto key =
             static_cast<std::size_t>(std::find(keys.begin(), keys.end(), part.substr(0, equals)) - keys.begin());
         if (equals == std::string_view::npos || key == keys.size() || values[key]) {
-            refuse(given, kGroundWords);
+            refuse(given, kGroundForms);
         }
         values[key] = part.substr(equals + 1);
     }
     std::vector<Given> parts;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         if (!values[i]) {
-            refuse(given, kGroundWords);
+            refuse(given, kGroundForms);
         }
         parts.push_back({*values[i], given.subject + ": " + keys[i]});
     }
     return parts;
 }
 
-/// A radius, of a bowl or gutter if negative.
+/// Parses a radius, which is negative for a bowl or gutter.
 double radius(const Given& given)
 {
     constexpr Range kRadius{Dimension::Length, -kLength.max, kLength.max, "from 1nm to 1000m, or from -1000m to -1nm"};
     const double value = quantity(given, kRadius);
     if (std::abs(value) < kLength.min) {
-        refuse(given, kRadius.words);
+        refuse(given, kRadius.allowed);
     }
     return value;
 }
@@ -188,7 +189,7 @@ double axis(const Given& given)
     return quantity(given, kDirection);
 }
 
-/// Whether a text is of the form `word:…=…`: a ground described, or misspelt, rather than the name of a file.
+/// Whether a text has the form `word:…=…`, so that it is a ground, perhaps misspelt, and not the name of a file.
 bool describesGround(std::string_view text)
 {
     const auto colon = text.find(':');
@@ -206,7 +207,7 @@ droplet::GroundReport groundOf(const Given& given)
     const std::string_view list = text.substr(std::min(text.size(), kind.size() + 1));
     droplet::GroundReport ground;
     if (text.empty()) {
-        refuse(given, kGroundWords);
+        refuse(given, kGroundForms);
     }
     if (!describesGround(text)) {
         ground.kind = droplet::GroundKind::HeightMap;
@@ -220,7 +221,7 @@ droplet::GroundReport groundOf(const Given& given)
         ground.radius = radius(parts[0]);
         ground.axis = axis(parts[1]);
     } else {
-        refuse(given, kGroundWords);
+        refuse(given, kGroundForms);
     }
     return ground;
 }
@@ -271,7 +272,7 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
     }
     if (const auto solver = line.value("--solver")) {
         if (solver->text == "cholmod") {
-            refuse(solver->subject + ": 'cholmod' is no longer built in, llt factors the same matrix");
+            refuse(solver->subject + ": 'cholmod' is no longer built in; llt factorises the same matrix");
         }
         settings.droplet.solve.solver = choice<droplet::Solver>(*solver, {{"auto", droplet::Solver::Auto},
                                                                           {"llt", droplet::Solver::Llt},
@@ -440,7 +441,7 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     const bool has_unit = format == droplet::Format::Obj || format == droplet::Format::Stl;
     const bool has_material = format != droplet::Format::Ply && format != droplet::Format::Stl;
     if (const auto material = line.value("--material"); material && !has_material && !is_shown) {
-        warn(*material, "carry no material");
+        warn(*material, "have no material");
     }
     if (const auto unit = line.value("--unit"); unit && !has_unit) {
         warn(*unit, "are in metres");

@@ -16,10 +16,10 @@
 
 namespace cli {
 
-/// Indices of 32 bits and files of 4 GiB end at some hundred million triangles.
+/// Limit of triangles: indices of 32 bits and files of 4 GiB hold about a hundred million.
 inline constexpr std::size_t kMaxTriangles = 100'000'000;
 
-/// What the help says of units, for footers.
+/// Units of quantities, for the end of help texts.
 inline constexpr const char* kUnitsText =
     "Quantities carry a unit:\n"
     "  lengths nm um mm cm m in; areas um2 mm2 cm2 m2; angles deg rad;\n"
@@ -27,64 +27,64 @@ inline constexpr const char* kUnitsText =
     "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
     "  acceleration m/s2 mm/s2 g\n";
 
-/// How a picture becomes an outline.
+/// Options from the picture to the outline.
 struct FootprintOptions {
     droplet::MaskOptions mask;
     droplet::TraceOptions trace;
-    bool sized = false;                   ///< whether the picture's size is given
-    std::optional<std::string> mask_out;  ///< path of the mask that was used, or kStandardStream
+    bool sized = false;                   ///< whether --width or --pixel-size is given
+    std::optional<std::string> mask_out;  ///< path for the used mask, or kStandardStream
 };
 
-/// How an outline becomes droplets, and how they look.
+/// Options from the outline to the droplets, and their look.
 struct DropletSettings {
-    droplet::DropletOptions droplet;  ///< but for trace and solve.ground
+    droplet::DropletOptions droplet;  ///< all but trace and solve.ground
     droplet::GroundReport ground;
-    std::optional<std::string> onto;  ///< path of the object that is wetted
+    std::optional<std::string> onto;  ///< path of the wetted object
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
-    droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< of OBJ and STL
-    std::vector<std::string> warnings;                           ///< about options that have no effect together
+    droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< unit in OBJ and STL
+    std::vector<std::string> warnings;                           ///< options without effect
 };
 
 enum class Verbosity { Quiet, Normal, Verbose };
 
 enum class ProgressMode {
-    Auto,  ///< a bar on a terminal once a run has taken a second
+    Auto,  ///< a bar on a terminal, after one second
     None,
-    Json,  ///< a line of JSON per stage, and no summary in words
+    Json,  ///< a line of JSON per stage, no summary
 };
 
-/// How a command goes about its work, whatever that is.
+/// Options of every run.
 struct RunOptions {
-    std::optional<std::string> config;  ///< the file options were taken from
+    std::optional<std::string> config;  ///< path of the configuration file
     droplet::OutputOptions files;
     std::optional<std::size_t> threads;
     Verbosity verbosity = Verbosity::Normal;
     ProgressMode progress = ProgressMode::Auto;
 };
 
-// Each command declares the groups it takes, in the order of its help, and reads them once the line is parsed.
+// Each command declares its groups of options in the order of its help, and reads them after parsing.
 
 void declareFootprint(CommandLine& line);
-/// Of the commands that make one droplet, beside declareFootprint.
+/// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line);
 void declareGround(CommandLine& line);
 void declareSurface(CommandLine& line);
 void declareRun(CommandLine& line);
 
-// All throw droplet::Error InvalidArgument, naming option, value and what is allowed.
+// All read functions throw droplet::Error InvalidArgument, naming option, value and what is allowed.
 
-/// Whether a value of --colour is one of --preview-colour, which had that name before.
+/// Whether a value of --colour belongs to --preview-colour, which was called --colour before.
 bool isPreviewColour(const std::string& text);
 
 FootprintOptions readFootprint(const CommandLine& line);
-/// Liquid, ground and surface.
+/// Reads the options of liquid, ground and surface.
 DropletSettings readDroplet(const CommandLine& line);
 RunOptions readRun(const CommandLine& line);
 
-/// Adds warnings of options that a format has no use for.
-/// @param is_shown  whether there is something beside the file that shows the material
+/// Adds warnings about options that have no effect on a format.
+/// @param is_shown  whether another output, such as a preview, shows the material
 void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown, DropletSettings& settings);
 
 }  // namespace cli

@@ -41,7 +41,7 @@ droplet::OutputReport describeOutput(const droplet::Surface& surface, const std:
     output.format = format;
     output.triangles = surface.triangles.size();
     output.topology = droplet::topology(surface);
-    // Only glTF repeats a place to give it a second normal.
+    // Only glTF repeats a vertex to give it a second normal.
     const bool repeats = format == droplet::Format::Glb || format == droplet::Format::Gltf;
     for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
         output.vertices += repeats || surface.weld[i] == i ? 1 : 0;
@@ -80,7 +80,7 @@ std::uint64_t peakMemory()
 {
     struct rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux returns KiB
 }
 
 }  // namespace cli

@@ -11,13 +11,13 @@
 
 namespace cli {
 
-/// A file of a surface, but for its bytes, which are known when it is written.
+/// Report of a surface's file. Its size in bytes is added after writing.
 droplet::OutputReport describeOutput(const droplet::Surface& surface, const std::string& path, droplet::Format format);
 
-/// Everything but input and output, and times and memory, which are known when all is done.
+/// Report of a droplet, without input, output, times and memory.
 droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings& settings);
 
-/// The most memory this process has had [bytes].
+/// Peak memory of this process [bytes].
 std::uint64_t peakMemory();
 
 }  // namespace cli

@@ -5,9 +5,10 @@
 
 namespace cli {
 
-/// The exit codes of the manual page that stand for a kind of failure.
+/// Exit codes of failures, as in the manual page.
 enum class ExitCode { InternalError = 1, Usage = 2, BadInput = 3, BadOutput = 4, NoSuchDroplet = 5 };
 
+/// Exit code that stands for an error of the library.
 inline ExitCode exitCodeOf(droplet::ErrorCode code)
 {
     switch (code) {

@@ -20,8 +20,8 @@
 #include <system_error>
 #include <utility>
 
+#include "canonical_paths.h"
 #include "droplet/error.h"
-#include "file_places.h"
 
 namespace cli {
 namespace {
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// Files by their place and, whatever they are called, by what they are.
+/// Files by path and by inode, so that hard links are found, too.
 class KnownFiles {
 public:
     explicit KnownFiles(const std::vector<NamedFile>& files = {})
@@ -42,16 +42,16 @@ public:
 
     void add(const NamedFile& file)
     {
-        by_place_.try_emplace(placeOf(file), &file);
+        by_path_.try_emplace(canonicalPath(file), &file);
         if (const auto node = nodeOf(file)) {
             by_node_.try_emplace(*node, &file);
         }
     }
 
-    /// The file that this one is; none if it is new.
+    /// Known file that is the same; null if there is none.
     const NamedFile* find(const NamedFile& file)
     {
-        if (const auto known = by_place_.find(placeOf(file)); known != by_place_.end()) {
+        if (const auto known = by_path_.find(canonicalPath(file)); known != by_path_.end()) {
             return known->second;
         }
         const auto node = nodeOf(file);
@@ -60,19 +60,19 @@ public:
     }
 
 private:
-    std::string placeOf(const NamedFile& file) { return isStream(file.path) ? file.path : places_.of(file.path); }
+    std::string canonicalPath(const NamedFile& file) { return isStream(file.path) ? file.path : paths_.of(file.path); }
 
     static std::optional<FileNode> nodeOf(const NamedFile& file)
     {
         return isStream(file.path) ? std::nullopt : cli::nodeOf(file.path);
     }
 
-    Places places_;
-    std::map<std::string, const NamedFile*> by_place_;
+    CanonicalPaths paths_;
+    std::map<std::string, const NamedFile*> by_path_;
     std::map<FileNode, const NamedFile*> by_node_;
 };
 
-/// `program - out < out` would read what it is about to replace.
+/// Whether a path is the file that standard input reads, as in `program - out < out`.
 bool isStandardInput(const std::string& path)
 {
     struct stat input = {};
@@ -110,7 +110,7 @@ void readAll(int file, const std::string& name, const std::function<void(std::sp
     }
 }
 
-/// Writes the first file, and within that the others.
+/// Writes the first file, and before its end the others.
 void writeNested(std::span<const OutputFile> files, const droplet::OutputOptions& options)
 {
     if (files.empty()) {
@@ -121,7 +121,7 @@ void writeNested(std::span<const OutputFile> files, const droplet::OutputOptions
         isStream(path) ? "/dev/stdout" : path,
         [&](std::ostream& out) {
             files.front().write(out);
-            if (out) {  // else whoever opened it knows the cause
+            if (out) {  // otherwise writeWhole reports the cause
                 writeNested(files.subspan(1), options);
             }
         },
@@ -193,7 +193,7 @@ std::string textOf(const std::string& path)
 
 std::vector<std::byte> readStandardInput(std::size_t max_pixels)
 {
-    // 16 bits of red, green, blue and alpha for every pixel, and room for headers: no picture we read takes more.
+    // No supported picture is larger than 16 bits of red, green, blue and alpha for every pixel, and headers.
     const std::size_t longest = max_pixels * 8 + (std::size_t{1} << 20);
     std::vector<std::byte> bytes;
     readAll(STDIN_FILENO, "standard input", [&](std::span<const std::byte> part) {

@@ -12,50 +12,51 @@
 
 namespace cli {
 
-/// Stands for standard input or standard output in place of a path.
+/// Path that stands for standard input or standard output.
 inline constexpr const char* kStandardStream = "-";
 
+/// Whether a path stands for standard input or standard output.
 bool isStream(const std::string& path);
 
-/// Whether a file is a picture of the formats we read, by its extension.
+/// Whether a file has the extension of a picture format that can be read.
 bool isPicture(const std::string& path);
 
-/// A file that an option or argument names.
+/// File that an option or argument names.
 struct NamedFile {
-    std::string name;  ///< of the option or argument, for messages
+    std::string name;  ///< name of the option or argument, for messages
     std::string path;  ///< or kStandardStream
 };
 
-/// What is known to fail must fail before any work is done: two outputs in one place, an output that would replace an
-/// input, what cannot be written.
+/// Finds errors before any work is done: two outputs at one path, an output that would replace an input, an output that
+/// cannot be written.
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                 const droplet::OutputOptions& options);
 
-/// Hands over what is in a file, part by part.
-/// @throws droplet::Error InvalidInput: it cannot be read
+/// Reads a file and calls `take` for each part of it.
+/// @throws droplet::Error InvalidInput if the file cannot be read
 void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take);
 
-/// All that is in a file.
-/// @throws droplet::Error InvalidInput: it cannot be read
+/// Content of a file.
+/// @throws droplet::Error InvalidInput if the file cannot be read
 std::string textOf(const std::string& path);
 
-/// All of standard input.
-/// @param max_pixels       of the largest picture it may be
-/// @throws droplet::Error  InvalidInput: unreadable, or longer than any such picture
+/// Bytes of standard input.
+/// @param max_pixels       limit of the picture's pixels
+/// @throws droplet::Error  InvalidInput: unreadable, or longer than any picture of so many pixels
 std::vector<std::byte> readStandardInput(std::size_t max_pixels);
 
-/// A file to be written.
+/// File to be written.
 struct OutputFile {
     std::string path;  ///< or kStandardStream
     std::function<void(std::ostream&)> write;
 };
 
-/// Writes files so that all of them appear, or none.
+/// Writes all files, or none.
 ///
-/// Several files cannot appear at one instant. So each is written inside the writing of the one before it: after every
-/// byte of that has been taken by the file system, before its file is renamed into place. A full disk or an unwritable
-/// report thus leaves all older files as they stood; only a rename that fails could part them.
+/// The writes are nested: each file is written after all bytes of the one before it are on disk, and before that one is
+/// renamed into place. So a full disk or an unwritable report leaves all older files unchanged; only a failed rename
+/// can separate them.
 /// @throws droplet::Error OutputFailed; whatever `write` throws
 void writeTogether(const std::vector<OutputFile>& files, const droplet::OutputOptions& options);
 

@@ -52,13 +52,13 @@ double viscosityFactor(const Given& given, double contact_angle)
         return droplet::kArtisticViscosityFactor;
     }
     if (given.text == "wedge") {
-        // The radius counts by its logarithm alone: any droplet's that runs will do.
+        // Only the logarithm of the radius matters, so that of any running droplet is good enough.
         constexpr double kVolume = 30e-9;
         return droplet::wedgeViscosityFactor(droplet::kWaterViscosity, contact_angle,
                                              droplet::capOf(kVolume, contact_angle).radius);
     }
     if (!given.text.empty() && std::isalpha(static_cast<unsigned char>(given.text.front())) != 0) {
-        refuse(given, kViscosity.words);
+        refuse(given, kViscosity.allowed);
     }
     return quantity(given, kViscosity);
 }

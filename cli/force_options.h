@@ -6,11 +6,12 @@
 
 namespace cli {
 
-/// Liquid, air and coating: --contact-angle, --viscosity-factor, --kinetic-fraction, --drag-coefficient,
-/// --boundary-layer, --profile-exponent, --air-density, --liquid, --surface-tension, --density, --gravity.
+/// Declares the options of liquid, air and coating: --contact-angle, --viscosity-factor, --kinetic-fraction,
+/// --drag-coefficient, --boundary-layer, --profile-exponent, --air-density, --liquid, --surface-tension, --density,
+/// --gravity.
 void declareForces(CommandLine& line);
 
-/// A model with what the options say in place of its own.
+/// Force model in which the given options replace the values of `model`.
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 droplet::ForceModel readForces(const CommandLine& line, droplet::ForceModel model);
 

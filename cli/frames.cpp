@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// By their names, digit runs by their number, so that frame 10 follows frame 9.
+/// Order of names in which runs of digits count as numbers, so that frame 10 follows frame 9.
 bool before(const std::string& a, const std::string& b)
 {
     const auto digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -65,7 +65,7 @@ std::vector<std::string> picturesIn(const std::string& folder)
         throw Error(ErrorCode::InvalidInput, folder + ": " + failure.message());
     }
     if (names.empty()) {
-        throw Error(ErrorCode::InvalidInput, folder + ": there is no picture in this folder");
+        throw Error(ErrorCode::InvalidInput, folder + ": this folder has no pictures");
     }
     std::sort(names.begin(), names.end(), before);
     for (std::string& name : names) {
@@ -79,8 +79,8 @@ std::string sizeOf(int width, int height)
     return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
-/// Whether levels show other liquid than those decided on: another channel, the other way round, or half of their way
-/// beyond the middle half of it.
+/// Whether levels would give another mask than the decided ones: another channel, inverted, or a threshold outside the
+/// middle half of the decided range.
 bool disagree(const droplet::MaskLevels& levels, const droplet::MaskLevels& decided)
 {
     constexpr double kMax = 0.25;
@@ -178,7 +178,7 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
         const auto bytes = video_->next();
         if (!bytes) {
             if (done_ == 0) {
-                throw Error(ErrorCode::InvalidInput, video_path_ + ": there is no frame in this video");
+                throw Error(ErrorCode::InvalidInput, video_path_ + ": this video has no frames");
             }
             return std::nullopt;
         }

@@ -13,40 +13,41 @@
 
 namespace cli {
 
-/// A frame's footprint, and how to call it.
+/// Mask of a frame, with its name.
 struct FramePicture {
     std::string name;
-    std::size_t number = 0;  ///< of its file, or from 1
+    std::size_t number = 0;  ///< number in its file's name; otherwise counted from 1
     droplet::Mask mask;
-    bool disagrees = false;  ///< by itself it would have been read otherwise than the frame that decides
+    bool disagrees = false;  ///< whether the frame by itself would be read differently
 };
 
-/// The frames of a sequence, read one after another, all alike: with Channel::Auto, the first frame in which something
-/// stands out decides for all which levels of which channel are dry and liquid.
+/// Frames of a sequence, all read in the same way: with Channel::Auto, the first frame with a clear footprint decides
+/// which levels of which channel are dry and liquid in all frames.
 class Frames {
 public:
-    /// @param inputs          several pictures; or one: a path with a number's place, a folder, a picture or a video
+    /// @param inputs          several pictures; or one path: a numbered pattern, a folder, a picture or a video
     /// @throws droplet::Error InvalidArgument, InvalidInput
     explicit Frames(const std::vector<std::string>& inputs);
 
-    /// The next frame; nothing after the last one.
-    /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or of another size than the first
+    /// Reads the next frame; returns nothing after the last one.
+    /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size
     std::optional<FramePicture> next(const droplet::MaskOptions& options);
 
-    /// How many there are, where that is known beforehand.
+    /// Number of frames, if it is known beforehand; not of a video.
     [[nodiscard]] std::optional<std::size_t> count() const;
-    /// The frame that decided, and how, before MaskOptions::invert; empty before next(), or where the channel is given.
+    /// Frame that decided, and its decision before MaskOptions::invert.
     struct Decision {
         std::string name;
         droplet::MaskLevels levels;
         droplet::Segmentation segment = droplet::Segmentation::Threshold;
     };
+    /// Decision for all frames; empty before next(), or if the channel is given.
     [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
-    /// Numbers of the frames known beforehand.
+    /// Numbers of the frames, if they are known beforehand.
     [[nodiscard]] std::vector<std::size_t> numbers() const;
-    /// Of a video.
+    /// Frame rate of a video.
     [[nodiscard]] std::optional<double> framesPerSecond() const;
-    /// Every file that is read.
+    /// Paths of all files that are read.
     [[nodiscard]] std::vector<std::string> files() const;
 
 private:
@@ -55,14 +56,14 @@ private:
     [[nodiscard]] std::optional<FramePicture> read(const droplet::MaskOptions& options);
 
     std::optional<Decision> decision_;
-    std::optional<FramePicture> first_picture_;  ///< if that decided
+    std::optional<FramePicture> first_picture_;  ///< first frame, if it decided
     std::vector<std::pair<std::size_t, std::string>> pictures_;
     std::string video_path_;
     std::unique_ptr<Video> video_;
     std::size_t done_ = 0;
     int width_ = 0;
     int height_ = 0;
-    std::string first_;  ///< name
+    std::string first_;  ///< name of the first frame
 };
 
 }  // namespace cli

@@ -10,7 +10,7 @@
 namespace cli {
 namespace {
 
-constexpr std::size_t kLongest = 100;  // file systems take 255 bytes, and extensions and numbers are added
+constexpr std::size_t kLongest = 100;  // file systems allow 255 bytes; extensions and numbers are added
 
 bool isCapital(char c)
 {
@@ -29,7 +29,7 @@ std::string lowered(std::string text)
     return text;
 }
 
-/// Whether Windows takes a name, whatever its extension, for a device.
+/// Whether a name is a device in Windows, with any extension.
 bool isDevice(const std::string& name)
 {
     const std::string stem = lowered(name.substr(0, name.find('.')));
@@ -70,7 +70,7 @@ std::vector<std::string> fileNames(const droplet::Font& font)
     for (std::size_t glyph = 0; glyph < count; ++glyph) {
         names.push_back(safeName(font.nameOf(static_cast<droplet::GlyphId>(glyph))));
     }
-    // First those that are the first of their name, so that no added number takes another's name.
+    // The first glyphs of all names come before the others, so that no added number takes another glyph's name.
     std::vector<std::size_t> doubles;
     for (std::size_t glyph = 0; glyph < count; ++glyph) {
         if (!taken.insert(lowered(names[glyph])).second) {

@@ -8,15 +8,17 @@
 
 namespace cli {
 
-/// Names of files for all glyphs of a font, by glyph: the glyphs' own, made safe.
+/// File names for all glyphs of a font, by glyph: the glyphs' own names, made safe.
 ///
-/// An underscore follows every capital, so that `A_` and `a` are two files also where case does not count; characters
-/// other than letters, digits, hyphens, dots and underscores, and a dot in front, become underscores; names that
-/// Windows keeps for devices get one in front. Of glyphs whose names come out the same, all but the first have a hyphen
-/// and their index added. The same for every choice of glyphs.
+/// - An underscore follows every capital, so that `A_` and `a` differ also if case is ignored.
+/// - Characters other than letters, digits, hyphens, dots and underscores, and a leading dot, become underscores.
+/// - Device names of Windows get an underscore in front.
+/// - If several names become the same, all but the first get a hyphen and the glyph's index.
+///
+/// A name does not depend on which glyphs are chosen.
 std::vector<std::string> fileNames(const droplet::Font& font);
 
-/// One such name, before it is told apart from others.
+/// Safe name of one glyph, by the first three rules.
 std::string safeName(const std::string& name);
 
 }  // namespace cli

@@ -41,15 +41,15 @@ std::string codePointOf(char32_t character)
     return shown.substr(0, shown.find(' '));
 }
 
-/// A glyph to be made, and the character that it was asked for by, or the least it stands for.
-struct Wanted {
+/// Glyph to be made.
+struct GlyphRequest {
     GlyphId glyph = 0;
-    std::optional<char32_t> character;
+    std::optional<char32_t> character;  ///< requested character, or the glyph's smallest code point
 };
 
-/// What of a charset a font has and lacks.
+/// Glyphs of a charset, and the characters that the font lacks.
 struct Selection {
-    std::vector<Wanted> glyphs;  ///< each once
+    std::vector<GlyphRequest> glyphs;  ///< without duplicates
     std::vector<char32_t> missing;
 };
 
@@ -76,7 +76,7 @@ Selection select(const Font& font, const GlyphChoice& choice)
     return selection;
 }
 
-std::string lacking(const std::vector<char32_t>& missing)
+std::string missingGlyphs(const std::vector<char32_t>& missing)
 {
     constexpr std::size_t kMax = 10;
     std::string text = "the font has no glyph for ";
@@ -102,9 +102,9 @@ droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
     return type;
 }
 
-/// The letter whose height is that of all: o, or the first there is of those that might stand in for it.
+/// Letter that decides the height of all: o, or O, or 0, or the first glyph with ink.
 std::optional<GlyphId> referenceLetter(const Font& font, const droplet::GlyphOptions& options,
-                                       const std::vector<Wanted>& others)
+                                       const std::vector<GlyphRequest>& others)
 {
     for (const char32_t character : {U'o', U'O', U'0'}) {
         const auto glyph = font.glyphOf(character);
@@ -112,13 +112,14 @@ std::optional<GlyphId> referenceLetter(const Font& font, const droplet::GlyphOpt
             return glyph;
         }
     }
-    const auto first = std::find_if(others.begin(), others.end(),
-                                    [&](const Wanted& wanted) { return droplet::hasInk(font, wanted.glyph, options); });
+    const auto first = std::find_if(others.begin(), others.end(), [&](const GlyphRequest& request) {
+        return droplet::hasInk(font, request.glyph, options);
+    });
     return first == others.end() ? std::nullopt : std::optional(first->glyph);
 }
 
-/// Fills every letter to one height: that of the reference letter at the contact angle asked for, on level flat ground.
-void equaliseHeights(const Font& font, const std::vector<Wanted>& glyphs, GlyphsOptions& options)
+/// Gives all letters one height: that of the reference letter at the given contact angle on level flat ground.
+void equaliseHeights(const Font& font, const std::vector<GlyphRequest>& glyphs, GlyphsOptions& options)
 {
     droplet::SolveOptions& solve = options.shape.settings.droplet.solve;
     if (!options.equal_height || solve.fill.by == droplet::FillBy::Height) {
@@ -137,8 +138,8 @@ void equaliseHeights(const Font& font, const std::vector<Wanted>& glyphs, Glyphs
     solve.fill.amount = droplet::makeDroplet(outline, reference).total.height_max;
 }
 
-/// The size at which a text on an object is as large as the picture there would be.
-double emOn(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
+/// Em at which a text on an object is as large as a picture would be.
+double emOnObject(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
 {
     const droplet::Vec2 extent = droplet::setText(font, *options.text, options.type).outline.extent;
     const double width = droplet::metresPerUv(object) * std::sqrt(extent.x / extent.y);
@@ -148,21 +149,21 @@ double emOn(const droplet::TexturedMesh& object, const Font& font, const GlyphsO
 int makeText(const Font& font, GlyphsOptions options)
 {
     checkShape(options.shape, "--font");
-    makeAndTell(options.shape.run, [&](const droplet::Progress& progress) {
+    makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read);
         const Surroundings around =
             readSurroundings(options.shape.settings, groundPicture(options.shape), environmentPicture(options.shape));
         if (around.object && !options.sized) {
-            options.type.glyph.em = emOn(*around.object, font, options);
+            options.type.glyph.em = emOnObject(*around.object, font, options);
         }
         droplet::SetText set = droplet::setText(font, *options.text, options.type);
         if (set.outline.loops.empty()) {
-            throw Error(
-                ErrorCode::InvalidInput,
-                options.font + ": " +
-                    (set.missing.empty() ? "the text has no ink" : lacking(set.missing) + ", and nothing is left"));
+            throw Error(ErrorCode::InvalidInput,
+                        options.font + ": " +
+                            (set.missing.empty() ? "the text has no ink"
+                                                 : missingGlyphs(set.missing) + ", and nothing is left"));
         }
-        std::vector<Wanted> letters;
+        std::vector<GlyphRequest> letters;
         for (const char32_t character : droplet::charactersOf(*options.text)) {
             if (const auto glyph = font.glyphOf(character)) {
                 letters.push_back({*glyph, character});
@@ -175,33 +176,34 @@ int makeText(const Font& font, GlyphsOptions options)
         footprint.input.type->text = options.text;
         footprint.input.type->missing = set.missing;
         if (!set.missing.empty()) {
-            options.shape.settings.warnings.push_back(lacking(set.missing) + "; left out");
+            options.shape.settings.warnings.push_back(missingGlyphs(set.missing) + "; left out");
         }
         return makeShape(options.shape, around, std::move(footprint), progress);
     });
     return 0;
 }
 
-PatternValues valuesOf(const Wanted& wanted, const std::vector<std::string>& names)
+PatternValues valuesOf(const GlyphRequest& request, const std::vector<std::string>& names)
 {
-    return {{"name", names[wanted.glyph]},
-            {"gid", std::to_string(wanted.glyph)},
-            {"codepoint", wanted.character ? codePointOf(*wanted.character) : "glyph" + std::to_string(wanted.glyph)}};
+    return {
+        {"name", names[request.glyph]},
+        {"gid", std::to_string(request.glyph)},
+        {"codepoint", request.character ? codePointOf(*request.character) : "glyph" + std::to_string(request.glyph)}};
 }
 
-/// A hash of everything that decides the bytes of all outputs but which glyph each is.
+/// Hash of everything that decides the outputs' bytes, except the choice of the glyph.
 std::string settingsFingerprint(const GlyphsOptions& options)
 {
     std::vector<std::string> parts{hashOfFile(options.font), droplet::name(options.shape.format)};
-    for (const auto& [name, value] : options.set->batch.told) {
-        // These choose glyphs, and do not change them.
+    for (const auto& [name, value] : options.set->batch.decisive) {
+        // These options choose glyphs, but do not change them.
         if (name != "all" && name != "charset" && name != "font") {
             parts.push_back(name);
             parts.push_back(value);
         }
     }
     if (options.equal_height) {
-        // Its reference may depend on which glyphs there are.
+        // The reference letter may depend on the chosen glyphs.
         std::ostringstream height;
         height << std::hexfloat << options.shape.settings.droplet.solve.fill.amount;
         parts.push_back(height.str());
@@ -217,11 +219,11 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     Selection selection = select(font, set.choice);
     if (selection.glyphs.empty()) {
         throw Error(ErrorCode::InvalidInput,
-                    options.font + ": " + lacking(selection.missing) + ", and nothing is left");
+                    options.font + ": " + missingGlyphs(selection.missing) + ", and nothing is left");
     }
     equaliseHeights(font, selection.glyphs, options);
     if (!selection.missing.empty() && options.shape.run.verbosity != Verbosity::Quiet) {
-        tellWarning(lacking(selection.missing) + "; left out", options.shape.run.progress);
+        printWarning(missingGlyphs(selection.missing) + "; left out", options.shape.run.progress);
     }
     for (const char32_t character : selection.missing) {
         set.batch.left_out.push_back({droplet::shownCharacter(character), "the font has no glyph for it"});
@@ -234,42 +236,42 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     }
 
     std::vector<BatchItem> items;
-    for (const Wanted& wanted : selection.glyphs) {
-        const std::string name = font.nameOf(wanted.glyph);
-        // A broken glyph is an item: it fails, and says so.
+    for (const GlyphRequest& request : selection.glyphs) {
+        const std::string name = font.nameOf(request.glyph);
+        // A broken glyph stays an item, which fails with a message.
         bool blank = false;
         try {
-            blank = !droplet::hasInk(font, wanted.glyph, options.type.glyph);
+            blank = !droplet::hasInk(font, request.glyph, options.type.glyph);
         } catch (const Error&) {
         }
         if (blank) {
             set.batch.left_out.push_back({"glyph '" + name + "'", "no ink"});
             continue;
         }
-        const PatternValues values = valuesOf(wanted, names);
+        const PatternValues values = valuesOf(request, names);
         BatchItem item;
         item.name = "glyph '" + name + "'";
         item.input = options.font;
-        item.output = filled(set.output, values, kPlaceholders);
+        item.output = fillPattern(set.output, values, kPlaceholders);
         if (set.json) {
-            item.others.push_back(filled(*set.json, values, kPlaceholders));
+            item.others.push_back(fillPattern(*set.json, values, kPlaceholders));
         }
         if (const auto material = materialFile(item.output, options.shape.format)) {
             item.others.push_back(*material);
         }
-        item.open = [&, wanted, name, output = item.output, others = item.others] {
+        item.open = [&, request, name, output = item.output, others = item.others] {
             BatchWork work;
-            work.fingerprint = fingerprintOf({settings, std::to_string(wanted.glyph)});
-            work.make = [&, wanted, name, output, others] {
+            work.fingerprint = fingerprintOf({settings, std::to_string(request.glyph)});
+            work.make = [&, request, name, output, others] {
                 ShapeOptions job = options.shape;
                 job.output = output;
                 job.json = set.json ? std::optional(others.front()) : std::nullopt;
-                DrawnFootprint footprint{droplet::glyphOutline(font, wanted.glyph, options.type.glyph), {}};
+                DrawnFootprint footprint{droplet::glyphOutline(font, request.glyph, options.type.glyph), {}};
                 footprint.input.path = options.font;
                 footprint.input.type = describe(font, options);
-                footprint.input.type->glyph = wanted.glyph;
+                footprint.input.type->glyph = request.glyph;
                 footprint.input.type->glyph_name = name;
-                footprint.input.type->character = wanted.character;
+                footprint.input.type->character = request.character;
                 return figuresOf(makeShape(job, around, std::move(footprint), [](droplet::Stage) {}));
             };
             return work;
@@ -277,12 +279,12 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         items.push_back(std::move(item));
     }
     if (items.empty()) {
-        throw Error(ErrorCode::InvalidInput, options.font + ": none of the glyphs asked for has ink");
+        throw Error(ErrorCode::InvalidInput, options.font + ": none of the chosen glyphs has ink");
     }
     return makeAll(items, set.batch);
 }
 
-/// Axes and glyphs, a line each, in columns parted by tabulators.
+/// Prints one line for each axis and glyph, in columns separated by tabs.
 void list(const Font& font, const GlyphsOptions& options)
 {
     std::ostringstream text;

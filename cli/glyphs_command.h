@@ -3,10 +3,10 @@
 
 namespace cli {
 
-/// Runs `droplet-shape glyphs`: a line of type, or glyphs of a font, a file each.
-/// @param argv            `glyphs` and what follows it
+/// Runs `droplet-shape glyphs`: one droplet file from a text, or one for each glyph of a font.
+/// @param argv            `glyphs` and its arguments
 /// @return                exit code
-/// @throws droplet::Error for whatever goes wrong
+/// @throws droplet::Error on any failure
 int runGlyphs(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -68,11 +68,11 @@ void declare(CommandLine& line)
     declareRun(line);
 }
 
-double number(const Given& given, double min, double max, const std::string& words)
+double number(const Given& given, double min, double max, const std::string& allowed)
 {
     const auto value = finiteNumber(given.text);
     if (!value || *value < min || *value > max) {
-        refuse(given, words);
+        refuse(given, allowed);
     }
     return *value;
 }
@@ -81,12 +81,12 @@ droplet::FontOptions readFace(const CommandLine& line)
 {
     droplet::FontOptions face;
     if (const auto index = line.value("--face-index")) {
-        constexpr double kMax = 65535.0;  // of FreeType
-        const std::string words = "a whole number from 0 to 65535";
-        const double value = number(*index, 0.0, kMax, words);
+        constexpr double kMax = 65535.0;  // limit of FreeType
+        const std::string allowed = "a whole number from 0 to 65535";
+        const double value = number(*index, 0.0, kMax, allowed);
         face.face_index = static_cast<std::size_t>(value);
         if (static_cast<double>(face.face_index) != value) {
-            refuse(*index, words);
+            refuse(*index, allowed);
         }
     }
     for (const Given& axis : line.values("--axis")) {
@@ -121,7 +121,7 @@ droplet::TextOptions readType(const CommandLine& line)
     return type;
 }
 
-/// A text with `\n` for line feeds and `\\` for backslashes.
+/// Replaces `\n` by line feeds and `\\` by backslashes.
 std::string unescaped(const Given& given)
 {
     std::string text;
@@ -168,8 +168,8 @@ void readEqualHeight(const CommandLine& line, GlyphsOptions& options)
     }
 }
 
-/// What has an effect on texts alone, or on files of many glyphs.
-void refuseOthers(const CommandLine& line, bool is_text)
+/// Refuses options that only apply to many glyphs, or only to a text.
+void refuseInapplicable(const CommandLine& line, bool is_text)
 {
     const auto clash = [&](const std::string& option, const std::string& with) {
         refuse(option + " goes with " + with);
@@ -203,12 +203,12 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         return *text;
     }
     const auto font = line.value("--font");
     if (!font || font->text.empty() || isStream(font->text)) {
-        refuse(std::string("--font is missing, or no file; ") + kUsage);
+        refuse(std::string("--font must name a file; ") + kUsage);
     }
     GlyphsOptions options;
     options.font = font->text;
@@ -223,12 +223,11 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     if (!text && !charset && !line.flag("--all")) {
         refuse(std::string("--text, --charset, --all or --list is missing; ") + kUsage);
     }
-    refuseOthers(line, text.has_value());
+    refuseInapplicable(line, text.has_value());
     const auto output = line.value("--output");
     if (!output || output->text.empty() || (!text && isStream(output->text))) {
-        refuse(
-            "--output is missing, or no path: where " +
-            std::string(text ? "the text goes, such as -o water.glb" : "each glyph goes, such as -o 'out/{name}.glb'"));
+        refuse("--output is missing: give a path for " +
+               std::string(text ? "the text, such as -o water.glb" : "each glyph, such as -o 'out/{name}.glb'"));
     }
     if (text) {
         for (const char* placeholder : {"{name}", "{gid}", "{codepoint}"}) {

@@ -14,34 +14,34 @@
 
 namespace cli {
 
-/// Which glyphs of a font are made into a file each.
+/// Selection of glyphs.
 struct GlyphChoice {
-    std::optional<std::vector<char32_t>> characters;  ///< all glyphs if empty
+    std::optional<std::vector<char32_t>> characters;  ///< empty for all glyphs
 };
 
-/// Glyphs of a font, a file each.
+/// Options for one file per glyph.
 struct GlyphSetOptions {
     GlyphChoice choice;
-    Given output;               ///< how paths of outputs are made
-    std::optional<Given> json;  ///< likewise of reports
+    Given output;               ///< pattern of the output paths
+    std::optional<Given> json;  ///< pattern of the reports' paths
     BatchOptions batch;
 };
 
-/// A job of `droplet-shape glyphs`: everything in range, nothing looked up on disk yet but the configuration file and
-/// a charset's.
+/// Options of `droplet-shape glyphs`. All values are in range; no file but the configuration file and that of --charset
+/// has been read.
 struct GlyphsOptions {
     std::string font;
     droplet::FontOptions face;
-    droplet::TextOptions type;           ///< its glyph options hold for sets of glyphs, too
-    std::optional<std::string> text;     ///< one output
-    std::optional<GlyphSetOptions> set;  ///< if there is no text, or neither where the font is to be listed
-    bool sized = false;                  ///< whether the em is given
+    droplet::TextOptions type;           ///< its glyph options apply to sets of glyphs, too
+    std::optional<std::string> text;     ///< text for one output; if neither text nor set is given, the font is listed
+    std::optional<GlyphSetOptions> set;  ///< glyphs for one output each
+    bool sized = false;                  ///< whether --em is given
     bool equal_height = false;
-    ShapeOptions shape;  ///< all that a text's output and each glyph's share
+    ShapeOptions shape;  ///< options for every output
 };
 
 /// Reads the command line of `droplet-shape glyphs`.
-/// @return                the job, or text for standard output if --help or --version asked for it
+/// @return                the options, or the text that --help or --version prints
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const* argv);
 

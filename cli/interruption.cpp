@@ -9,7 +9,7 @@
 namespace cli {
 namespace {
 
-/// Ends the process by a signal, without what it has half written.
+/// Removes unfinished files and ends the process by a signal.
 void endBy(int signal)
 {
     droplet::removeUnfinished();
@@ -17,7 +17,7 @@ void endBy(int signal)
     std::raise(signal);  // takes effect when the handler returns
 }
 
-/// Sets a handler, but where the signal is ignored, as nohup wants it.
+/// Sets a handler, unless the signal is ignored, as under nohup.
 void handle(int signal, void (*handler)(int), struct sigaction* before = nullptr)
 {
     struct sigaction action = {};
@@ -33,8 +33,8 @@ void handle(int signal, void (*handler)(int), struct sigaction* before = nullptr
     }
 }
 
-/// Handlers of signals reach nothing but globals.
-std::atomic<int> asked_to_end{0};
+// Signal handlers can access only globals.
+std::atomic<int> received_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 }  // namespace
@@ -48,12 +48,12 @@ void cleanUpOnSignals()
 
 Interruption::Interruption()
 {
-    asked_to_end = 0;
+    received_signal = 0;
     for (Handled& handled : handled_) {
         handle(
             handled.signal,
             [](int signal) {
-                if (asked_to_end.exchange(signal) != 0) {
+                if (received_signal.exchange(signal) != 0) {
                     endBy(signal);
                 }
             },
@@ -68,9 +68,9 @@ Interruption::~Interruption()
     }
 }
 
-int Interruption::asked()
+int Interruption::receivedSignal()
 {
-    return asked_to_end;
+    return received_signal;
 }
 
 }  // namespace cli

@@ -7,11 +7,10 @@
 
 namespace cli {
 
-/// From here on signals that end the process (SIGINT, SIGTERM, SIGHUP, SIGXCPU) remove its temporary files first.
+/// Installs handlers that remove temporary files before SIGINT, SIGTERM, SIGHUP or SIGXCPU ends the process.
 void cleanUpOnSignals();
 
-/// While one lives, the first signal that asks for an end (SIGINT, SIGTERM, SIGHUP) is noted; a second one ends the
-/// process.
+/// Scope in which the first SIGINT, SIGTERM or SIGHUP is only recorded; a second one ends the process.
 class Interruption {
 public:
     Interruption();
@@ -20,8 +19,8 @@ public:
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
 
-    /// The signal that asked for an end, or 0.
-    [[nodiscard]] static int asked();
+    /// Recorded signal, or 0.
+    [[nodiscard]] static int receivedSignal();
 
 private:
     struct Handled {

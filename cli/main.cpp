@@ -38,8 +38,8 @@ int fail(std::string_view message, ExitCode code)
     return static_cast<int>(code);
 }
 
-/// Takes the numbers of closed standard streams, so that no file of ours gets them and the words meant for them: for
-/// reading where one writes and for writing where one reads, so that using them still fails.
+/// Opens /dev/null for closed standard streams, so that no other file gets their numbers and their output. Streams for
+/// writing are opened for reading, and the reverse, so that using them still fails.
 void occupyStandardStreams()
 {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -49,9 +49,9 @@ void occupyStandardStreams()
     }
 }
 
-/// Keeps memory that was freed for what comes next: to give every long array back to the system and have its pages
-/// cleared again takes a tenth of a run of a million triangles.
-void keepMemory()
+/// Lets malloc keep freed memory. Returning long arrays to the system and clearing their pages again takes a tenth of a
+/// run of a million triangles.
+void keepFreedMemory()
 {
     constexpr int kNever = 1 << 30;
     constexpr int kAtOnce = 1 << 24;
@@ -60,7 +60,7 @@ void keepMemory()
     mallopt(M_TOP_PAD, kAtOnce);
 }
 
-/// What is run when the first argument is its name.
+/// Command, selected by the first argument.
 struct Command {
     std::string_view name;
     int (*run)(int argc, const char* const* argv);
@@ -74,7 +74,7 @@ const std::vector<Command>& commands()
     return all;
 }
 
-/// A word that is nearly a command's name, and no file, was meant for it.
+/// Refuses a word that is almost a command's name, and not an existing file.
 void refuseMisspelt(const std::string& word)
 {
     std::vector<std::string> names;
@@ -106,7 +106,7 @@ int guardedRun(int argc, const char* const* argv)
     } catch (const droplet::Error& error) {
         return fail(error.what(), exitCodeOf(error.code()));
     } catch (const std::bad_alloc&) {
-        return fail("out of memory; fewer --triangles or a smaller picture need less", ExitCode::InternalError);
+        return fail("out of memory; use fewer --triangles or a smaller picture", ExitCode::InternalError);
     } catch (const std::exception& error) {
         return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
     }
@@ -116,15 +116,15 @@ int guardedRun(int argc, const char* const* argv)
 
 int main(int argc, char** argv)
 {
-    // A reader that went away is then a failed write like any other, found and named where it happens.
+    // Writing to a closed pipe then fails like any other write, and is reported where it happens.
     std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);  // so is a file beyond the limit of its size
+    std::signal(SIGXFSZ, SIG_IGN);  // likewise for the limit of file sizes
     cli::cleanUpOnSignals();
     occupyStandardStreams();
-    keepMemory();
+    keepFreedMemory();
     const int code = guardedRun(argc, argv);
-    // Not by a return, which waits for threads of libraries: those of OpenBLAS, which may stand for the LAPACK that
-    // OpenCV loads, wait without end where memory is limited.
+    // A return would wait for threads of libraries. Those of OpenBLAS, which OpenCV may load as its LAPACK, never end
+    // if memory is limited.
     std::cout.flush();
     std::_Exit(code);
 }

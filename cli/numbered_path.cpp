@@ -21,7 +21,7 @@ std::optional<NumberedPath> NumberedPath::of(const std::string& text, const std:
         return std::nullopt;
     }
     const Given given{text, subject};
-    const std::string words = "a path with one %d or %04d, for the number, in the file's name";
+    const std::string allowed = "a path with one %d or %04d, for the number, in the file's name";
     NumberedPath path;
     path.text_ = text;
     const auto slash = text.rfind('/');
@@ -44,13 +44,13 @@ std::optional<NumberedPath> NumberedPath::of(const std::string& text, const std:
                 i += 2;
             }
             if (i >= text.size() || text[i] != 'd' || i < name || ++numbers > 1) {
-                refuse(given, words);
+                refuse(given, allowed);
             }
             part = &path.after_;
         }
     }
     if (numbers != 1) {
-        refuse(given, words);
+        refuse(given, allowed);
     }
     return path;
 }
@@ -82,14 +82,15 @@ std::optional<std::size_t> NumberedPath::numberIn(const std::string& name) const
 
 std::optional<std::size_t> NumberedPath::numberOf(const std::string& path) const
 {
-    const auto place = [](const fs::path& folder) {
+    const auto canonical = [](const fs::path& folder) {
         std::error_code ignored;
         return fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, ignored), ignored);
     };
     const fs::path own(path);
     // "a/" and "a" are one folder.
-    return place(own.parent_path()) == place(fs::path(folder_ + "x").parent_path()) ? numberIn(own.filename().string())
-                                                                                    : std::nullopt;
+    return canonical(own.parent_path()) == canonical(fs::path(folder_ + "x").parent_path())
+               ? numberIn(own.filename().string())
+               : std::nullopt;
 }
 
 std::vector<std::size_t> NumberedPath::numbers() const
@@ -127,9 +128,9 @@ std::vector<std::pair<std::size_t, std::string>> NumberedPath::existing() const
     for (const std::size_t number : numbers) {
         const std::size_t expected = numbers.front() + files.size();
         if (number != expected) {
-            throw droplet::Error(
-                droplet::ErrorCode::InvalidInput,
-                fmt::format("{} is missing; frames go from {} to {}", at(expected), numbers.front(), numbers.back()));
+            throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                                 fmt::format("{} is missing; the frames are numbered from {} to {}", at(expected),
+                                             numbers.front(), numbers.back()));
         }
         files.emplace_back(number, at(number));
     }

@@ -9,39 +9,40 @@
 
 namespace cli {
 
-/// A path with a place for a number, as in `frames/%04d.png`; `%%` stands for a percent sign.
+/// Path with a placeholder for a number, as in `frames/%04d.png`; `%%` stands for a percent sign.
 class NumberedPath {
 public:
-    /// @param subject          of messages: what the path is of
-    /// @return                 nothing if there is no percent sign in it
-    /// @throws droplet::Error InvalidArgument if it is no such path: another place than one %d or %0Nd in the file's
-    ///                         name, N from 1 to 9
+    /// Parses a path.
+    /// @param subject          name of the path's option in messages
+    /// @return                 nothing if the text has no percent sign
+    /// @throws droplet::Error InvalidArgument unless the file's name has exactly one %d or %0Nd, N from 1 to 9
     static std::optional<NumberedPath> of(const std::string& text, const std::string& subject);
 
+    /// Path of one number.
     [[nodiscard]] std::string at(std::size_t number) const;
-    /// As it was given.
+    /// Pattern as given.
     [[nodiscard]] const std::string& text() const { return text_; }
-    /// The number of a path that is one of these.
+    /// Number of a path, if it matches the pattern.
     [[nodiscard]] std::optional<std::size_t> numberOf(const std::string& path) const;
-    /// Numbers of the files there are, in order; none if there is no such folder.
+    /// Numbers of the existing files, in order; empty if the folder does not exist.
     [[nodiscard]] std::vector<std::size_t> numbers() const;
-    /// The path with a word in the number's place.
+    /// Path with a word instead of the number.
     [[nodiscard]] std::string with(const std::string& word) const { return folder_ + before_ + word + after_; }
 
-    /// The files there are, with their numbers, which follow one another.
-    /// @throws droplet::Error InvalidInput if there is none, or one is missing between two others
+    /// Existing files with their consecutive numbers.
+    /// @throws droplet::Error InvalidInput if there is none, or a number is missing
     [[nodiscard]] std::vector<std::pair<std::size_t, std::string>> existing() const;
 
 private:
-    /// The number of a file's name.
+    /// Number in a file's name.
     [[nodiscard]] std::optional<std::size_t> numberIn(const std::string& name) const;
     [[nodiscard]] std::string nameAt(std::size_t number) const;
 
-    std::string text_;    ///< as given
-    std::string folder_;  ///< with a slash behind it, or empty
-    std::string before_;  ///< of the file's name
-    std::string after_;
-    std::size_t digits_ = 0;  ///< at least, with zeros before
+    std::string text_;        ///< as given
+    std::string folder_;      ///< with a trailing slash, or empty
+    std::string before_;      ///< part of the file's name before the number
+    std::string after_;       ///< part of the file's name behind the number
+    std::size_t digits_ = 0;  ///< minimum number of digits, padded with zeros
 };
 
 }  // namespace cli

@@ -13,7 +13,7 @@
 namespace cli {
 namespace {
 
-/// Changes of one letter that turn one word into the other (Levenshtein).
+/// Number of single-letter changes that turn one word into the other (Levenshtein).
 std::size_t distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);
@@ -44,7 +44,7 @@ void refuse(const Given& given, const std::string& constraint)
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& names)
 {
-    constexpr std::size_t kFarthest = 2;  // a slip or two; more is another word
+    constexpr std::size_t kFarthest = 2;  // more changes make another word
     std::string best;
     std::size_t min = kFarthest + 1;
     for (const std::string& name : names) {
@@ -60,10 +60,10 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& n
 double quantity(const Given& given, const Range& range)
 {
     const double value = forOption(given.subject, [&] { return droplet::parseQuantity(given.text, range.dimension); });
-    // Units round: 89.999deg itself must pass.
+    // Conversion of units rounds, and 89.999deg itself must pass.
     const double slack = 4 * std::numeric_limits<double>::epsilon();
     if (value < range.min - slack * std::abs(range.min) || value > range.max + slack * std::abs(range.max)) {
-        refuse(given, range.words);
+        refuse(given, range.allowed);
     }
     return std::clamp(value, range.min, range.max);
 }
@@ -78,7 +78,7 @@ std::optional<double> finiteNumber(std::string_view text)
     return value;
 }
 
-std::size_t count(const Given& given, std::size_t max, const std::string& words)
+std::size_t count(const Given& given, std::size_t max, const std::string& max_text)
 {
     std::string_view digits = given.text;
     double factor = 1.0;
@@ -89,7 +89,7 @@ std::size_t count(const Given& given, std::size_t max, const std::string& words)
     const auto number = finiteNumber(digits);
     const double value = number.value_or(0.0) * factor;
     if (value < 1.0 || value > static_cast<double>(max) || value != std::floor(value)) {
-        refuse(given, "a whole number from 1 to " + words);
+        refuse(given, "a whole number from 1 to " + max_text);
     }
     return static_cast<std::size_t>(value);
 }

@@ -14,20 +14,21 @@
 
 namespace cli {
 
-/// An option's value as text, and how to call the option in a message.
+/// Value of an option as text.
 struct Given {
     std::string text;
-    std::string subject;
+    std::string subject;  ///< name of the option in messages
 };
 
+/// Throws an error about the command line.
 /// @throws droplet::Error InvalidArgument
 [[noreturn]] void refuse(const std::string& message);
 
-/// Refuses a value, naming the option and what it must be.
+/// Refuses a value; the message is "OPTION: 'VALUE' must be CONSTRAINT".
 /// @throws droplet::Error InvalidArgument
 [[noreturn]] void refuse(const Given& given, const std::string& constraint);
 
-/// Runs a function of the library and puts the option's name before its complaint.
+/// Runs a function of the library and puts the option's name before its error message.
 template <typename Function>
 auto forOption(const std::string& subject, Function function)
 {
@@ -38,33 +39,33 @@ auto forOption(const std::string& subject, Function function)
     }
 }
 
-/// The one of the names that a word is a slip or two away from; empty if there is none.
+/// Name that differs from a word by at most two letters; empty if there is none.
 std::string nearestName(std::string_view word, const std::vector<std::string>& names);
 
-/// What a quantity may be. Beyond these bounds a droplet is no droplet, and squares and single-precision files
-/// overflow; the words are what a message says.
+/// Allowed range of a quantity. Beyond it, results have no meaning, or squares and single-precision files overflow.
 struct Range {
     droplet::Dimension dimension;
     double min;
     double max;
-    const char* words;
+    const char* allowed;  ///< range in words, for messages
 };
 
 inline constexpr Range kLength{droplet::Dimension::Length, 1e-9, 1e3, "from 1nm to 1000m"};
 
-/// @throws droplet::Error InvalidArgument: no quantity of the range's dimension, or beyond its bounds
+/// Parses a quantity, in SI units.
+/// @throws droplet::Error InvalidArgument: not a quantity of the range's dimension, or out of range
 double quantity(const Given& given, const Range& range);
 
-/// The number a text is, if it is a finite one and nothing else.
+/// Number, if the whole text is a finite number.
 std::optional<double> finiteNumber(std::string_view text);
 
-/// A count such as 5000, 5k, 2.5k or 1M.
-/// @param words           the largest in words, for a message
-/// @throws droplet::Error InvalidArgument: no whole number from 1 to max
-std::size_t count(const Given& given, std::size_t max, const std::string& words);
+/// Parses a count such as 5000, 5k, 2.5k or 1M.
+/// @param max_text        `max` as text, for messages
+/// @throws droplet::Error InvalidArgument: not a whole number from 1 to max
+std::size_t count(const Given& given, std::size_t max, const std::string& max_text);
 
-/// The value of that name.
-/// @throws droplet::Error InvalidArgument, listing the names known
+/// Value of a name.
+/// @throws droplet::Error InvalidArgument, listing the known names
 template <typename Value>
 Value choice(const Given& given, std::initializer_list<std::pair<const char*, Value>> known)
 {

@@ -6,18 +6,18 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "file_places.h"
+#include "canonical_paths.h"
 #include "option_values.h"
 
 namespace cli {
 
 void refuseClashes(const std::vector<BatchItem>& items, const BatchOptions& options)
 {
-    Places places;
+    CanonicalPaths paths;
     std::unordered_set<std::string> read;
     std::set<FileNode> read_nodes;
     const auto add_read = [&](const std::string& path) {
-        if (!path.empty() && read.insert(places.of(path)).second) {
+        if (!path.empty() && read.insert(paths.of(path)).second) {
             if (const auto node = nodeOf(path)) {
                 read_nodes.insert(*node);
             }
@@ -31,14 +31,14 @@ void refuseClashes(const std::vector<BatchItem>& items, const BatchOptions& opti
     }
     std::unordered_map<std::string, std::string> written;
     const auto add_written = [&](const std::string& path, const std::string& of) {
-        const std::string place = places.of(path);
-        const auto [other, is_new] = written.try_emplace(place, of);
+        const std::string canonical = paths.of(path);
+        const auto [other, is_new] = written.try_emplace(canonical, of);
         if (!is_new) {
             refuse(of + " and " + other->second + " have the same output, '" + path + "'; every output needs its own");
         }
         const auto node = nodeOf(path);
-        if (read.count(place) > 0 || (node && read_nodes.count(*node) > 0)) {
-            refuse("the output of " + of + " would replace '" + path + "', which is read");
+        if (read.count(canonical) > 0 || (node && read_nodes.count(*node) > 0)) {
+            refuse("the output of " + of + " would replace '" + path + "', which is an input");
         }
     };
     add_written(options.manifest, "the manifest");

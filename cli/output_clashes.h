@@ -8,8 +8,7 @@
 
 namespace cli {
 
-/// Refuses a batch that would destroy what it reads or makes: two outputs in one place would each be lost or mixed with
-/// the other; an output in an input's place would replace it.
+/// Refuses a batch in which two outputs have the same path, or an output would replace an input.
 /// @throws droplet::Error InvalidArgument
 void refuseClashes(const std::vector<BatchItem>& items, const BatchOptions& options);
 

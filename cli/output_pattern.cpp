@@ -6,9 +6,9 @@
 
 namespace cli {
 
-std::string filled(const Given& pattern, const PatternValues& values, const std::string& words)
+std::string fillPattern(const Given& pattern, const PatternValues& values, const std::string& allowed)
 {
-    const auto refuse_pattern = [&] { refuse(pattern, "a path with " + words + "; {{ and }} stand for braces"); };
+    const auto refuse_pattern = [&] { refuse(pattern, "a path with " + allowed + "; {{ and }} stand for braces"); };
     std::string text;
     for (std::size_t i = 0; i < pattern.text.size(); ++i) {
         const char c = pattern.text[i];

@@ -9,12 +9,12 @@
 
 namespace cli {
 
-/// What stands for placeholders, by their names.
+/// Values of placeholders, by their names.
 using PatternValues = std::map<std::string, std::string, std::less<>>;
 
-/// A pattern such as 'out/{stem}.glb' with its placeholders filled in; {{ and }} are braces.
-/// @param words           the placeholders there are, for a message: `{stem} or {index}`
-/// @throws droplet::Error InvalidArgument: something else in braces, or a brace alone
-std::string filled(const Given& pattern, const PatternValues& values, const std::string& words);
+/// Replaces the placeholders of a pattern such as 'out/{stem}.glb'; {{ and }} are braces.
+/// @param allowed         allowed placeholders, for messages: `{stem} or {index}`
+/// @throws droplet::Error InvalidArgument: an unknown placeholder, or a single brace
+std::string fillPattern(const Given& pattern, const PatternValues& values, const std::string& allowed);
 
 }  // namespace cli

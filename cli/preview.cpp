@@ -15,26 +15,26 @@
 namespace cli {
 namespace {
 
-constexpr int kMaxPixels = 8192;        // of a side
-constexpr std::size_t kMaxTurns = 360;  // pictures of a turntable
+constexpr int kMaxPixels = 8192;        // limit of width and height
+constexpr std::size_t kMaxTurns = 360;  // limit of a turntable's pictures
 constexpr int kFewestDigits = 3;
 
 void readSize(const Given& given, PreviewOptions& options)
 {
-    const char* const words = "width and height in pixels such as 1280x960, each from 16 to 8192";
+    const char* const allowed = "width and height in pixels such as 1280x960, each from 16 to 8192";
     constexpr int kFewestPixels = 16;
     const auto side = [&](std::string_view text) {
         int value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc() || end != text.data() + text.size() || value < kFewestPixels || value > kMaxPixels) {
-            refuse(given, words);
+            refuse(given, allowed);
         }
         return value;
     };
     const std::string_view text = given.text;
     const auto times = text.find('x');
     if (times == std::string_view::npos) {
-        refuse(given, words);
+        refuse(given, allowed);
     }
     options.width = side(text.substr(0, times));
     options.height = side(text.substr(times + 1));
@@ -53,7 +53,7 @@ droplet::CameraPlace cameraOf(const Given& given)
             quantity({given.text.substr(comma + 1), given.subject + ": elevation"}, kElevation)};
 }
 
-/// `name-007.png` of `name.png`.
+/// Numbered path: `name-007.png` from `name.png`.
 std::string numbered(const std::string& path, std::size_t number, std::size_t count)
 {
     const std::filesystem::path whole(path);
@@ -198,7 +198,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
         refuse(*preview, "a file that ends in .png, or -");
     }
     if (isStream(options.path) && options.turns) {
-        refuse("--turntable writes several files, and --preview - is one; name a file");
+        refuse("--turntable writes several files: --preview must name a file, not -");
     }
     if (options.cut_out && ground && !line.value("--onto")) {
         refuse("--background none and --ground exclude each other, give one of them");
@@ -213,7 +213,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
             options.ground.reset();
         }
         if (options.colouring == Colouring::Contours && line.value("--onto")) {
-            refuse(colour->subject + " contours and --onto exclude each other: heights are counted from flat ground");
+            refuse(colour->subject + " contours and --onto exclude each other: contours need flat ground");
         }
     }
     return options;

@@ -15,55 +15,58 @@
 
 namespace cli {
 
-/// What colours of a preview mean.
+/// Meaning of a preview's colours.
 enum class Colouring {
-    Look,          ///< nothing: the droplet as it would look
-    Contours,      ///< heights
-    ContactAngle,  ///< along the rim
+    Look,          ///< look of the material
+    Contours,      ///< height of the liquid
+    ContactAngle,  ///< contact angle along the rim
 };
 
-/// Pictures as asked for.
+/// Options of the preview.
 struct PreviewOptions {
-    std::string path;  ///< or kStandardStream; of a turntable, numbers go before its extension
+    std::string path;  ///< or kStandardStream; a turntable adds numbers before the extension
     droplet::View view = droplet::View::ThreeQuarter;
-    std::optional<droplet::CameraPlace> camera;  ///< instead of the view's
+    std::optional<droplet::CameraPlace> camera;  ///< replaces `view`
     bool cut_out = false;                        ///< without ground and backdrop
     int width = 1280;                            ///< [px]
     int height = 960;                            ///< [px]
-    std::optional<std::string> ground;           ///< path of a picture to lay below
-    std::optional<std::string> environment;      ///< path of a picture of what shines
+    std::optional<std::string> ground;           ///< path of a picture on the ground
+    std::optional<std::string> environment;      ///< path of a panorama that lights the scene
     Colouring colouring = Colouring::Look;
-    std::optional<std::size_t> turns;  ///< how many pictures a turntable has
+    std::optional<std::size_t> turns;  ///< number of a turntable's pictures
 };
 
-/// A droplet to be shown.
+/// Droplet to be shown.
 struct PreviewSubject {
     const droplet::Surface& surface;
     droplet::Material material;
-    droplet::Vec2 extent;                        ///< of its picture [m]
+    droplet::Vec2 extent;                        ///< extent of its picture [m]
     std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
     std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read
-    std::optional<droplet::TexturedMesh> stand;  ///< what it stands on if not level flat ground
-    bool on_object = false;                      ///< and that is an object
+    std::optional<droplet::TexturedMesh> stand;  ///< mesh below it, unless the ground is flat
+    bool on_object = false;                      ///< whether that mesh is an object
 };
 
+/// Declares the options of the preview.
 void declarePreview(CommandLine& line);
 
-/// --view and --preview-size alone.
+/// Declares --view, --camera and --preview-size alone.
 void declareView(CommandLine& line);
 
+/// Reads the options of declareView.
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 void readView(const CommandLine& line, PreviewOptions& options);
 
-/// @param warnings        gets what has no effect
-/// @return                none if there is no --preview
+/// Reads the options of declarePreview.
+/// @param warnings        receives warnings about options without effect
+/// @return                nothing without --preview
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings);
 
-/// Every file that will be written, to be checked.
+/// Paths of all files that will be written.
 std::vector<NamedFile> previewPaths(const PreviewOptions& options);
 
-/// The pictures, each made when it is written. The subject must live until then.
+/// Output files of the pictures, which are drawn when they are written; `options` and `subject` must live until then.
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject);
 
 }  // namespace cli

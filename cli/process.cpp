@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to us
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX headers do not declare it
 
 namespace cli {
 
@@ -20,8 +20,8 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
     Started started;
     Process& process = started.process;
     std::array<int, 2> ends{};
-    process.words = std::tmpfile();
-    if (process.words == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    process.log = std::tmpfile();
+    if (process.log == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
         throw std::runtime_error(std::string("no pipe to ") + command[0] + ": " + std::strerror(errno));
     }
     const bool reads = piped == Piped::Input;
@@ -34,7 +34,7 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     }
-    posix_spawn_file_actions_adddup2(&actions, ::fileno(process.words), STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ::fileno(process.log), STDERR_FILENO);
     if (inherited) {
         posix_spawn_file_actions_adddup2(&actions, *inherited, 3);
     }
@@ -51,7 +51,7 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
     ours = ::fdopen(reads ? ends[1] : ends[0], reads ? "wb" : "rb");
     if (started.failure != 0) {
         std::fclose(ours);
-        std::fclose(process.words);
+        std::fclose(process.log);
         process = {};
     }
     return started;
@@ -65,16 +65,16 @@ int waitFor(pid_t id)
     return status;
 }
 
-std::string wordsOf(std::FILE* words)
+std::string logText(std::FILE* log)
 {
     std::array<char, 4096> text{};
-    std::rewind(words);
-    return {text.data(), std::fread(text.data(), 1, text.size(), words)};
+    std::rewind(log);
+    return {text.data(), std::fread(text.data(), 1, text.size(), log)};
 }
 
-std::string firstLine(std::FILE* words)
+std::string firstLine(std::FILE* log)
 {
-    const std::string text = wordsOf(words);
+    const std::string text = logText(log);
     return text.substr(0, text.find_first_of("\r\n"));
 }
 

@@ -10,36 +10,38 @@
 
 namespace cli {
 
-/// Another program under way, with its words in a file.
+/// Running program, with its standard error in a file.
 struct Process {
     pid_t id = -1;
-    std::FILE* input = nullptr;   ///< its standard input, to be written; or none
-    std::FILE* output = nullptr;  ///< its standard output, to be read; or none
-    std::FILE* words = nullptr;   ///< what it says on standard error
+    std::FILE* input = nullptr;   ///< pipe to its standard input, or null
+    std::FILE* output = nullptr;  ///< pipe from its standard output, or null
+    std::FILE* log = nullptr;     ///< temporary file that receives its standard error
 };
 
+/// Standard stream of a program that is a pipe to this process.
 enum class Piped { Input, Output };
 
-/// Starts a program.
-/// @param command    its name, looked up as the shell does, and its arguments
-/// @param inherited  a file of ours that is its number 3
-/// @return           or the cause why there is none: errno's
+/// Started program, or the reason for the failure.
 struct Started {
     Process process;
-    int failure = 0;
+    int failure = 0;  ///< 0, or an error number of errno
 };
+
+/// Starts a program.
+/// @param command    name, looked up in PATH, and arguments
+/// @param inherited  open file that becomes the program's file descriptor 3
 Started start(const std::vector<std::string>& command, Piped piped, std::optional<int> inherited = {});
 
-/// Its status, once it has ended.
+/// Waits for the end of a program and returns its status.
 int waitFor(pid_t id);
 
-/// What a program said, or the beginning of it.
-std::string wordsOf(std::FILE* words);
+/// Beginning of a program's log, up to 4096 bytes.
+std::string logText(std::FILE* log);
 
-/// The first line a program said.
-std::string firstLine(std::FILE* words);
+/// First line of a program's log.
+std::string firstLine(std::FILE* log);
 
-/// A file's name that ffmpeg takes for no option and no protocol.
+/// File name that ffmpeg cannot take for an option or a protocol.
 std::string plainName(const std::string& path);
 
 }  // namespace cli

@@ -13,8 +13,8 @@
 namespace cli {
 namespace {
 
-constexpr std::chrono::seconds kPatience{1};        // a run shorter than this needs no bar
-constexpr std::chrono::milliseconds kRefresh{100};  // as fast as a tenth of a second can be read
+constexpr std::chrono::seconds kBarDelay{1};        // shorter runs need no bar
+constexpr std::chrono::milliseconds kRefresh{100};  // the bar shows tenths of a second
 constexpr std::size_t kStages = static_cast<std::size_t>(droplet::Stage::Write) + 1;
 constexpr std::size_t kCellsPerStage = 4;
 
@@ -31,7 +31,7 @@ ProgressDisplay::ProgressDisplay(ProgressMode mode) : mode_(mode)
         try {
             drawer_ = std::thread([this] { drawUntilStopped(); });
         } catch (const std::system_error&) {
-            // No thread to be had: the job is worth more than its bar.
+            // Without a thread the run continues without a bar.
         }
     }
 }
@@ -44,7 +44,7 @@ ProgressDisplay::~ProgressDisplay()
 void ProgressDisplay::begin(droplet::Stage stage)
 {
     const std::lock_guard lock(mutex_);
-    // Stages may take turns, droplet by droplet; what is told only moves forward.
+    // Stages may alternate, droplet by droplet; the display only moves forward.
     if (stage_ && stage <= *stage_) {
         return;
     }
@@ -61,7 +61,7 @@ void ProgressDisplay::restart(std::string item)
     item_ = std::move(item);
 }
 
-void ProgressDisplay::tellDrawn(std::size_t drawn, std::size_t count)
+void ProgressDisplay::reportDrawn(std::size_t drawn, std::size_t count)
 {
     const std::lock_guard lock(mutex_);
     drawn_ = drawn;
@@ -103,7 +103,7 @@ void ProgressDisplay::drawUntilStopped()
 {
     std::unique_lock lock(mutex_);
     bool drawn = false;
-    for (auto next = start_ + kPatience; !stopping_.wait_until(lock, next, [this] { return stopped_; });
+    for (auto next = start_ + kBarDelay; !stopping_.wait_until(lock, next, [this] { return stopped_; });
          next = Clock::now() + kRefresh) {
         if (stage_) {
             std::cerr << kEraseLine << bar() << std::flush;

@@ -14,7 +14,7 @@
 
 namespace cli {
 
-/// Shows on standard error how far a run has come. While one lives, nobody else may write there.
+/// Progress of a run on standard error. While it exists, nothing else may write there.
 class ProgressDisplay {
 public:
     explicit ProgressDisplay(ProgressMode mode);
@@ -24,16 +24,17 @@ public:
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
+    /// Shows a stage, unless it comes before the current one.
     void begin(droplet::Stage stage);
 
-    /// What follows is told anew: the same stages of another item.
-    /// @param item  how the bar calls it, such as "frame 3 of 12"
+    /// Starts again with the first stage, for another item.
+    /// @param item  name in the bar, such as "frame 3 of 12"
     void restart(std::string item);
 
-    /// So many of the pictures of all items are drawn.
-    void tellDrawn(std::size_t drawn, std::size_t count);
+    /// Shows how many pictures of all items are drawn.
+    void reportDrawn(std::size_t drawn, std::size_t count);
 
-    /// The run is over and went well.
+    /// Ends the display after a successful run.
     void finish();
 
 private:
@@ -50,9 +51,9 @@ private:
     std::optional<droplet::Stage> stage_;
     std::string item_;
     std::size_t drawn_ = 0;
-    std::size_t to_draw_ = 0;  ///< 0 before the first is drawn
+    std::size_t to_draw_ = 0;  ///< 0 before the first picture
     bool stopped_ = false;
-    std::thread drawer_;  ///< a long stage must not keep the bar from moving
+    std::thread drawer_;  ///< keeps the bar moving during long stages
 };
 
 }  // namespace cli

@@ -39,7 +39,7 @@ using droplet::Error;
 using droplet::ErrorCode;
 using droplet::Stage;
 
-/// Runs a function of the library that may find fault with the picture's content, and puts the picture's name before.
+/// Runs a function that may reject the picture's content, and puts the picture's name before the error message.
 template <typename Function>
 auto forInput(const ShapeOptions& options, Function function)
 {
@@ -53,11 +53,11 @@ auto forInput(const ShapeOptions& options, Function function)
     }
 }
 
-/// How long the sides of an SVG image must be drawn so that a pixel is no longer than a quarter of a triangle's edge;
-/// none if they are, or cannot be.
+/// Longer side [px] at which an SVG image must be drawn, so that a pixel is at most a quarter of a triangle's edge.
+/// Nothing if the image is large enough, or cannot be larger.
 ///
-/// A traced outline misses the drawn one by 0.02 pixels rms and half a pixel at its corners, whatever their size. So it
-/// is an eighth of an edge at most where it could be seen that the picture had pixels.
+/// A traced outline differs from the drawn one by 0.02 pixels rms and half a pixel at corners, whatever the pixels'
+/// size. So the error is at most an eighth of an edge, even where pixels could be visible.
 std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOptions& options)
 {
     constexpr double kPixelsPerEdge = 4.0;
@@ -73,14 +73,14 @@ std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOp
     return static_cast<int>(std::min<double>(kLongest, std::ceil(side * kPixelsPerEdge / edge)));
 }
 
-/// Whether a picture is as large as it states itself.
+/// Whether the picture's size is the one that its file states.
 bool takesOwnSize(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
 {
     return mask.physical_width && !options.footprint.sized && !around.object;
 }
 
-/// What of the options depends on the picture and what lies beside it: the picture's size on an object, and the ground.
-DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
+/// Settings completed by the picture's size, which may depend on an object, and by the ground.
+DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
 {
     DropletSettings settings = options.settings;
     droplet::DropletOptions& droplet = settings.droplet;
@@ -92,8 +92,8 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
         droplet.trace.width = *mask.physical_width;
         if (!(droplet.trace.width >= kLength.min && droplet.trace.width <= kLength.max)) {
             throw Error(ErrorCode::InvalidInput,
-                        fmt::format("the page states a width of {:.6g}m, must be {}; --width goes before it",
-                                    droplet.trace.width, kLength.words));
+                        fmt::format("the page states a width of {:.6g}m, which must be {}; give --width instead",
+                                    droplet.trace.width, kLength.allowed));
         }
     }
     const double pixel = droplet::pixelSize(mask, droplet.trace);
@@ -101,20 +101,20 @@ DropletSettings complete(const droplet::Mask& mask, const Surroundings& around, 
     return settings;
 }
 
-/// What is said of a mask that may not be what was meant.
-std::optional<std::string> doubtOf(const droplet::Mask& mask)
+/// Warning about a mask that may be wrong.
+std::optional<std::string> maskWarning(const droplet::Mask& mask)
 {
-    constexpr double kSure = 0.5;
-    if (mask.segment_confidence >= kSure) {
+    constexpr double kMinConfidence = 0.5;
+    if (mask.segment_confidence >= kMinConfidence) {
         return std::nullopt;
     }
     return fmt::format(
-        "the picture is hardly a mask ({:.0f} % sure, taken by --segment {}); --mask-out shows what was "
-        "taken, --segment, --channel and --threshold change it",
+        "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); look at it with "
+        "--mask-out, change it with --segment, --channel or --threshold",
         100.0 * mask.segment_confidence, name(mask.segment));
 }
 
-/// The mask as it was traced, of 16 bits.
+/// Writes the mask as it was traced, with 16 bits.
 void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::TraceOptions& trace)
 {
     const droplet::Mask used = droplet::clean(mask, trace.clean, droplet::pixelSize(mask, trace), trace.threshold);
@@ -149,22 +149,22 @@ droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Out
     return input;
 }
 
-/// Whether the droplet gets a slider for the page alone: wherever there can be one, asked for or not.
-bool slidesInPageAlone(const ShapeOptions& options)
+/// Whether only the page's droplet gets a slider: without --fill-range, if a slider is possible.
+bool hasSliderInPageOnly(const ShapeOptions& options)
 {
     const droplet::SolveOptions& solve = options.settings.droplet.solve;
     return options.html && !options.settings.droplet.fill_range && solve.model == droplet::Model::Linear &&
            !solve.no_penetration && !options.settings.onto;
 }
 
-void addSliderOfPage(droplet::DropletOptions& droplet, const ShapeOptions& options)
+void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options)
 {
-    if (slidesInPageAlone(options)) {
+    if (hasSliderInPageOnly(options)) {
         droplet.fill_range.emplace();
     }
 }
 
-/// The droplet as in OUTPUT, were that a GLB.
+/// Writes the page with the droplet as a GLB.
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
                const droplet::Report& report)
 {
@@ -183,7 +183,7 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
     droplet::writePage(out, page);
 }
 
-/// What pictures show.
+/// Subject of the preview.
 PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around)
 {
     PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent,
@@ -196,12 +196,12 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     return subject;
 }
 
-/// Writes the surface and, if asked for, its mask, the datafile for Surface Evolver, the page, pictures and the report.
+/// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
 void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
           const std::optional<OutputFile>& mask, StageClock& clock, droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
-    if (!slidesInPageAlone(options)) {
+    if (!hasSliderInPageOnly(options)) {
         droplet.surface.refill.swap(refill);
     }
     std::vector<OutputFile> files = surfaceFiles(droplet.surface,
@@ -234,7 +234,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
     }
     if (options.json) {
         files.push_back({*options.json, [&](std::ostream& out) {
-                             // The last, so that it knows how long the others took.
+                             // The report is the last file, so that it contains the time of the others.
                              report.time = clock.times();
                              report.time_total = clock.total();
                              report.peak_memory = peakMemory();
@@ -247,7 +247,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
     report.peak_memory = peakMemory();
 }
 
-/// Tells whoever wants to know of every stage, and how long it took.
+/// Reports every stage and measures its time.
 struct Stages {
     StageClock clock;
     droplet::Progress progress;
@@ -259,14 +259,14 @@ struct Stages {
     }
 };
 
-/// Lays a droplet on its object, writes its files, and says what was done.
+/// Places a droplet on its object, writes its files, and returns the report.
 droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
                        const Surroundings& around, const ShapeOptions& options, Stages& stages,
                        const std::optional<OutputFile>& mask = std::nullopt)
 {
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
-        onto = lay(droplet, *around.object, *options.settings.onto);
+        onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
     droplet::Report report = describe(droplet, settings);
@@ -288,21 +288,21 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     droplet::MaskOptions mask_options = options.footprint.mask;
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
-    DropletSettings settings = forInput(options, [&] { return complete(mask, around, options); });
+    DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
     if (const auto side = finerSide(mask, settings.droplet)) {
         mask_options.vector_long_side = *side;
         mask = forInput(options, decode);
-        settings = complete(mask, around, options);
+        settings = completeSettings(mask, around, options);
     }
     picture = {};
     refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
-    addSliderOfPage(settings.droplet, options);
+    addPageSlider(settings.droplet, options);
     const auto begin = [&](Stage stage) { stages.begin(stage); };
     Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
     droplet::InputReport input = describeInput(mask, droplet.outline, options);
     input.own_size = takesOwnSize(mask, around, options);
-    if (auto doubt = doubtOf(mask)) {
-        settings.warnings.insert(settings.warnings.begin(), std::move(*doubt));
+    if (auto warning = maskWarning(mask)) {
+        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
     std::optional<OutputFile> mask_file;
     if (options.footprint.mask_out) {
@@ -312,14 +312,14 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     return finish(std::move(droplet), settings, input, around, options, stages, mask_file);
 }
 
-void tell(const droplet::Report& report, const RunOptions& run)
+void printSummary(const droplet::Report& report, const RunOptions& run)
 {
     if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
         std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    const std::size_t told = run.verbosity == Verbosity::Quiet ? report.grave_warnings : report.warnings.size();
-    for (std::size_t i = 0; i < told; ++i) {
-        tellWarning(report.warnings[i], run.progress);
+    const std::size_t printed = run.verbosity == Verbosity::Quiet ? report.grave_warnings : report.warnings.size();
+    for (std::size_t i = 0; i < printed; ++i) {
+        printWarning(report.warnings[i], run.progress);
     }
 }
 
@@ -386,7 +386,7 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     DropletSettings settings = options.settings;
     settings.droplet.solve.ground = groundOf(settings, around, footprint.outline.extent);
     refuseTooShortEdge(coveredArea(footprint.outline), settings.droplet);
-    addSliderOfPage(settings.droplet, options);
+    addPageSlider(settings.droplet, options);
     footprint.input.specks_dropped = footprint.outline.specks_dropped;
     Droplet droplet =
         droplet::makeDroplet(std::move(footprint.outline), settings.droplet, [&](Stage stage) { stages.begin(stage); });
@@ -435,7 +435,7 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     checkFiles(inputs, outputs, options.run.files);
 }
 
-void tellWarning(const std::string& warning, ProgressMode progress)
+void printWarning(const std::string& warning, ProgressMode progress)
 {
     if (progress == ProgressMode::Json) {
         std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
@@ -446,7 +446,7 @@ void tellWarning(const std::string& warning, ProgressMode progress)
     std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
 }
 
-void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)
+void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)
 {
     std::optional<tbb::global_control> threads;
     if (run.threads) {
@@ -456,7 +456,7 @@ void makeAndTell(const RunOptions& run, const std::function<droplet::Report(cons
         run.verbosity == Verbosity::Quiet && run.progress == ProgressMode::Auto ? ProgressMode::None : run.progress);
     const droplet::Report report = make([&](Stage stage) { progress.begin(stage); });
     progress.finish();
-    tell(report, run);
+    printSummary(report, run);
 }
 
 int runShape(int argc, const char* const* argv)
@@ -468,7 +468,7 @@ int runShape(int argc, const char* const* argv)
     }
     const auto& options = std::get<ShapeOptions>(parsed);
     checkShape(options, "INPUT");
-    makeAndTell(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
+    makeAndReport(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
     return 0;
 }
 

@@ -15,61 +15,61 @@
 
 namespace cli {
 
-/// An edge is too short for a footprint only when the footprint is known; all memory would be used up to find out.
-/// @param area             of the footprint [m²]
+/// Refuses an --edge that would give more than kMaxTriangles triangles on a footprint.
+/// @param area             area of the footprint [m²]
 /// @throws droplet::Error  InvalidArgument
 void refuseTooShortEdge(double area, const droplet::DropletOptions& options);
 
-/// Area of the liquid on the ground [m²].
+/// Area of all footprints [m²].
 double coveredArea(const droplet::Outline& outline);
 
-/// The path of the picture that is to be seen below the droplets, where one is asked for.
+/// Path of the picture on the ground below the droplets, if it is given.
 std::optional<std::string> groundPicture(const ShapeOptions& options);
-/// Path of the picture that shines, if there is one.
+/// Path of the panorama that lights the scene, if it is given.
 std::optional<std::string> environmentPicture(const ShapeOptions& options);
 
-/// The bytes of the picture, from its file or standard input.
+/// Reads the bytes of the input picture, from its file or standard input.
 /// @throws droplet::Error InvalidInput
 std::vector<std::byte> readPicture(const ShapeOptions& options);
 
-/// Makes one droplet from its picture, and writes its files, all of them or none.
-/// @param progress        told of every stage, from Read to Write
-/// @return                what was done, with times and memory
+/// Makes one droplet from its picture, and writes all its files, or none.
+/// @param progress        called at every stage, from Read to Write
+/// @return                report with times and memory
 /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed, NoSuchDroplet
 droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& progress);
 
-/// The same, from what has been read already.
-/// @param around   of readSurroundings
-/// @param picture  of readPicture
+/// Makes one droplet from a picture that has been read.
+/// @param around   result of readSurroundings
+/// @param picture  result of readPicture
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture);
 
-/// A footprint that comes of something else than a picture.
+/// Footprint that does not come from a picture.
 struct DrawnFootprint {
     droplet::Outline outline;
     droplet::InputReport input;
 };
 
-/// The same, from an outline on.
-/// @param around    of readSurroundings
-/// @param progress  told of every stage from Triangulate
+/// Makes one droplet from an outline.
+/// @param around    result of readSurroundings
+/// @param progress  called at every stage, from Triangulate to Write
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
                           const droplet::Progress& progress);
 
-/// What is known to fail must fail before any work is done.
-/// @param input_name      how messages call the input
+/// Checks all paths before any work is done.
+/// @param input_name      name of the input in messages
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkShape(const ShapeOptions& options, const std::string& input_name);
 
 /// Writes a warning to standard error.
-void tellWarning(const std::string& warning, ProgressMode progress);
+void printWarning(const std::string& warning, ProgressMode progress);
 
-/// Makes one droplet with as many threads as asked for, shows how far it is, and tells what came of it.
-/// @param make  is given whom to tell of every stage
-void makeAndTell(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make);
+/// Makes one droplet with the given number of threads, and shows progress, summary and warnings.
+/// @param make  makes the droplet, and calls its argument at every stage
+void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make);
 
-/// Runs the main job: the picture of a footprint in, a droplet out.
+/// Runs `droplet-shape` without a command: a picture in, a droplet out.
 /// @return                exit code
-/// @throws droplet::Error for whatever goes wrong
+/// @throws droplet::Error on any failure
 int runShape(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -58,13 +58,13 @@ void declareShape(CommandLine& line)
     declareRun(line);
 }
 
-/// Whether something is written as glTF; the page holds one.
+/// Whether an output is glTF; the page contains one.
 bool inGltf(const ShapeOptions& options)
 {
     return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
 }
 
-/// @param subject  how messages call the output
+/// @param subject  name of the output in messages
 void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
     const std::string known = "glb, gltf, obj, ply, stl";
@@ -76,9 +76,9 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
                                                            {"ply", droplet::Format::Ply},
                                                            {"stl", droplet::Format::Stl}});
     } else if (options.output == kStandardStream) {
-        refuse("--format is needed when OUTPUT is -; allowed are " + known);
+        refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
-        refuse(subject + " '" + options.output + "' has no extension to tell the format; allowed are " + known +
+        refuse(subject + " '" + options.output + "' has no extension that gives the format; allowed are " + known +
                ", or give --format");
     } else {
         options.format =
@@ -88,29 +88,29 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
     warnOfFormat(line, options.format, options.html || options.preview, options.settings);
 }
 
-/// A slider is made where the droplet is affine in its volume, and where a file can hold it.
+/// Reads --fill-range. A slider needs a droplet that is affine in its volume, and a file format that can hold it.
 void readFillRange(const CommandLine& line, ShapeOptions& options)
 {
     const auto given = line.value("--fill-range");
     if (!given) {
         return;
     }
-    const std::string words = "two numbers such as 0..2, the first from 0 to 1, the second larger and at least 1";
+    const std::string allowed = "two numbers such as 0..2, the first from 0 to 1, the second larger and at least 1";
     const auto dots = given->text.find("..");
     const auto min = finiteNumber(given->text.substr(0, dots));
     const auto max = dots == std::string::npos ? std::nullopt : finiteNumber(given->text.substr(dots + 2));
     if (!min || !max) {
-        refuse(*given, words);
+        refuse(*given, allowed);
     }
     const droplet::FillRange range{*min, *max};
-    constexpr double kMaxFills = 1e6;  // far beyond what the linear model is good for
+    constexpr double kMaxFills = 1e6;  // far beyond the validity of the linear model
     try {
         range.validate();
     } catch (const droplet::Error&) {
-        refuse(*given, words);
+        refuse(*given, allowed);
     }
     if (range.max > kMaxFills) {
-        refuse(*given, words + ", up to 1000000");
+        refuse(*given, allowed + ", up to 1000000");
     }
     const auto clash = [&](const std::string& option, const std::string& why) {
         refuse("--fill-range and " + option + " exclude each other: " + why);
@@ -119,7 +119,7 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
         clash("--model exact", "only the linear model changes in proportion to the volume");
     }
     if (options.settings.droplet.solve.no_penetration) {
-        clash("--no-penetration", "what is dry changes with the volume");
+        clash("--no-penetration", "the dry area changes with the volume");
     }
     if (options.settings.onto) {
         clash("--onto", "droplets on an object have no slider");
@@ -162,7 +162,7 @@ std::optional<std::string> readHtml(const CommandLine& line)
         return std::nullopt;
     }
     if (!droplet::pageIsBuiltIn()) {
-        refuse("--html is not in this program: it was built with DROPLET_PAGE=OFF");
+        refuse("--html is not available: the program was built with DROPLET_PAGE=OFF");
     }
     return html->text;
 }
@@ -188,7 +188,7 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     CommandLine line(commandText());
     declareShape(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         return *text;
     }
     ShapeOptions options;

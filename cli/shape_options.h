@@ -11,7 +11,7 @@
 
 namespace cli {
 
-/// The main job as asked for: everything in range, nothing looked up on disk yet but the configuration file.
+/// Options for making one droplet. All values are in range; no file but the configuration file has been read.
 struct ShapeOptions {
     std::string input;                   ///< path or kStandardStream
     std::string output;                  ///< path or kStandardStream
@@ -25,29 +25,30 @@ struct ShapeOptions {
     RunOptions run;
 };
 
+/// Declares --html.
 void declareHtml(CommandLine& line);
 
-/// The page to be written.
-/// @throws droplet::Error InvalidArgument if it is not built in
+/// Path of the page, if --html is given.
+/// @throws droplet::Error InvalidArgument if the program was built without the page
 std::optional<std::string> readHtml(const CommandLine& line);
 
-/// What every command takes that makes droplets: liquid, ground and surface, --format and --fill-range.
+/// Declares the options of every command that makes droplets: liquid, ground and surface, --format and --fill-range.
 void declareDroplets(CommandLine& line);
 
-/// Reads those and the run's options.
-/// @param options         with the names of all files that are read and written, or how they are made
-/// @param subject         how messages call the output
+/// Reads the options of declareDroplets and of the run.
+/// @param options         options with the paths of inputs and outputs, or their patterns
+/// @param subject         name of the output in messages
 /// @throws droplet::Error InvalidArgument
 ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject);
 
-/// What every command takes that makes droplets from pictures: the footprint, too.
+/// Declares the options of every command that makes droplets from pictures: those of declareDroplets and the footprint.
 void declareShapes(CommandLine& line);
 
-/// Reads those and the run's options, as readDroplets does.
+/// Reads the options of declareShapes and of the run, as readDroplets does.
 ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject);
 
-/// Reads the command line, and the configuration file it names.
-/// @return                the job, or text for standard output if --help or --version asked for it
+/// Reads the command line and the configuration file that it names.
+/// @return                the options, or the text that --help or --version prints
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* argv);
 

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-/// Adds up how long each stage takes.
+/// Clock that adds up the time of each stage.
 class StageClock {
 public:
     void begin(droplet::Stage stage)
@@ -20,7 +20,7 @@ public:
         current_ = stage;
     }
 
-    /// Seconds of every stage up to now.
+    /// Time of every stage up to now [s].
     std::array<double, droplet::kStageCount> times()
     {
         close();

@@ -37,7 +37,7 @@ std::string microlitres(double cubic_metres)
 {
     return digits(cubic_metres / droplet::kMicrolitre) + " µL";
 }
-/// To tenths; what rounds to nothing is 0, not −0.
+/// Degrees, rounded to tenths; never −0.
 double tenthsOfDegrees(double radians)
 {
     return std::round(10.0 * radians / droplet::kDegree) / 10.0 + 0.0;
@@ -85,7 +85,7 @@ std::string picture(const droplet::InputReport& input)
     return text;
 }
 
-/// A text on one line, its line breaks as they are typed.
+/// Text on one line, with line breaks as \n.
 std::string asTyped(const std::string& text)
 {
     std::string typed;
@@ -120,7 +120,7 @@ std::string shape(const Report& report)
 
 std::string table(const Report& report)
 {
-    constexpr std::size_t kRows = 20;  // what fits on a screen beside the rest; the report in JSON holds all
+    constexpr std::size_t kRows = 20;  // rows that fit on a screen; the JSON report contains all
     std::string text = "           droplet  holes  footprint/mm²  volume/µL  height/mm  angle/°  pressure/Pa\n";
     const std::size_t rows = std::min(kRows, report.droplets.size());
     for (std::size_t i = 0; i < rows; ++i) {

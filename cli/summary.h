@@ -7,7 +7,7 @@
 
 namespace cli {
 
-/// A report in words, for people: a few lines, with `details` also the droplets one by one, times and memory.
+/// Report as readable text: a few lines; `details` adds every droplet, times and memory.
 std::string summary(const droplet::Report& report, bool details);
 
 }  // namespace cli

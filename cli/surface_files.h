@@ -12,18 +12,18 @@
 
 namespace cli {
 
-/// The .mtl file beside an .obj file; none for other names, formats and standard output.
+/// Path of the .mtl file beside an .obj file; nothing for other names, formats and standard output.
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format);
 
-/// Where a surface goes, and how.
+/// Path and format of a surface's file.
 struct SurfaceTarget {
     std::string path;
     droplet::Format format = droplet::Format::Glb;
     droplet::WriteOptions options;
 };
 
-/// A surface's file, and that of its material if it has one. The surface and `bytes` must live until they are written.
-/// @param bytes  gets the length of the first
+/// Files of a surface and, in OBJ, its material. `surface` and `bytes` must live until they are written.
+/// @param bytes  receives the size of the surface's file
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes);
 
 }  // namespace cli

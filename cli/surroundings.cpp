@@ -20,7 +20,7 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
         around.map = droplet::readHeightMap(*settings.ground.path);
         if (!around.map->in_floats && !settings.ground.depth) {
             throw Error(ErrorCode::InvalidArgument,
-                        "--surface-depth is missing: how much higher white is than black in " + *settings.ground.path +
+                        "--surface-depth is missing: give the height of white above black in " + *settings.ground.path +
                             ", such as 2mm");
         }
     }
@@ -39,7 +39,7 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent)
 {
     if (around.object) {
-        // Level, but not known to be: a flat base of few triangles could not follow the object.
+        // Level ground as a general function: a flat base would have too few triangles to follow the object.
         return droplet::BaseSurface([](droplet::Vec2) { return droplet::GroundPoint{}; });
     }
     const droplet::GroundReport& ground = settings.ground;
@@ -56,7 +56,8 @@ droplet::BaseSurface groundOf(const DropletSettings& settings, const Surrounding
     return {};
 }
 
-droplet::ObjectReport lay(droplet::Droplet& droplet, const droplet::TexturedMesh& object, const std::string& path)
+droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,
+                                    const std::string& path)
 {
     droplet::OntoResult result = droplet::layOnto(droplet.surface, object, {droplet.domain.extent});
     droplet.surface = std::move(result.surface);

@@ -15,28 +15,30 @@
 
 namespace cli {
 
-/// What droplets lie on, read before their picture: what is known to fail must fail before any work is done.
+/// Ground, object and light around the droplets, read before the picture, so that errors are found early.
 struct Surroundings {
     std::optional<droplet::HeightMap> map;
     std::optional<droplet::TexturedMesh> object;
-    std::optional<droplet::Picture> below;      ///< to be seen there
-    std::optional<droplet::Environment> light;  ///< to be mirrored
+    std::optional<droplet::Picture> below;      ///< picture on the ground
+    std::optional<droplet::Environment> light;  ///< panorama that lights the scene
 };
 
+/// Reads height map, object and pictures.
+/// @param below           path of the picture on the ground
+/// @param light           path of the panorama
 /// @throws droplet::Error InvalidInput; InvalidArgument if --surface-depth is missing
-/// @param below  path of a picture to be seen below the droplets
-/// @param light  path of one of what is all around
 Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below = {},
                               const std::optional<std::string>& light = {});
 
-/// What droplets are solved on.
-/// @param extent          of the picture, which a height map is stretched over [m]
+/// Ground on which droplets are solved.
+/// @param extent          extent of the picture, which a height map covers [m]
 /// @throws droplet::Error InvalidArgument
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent);
 
-/// Puts the droplets where they are on the object.
-/// @param path            of the object, for the report
-/// @throws droplet::Error InvalidInput if the object has no area in uv; NoSuchDroplet if none can be laid on it
-droplet::ObjectReport lay(droplet::Droplet& droplet, const droplet::TexturedMesh& object, const std::string& path);
+/// Places the droplets on the object.
+/// @param path            path of the object, for the report
+/// @throws droplet::Error InvalidInput if the object has no area in uv; NoSuchDroplet if no droplet fits on it
+droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,
+                                    const std::string& path);
 
 }  // namespace cli

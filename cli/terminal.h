@@ -6,18 +6,18 @@
 
 namespace cli {
 
-/// Erases the line that the cursor is in.
+/// Control sequence that erases the cursor's line.
 inline constexpr const char* kEraseLine = "\r\033[K";
 
 enum class Colour { Red, Yellow, Bold };
 
-/// Whether standard error goes to a terminal that can move its cursor.
+/// Whether standard error is a terminal that can move its cursor.
 bool errorIsTerminal();
 
-/// The text in a colour, if standard error is a terminal and NO_COLOR is unset or empty.
+/// Text in a colour, if standard error is a terminal and NO_COLOR is unset or empty.
 std::string paint(std::string_view text, Colour colour);
 
-/// The text without line breaks and other control characters: file names may hold any.
+/// Text with line breaks and other control characters replaced by '?': file names may contain them.
 std::string oneLine(std::string_view text);
 
 }  // namespace cli

@@ -14,13 +14,13 @@
 namespace cli {
 namespace {
 
-/// A number and the unit written behind it.
+/// Number with its unit.
 struct Piece {
     std::string number;
     std::string unit;
 };
 
-/// Three pieces of a range, or one.
+/// Item of a list: one value, or begin, end and step of a range.
 using Item = std::vector<Piece>;
 
 constexpr const char* kForm = "values such as 10,20,30 or a range with its step such as 0..10:0.5";
@@ -41,7 +41,7 @@ Piece pieceOf(const Given& given, std::string_view text)
     std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
     const std::string number(text.substr(0, text.size() - unit.size()));
     if (failure != std::errc{} || !std::isfinite(value)) {
-        refuse(given, "of finite numbers");
+        refuse(given, "finite numbers");
     }
     if (!unit.empty() && unit.front() == ' ') {
         unit.remove_prefix(1);
@@ -64,7 +64,7 @@ Item itemOf(const Given& given, std::string_view text)
             pieceOf(given, rest.substr(colon + 1))};
 }
 
-/// Numbers without a unit get that of the next that has one, or of the last.
+/// Gives numbers without a unit the unit of the next number with one, or of the last.
 void shareUnits(std::vector<Item>& items)
 {
     std::vector<Piece*> pieces;
@@ -96,7 +96,7 @@ std::vector<double> valuesOf(const Given& given, const Item& item, const ValueOf
     const auto plain = [&](const Piece& piece) {
         return same_unit ? finiteNumber(piece.number).value() : value_of(piece);
     };
-    // Bounds are checked of the ends; what a step is, of any.
+    // The ends must be in range, and so must the step's dimension.
     const double first = value_of(item[0]);
     const double last = value_of(item[1]);
     const double from = plain(item[0]);
@@ -113,7 +113,7 @@ std::vector<double> valuesOf(const Given& given, const Item& item, const ValueOf
     std::vector<double> values;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(steps); ++k) {
         const double value = from + static_cast<double>(k) * step;
-        // Sums of decimal steps have more digits than they should.
+        // Rounding removes the errors of decimal steps.
         values.push_back(same_unit ? value_of({fmt::format("{:.12g}", value), item[0].unit}) : value);
     }
     return values;
@@ -160,7 +160,7 @@ double number(const Given& given, const NumberRange& range)
 {
     const auto value = finiteNumber(given.text);
     if (!value || *value < range.min || *value > range.max) {
-        refuse(given, range.words);
+        refuse(given, range.allowed);
     }
     return *value;
 }

@@ -8,29 +8,29 @@
 
 namespace cli {
 
-/// No list is longer.
+/// Limit of a list's values.
 inline constexpr std::size_t kMaxValues = 1'000'000;
 
-/// Values in a list, each a quantity or a range with its step: `10uL,20uL`, `10..100uL:10`, `0..16m/s:0.25`,
-/// `1,2,5..20uL:5`. A unit may be written once for all; a number without one has that of the next number that has, or
-/// of the last. A range holds its start, and its end if steps lead there.
+/// Parses a list of quantities and ranges with a step: `10uL,20uL`, `10..100uL:10`, `0..16m/s:0.25`, `1,2,5..20uL:5`. A
+/// number without a unit has the unit of the next number with one, or of the last. A range contains its start, and its
+/// end if a step meets it.
 ///
-/// Numbers of one unit are those that would have been written out: `10..100uL:10` has exactly what `30uL` is.
-/// @return the values in SI units, in the order written, at least one
-/// @throws droplet::Error InvalidArgument: no such list, a value beyond the range's bounds, over kMaxValues
+/// Values of a range are exactly those of single numbers: `10..100uL:10` contains exactly `30uL`.
+/// @return                values in SI units, in the order written, at least one
+/// @throws droplet::Error InvalidArgument: not a list, a value out of range, more than kMaxValues
 std::vector<double> quantities(const Given& given, const Range& range);
 
-/// Bounds of numbers without a unit, and what a message says of them.
+/// Allowed range of a number without a unit.
 struct NumberRange {
     double min;
     double max;
-    const char* words;
+    const char* allowed;  ///< range in words, for messages
 };
 
-/// The same of numbers without a unit: `0.05,0.5`, `0..1:0.1`.
+/// Parses a list of numbers without a unit: `0.05,0.5`, `0..1:0.1`.
 std::vector<double> numbers(const Given& given, const NumberRange& range);
 
-/// One number without a unit.
+/// Parses one number without a unit.
 double number(const Given& given, const NumberRange& range);
 
 }  // namespace cli

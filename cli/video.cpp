@@ -20,7 +20,8 @@ namespace {
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// @throws Error InvalidInput if there is no such program
+/// Starts a program that reads a video.
+/// @throws Error InvalidInput if the program cannot be run
 Process startReading(const std::vector<std::string>& command, const std::string& path)
 {
     const Started started = start(command, Piped::Output);
@@ -31,13 +32,13 @@ Process startReading(const std::vector<std::string>& command, const std::string&
     return started.process;
 }
 
-[[noreturn]] void complain(const std::string& path, const std::string& program, std::FILE* words)
+[[noreturn]] void throwReadError(const std::string& path, const std::string& program, std::FILE* log)
 {
-    const std::string line = firstLine(words);
+    const std::string line = firstLine(log);
     throw Error(ErrorCode::InvalidInput, path + ": " + program + " cannot read it" + (line.empty() ? "" : ": " + line));
 }
 
-/// A number such as 25/1 or 30000/1001.
+/// Parses a positive number such as 25/1 or 30000/1001.
 std::optional<double> quotient(std::string_view text)
 {
     std::array<double, 2> parts{0.0, 1.0};
@@ -57,14 +58,14 @@ std::optional<double> quotient(std::string_view text)
     return rate > 0.0 && rate < 1e6 ? std::optional(rate) : std::nullopt;
 }
 
-/// What stands behind a name in lines such as `nb_frames=40`.
+/// Value of a name in lines such as `nb_frames=40`.
 std::optional<double> valueOf(const std::string& name, std::string_view lines)
 {
     const auto at = lines.find(name + "=");
     return at == std::string_view::npos ? std::nullopt : quotient(lines.substr(at + name.size() + 1).substr(0, 64));
 }
 
-/// A video that was trimmed may hold more frames than it shows: then its duration tells.
+/// Number of shown frames. A trimmed video may contain more frames than its duration shows.
 std::optional<double> shownFrames(std::string_view lines)
 {
     const auto held = valueOf("nb_frames", lines);
@@ -73,7 +74,7 @@ std::optional<double> shownFrames(std::string_view lines)
     return held && rate && duration ? std::optional(std::min(*held, *rate * *duration)) : held;
 }
 
-Video::Announced announcedBy(const std::string& path)
+Video::Metadata readMetadata(const std::string& path)
 {
     const Process process =
         startReading({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
@@ -83,36 +84,36 @@ Video::Announced announcedBy(const std::string& path)
     const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
     std::fclose(process.output);
     const int status = waitFor(process.id);
-    std::FILE* const words = process.words;
+    std::FILE* const log = process.log;
     if (status != 0 || count == 0) {
         try {
-            complain(path, "ffprobe", words);
+            throwReadError(path, "ffprobe", log);
         } catch (...) {
-            std::fclose(words);
+            std::fclose(log);
             throw;
         }
     }
-    std::fclose(words);
+    std::fclose(log);
     const std::string_view lines(text.data(), count);
     return {valueOf("avg_frame_rate", lines), shownFrames(lines)};
 }
 
 }  // namespace
 
-Video::Video(const std::string& path, std::optional<double> played_at) : path_(path), announced_(announcedBy(path))
+Video::Video(const std::string& path, std::optional<double> played_at) : path_(path), metadata_(readMetadata(path))
 {
     std::vector<std::string> command{"ffmpeg",        "-nostdin", "-v",    "error",     "-xerror",    "-i",
                                      plainName(path), "-map",     "0:v:0", "-fps_mode", "passthrough"};
     if (played_at) {
-        // A frame takes the first place that is not before it: the last of those due is shown.
-        announced_.frames.reset();  // another number of frames will come
+        // round=up: each output frame is the last input frame that is not after it.
+        metadata_.frames.reset();  // the number of output frames differs
         command.insert(command.end(), {"-vf", fmt::format("fps={:.12g}:round=up", *played_at)});
     }
     command.insert(command.end(), {"-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"});
     const Process process = startReading(command, path);
     process_ = process.id;
     frames_ = process.output;
-    words_ = process.words;
+    log_ = process.log;
 }
 
 Video::~Video()
@@ -124,7 +125,7 @@ Video::~Video()
         ::kill(process_, SIGKILL);
         waitFor(process_);
     }
-    std::fclose(words_);
+    std::fclose(log_);
 }
 
 void Video::finish()
@@ -133,17 +134,18 @@ void Video::finish()
     frames_ = nullptr;
     const int status = waitFor(process_);
     process_ = -1;
-    // Of a Matroska that ends too early ffmpeg reads what there is, and ends as if all were well.
-    const bool cut = wordsOf(words_).find("ended prematurely") != std::string::npos;
-    const bool few = announced_.frames && static_cast<double>(done_) + 1.0 < *announced_.frames;
-    if (done_ > 0 && (status != 0 || cut || few)) {
-        const std::string line = firstLine(words_);
-        throw Error(ErrorCode::InvalidInput, path_ + ": is cut off or damaged after frame " + std::to_string(done_) +
-                                                 (few ? " of " + std::to_string(std::lround(*announced_.frames)) : "") +
-                                                 (line.empty() ? "" : ": " + line));
+    // ffmpeg reads a Matroska file that ends too early without an error status.
+    const bool is_cut = logText(log_).find("ended prematurely") != std::string::npos;
+    const bool is_short = metadata_.frames && static_cast<double>(done_) + 1.0 < *metadata_.frames;
+    if (done_ > 0 && (status != 0 || is_cut || is_short)) {
+        const std::string line = firstLine(log_);
+        throw Error(ErrorCode::InvalidInput,
+                    path_ + ": is cut off or damaged after frame " + std::to_string(done_) +
+                        (is_short ? " of " + std::to_string(std::lround(*metadata_.frames)) : "") +
+                        (line.empty() ? "" : ": " + line));
     }
     if (status != 0) {
-        complain(path_, "ffmpeg", words_);
+        throwReadError(path_, "ffmpeg", log_);
     }
 }
 
@@ -152,7 +154,7 @@ std::optional<std::vector<std::byte>> Video::next()
     if (frames_ == nullptr) {
         return std::nullopt;
     }
-    // ffmpeg writes P6, a line each for size and largest value, then three bytes a pixel.
+    // The header is P6, size and largest value, each on a line; then come three bytes per pixel.
     std::string head;
     for (int lines = 0; lines < 3;) {
         const int sign = std::fgetc(frames_);
@@ -160,7 +162,7 @@ std::optional<std::vector<std::byte>> Video::next()
             const bool between_frames = head.empty();
             finish();
             if (!between_frames) {
-                complain(path_, "ffmpeg", words_);
+                throwReadError(path_, "ffmpeg", log_);
             }
             return std::nullopt;
         }
@@ -170,14 +172,14 @@ std::optional<std::vector<std::byte>> Video::next()
     unsigned width = 0;
     unsigned height = 0;
     if (std::sscanf(head.c_str(), "P6\n%9u %9u\n255\n", &width, &height) != 2) {
-        complain(path_, "ffmpeg", words_);
+        throwReadError(path_, "ffmpeg", log_);
     }
     const std::size_t pixels = std::size_t{3} * width * height;
     std::vector<std::byte> frame(head.size() + pixels);
     std::memcpy(frame.data(), head.data(), head.size());
     if (std::fread(frame.data() + head.size(), 1, pixels, frames_) != pixels) {
         finish();
-        complain(path_, "ffmpeg", words_);
+        throwReadError(path_, "ffmpeg", log_);
     }
     ++done_;
     return frame;

@@ -11,41 +11,43 @@
 
 namespace cli {
 
-/// Frames of a video, decoded one after another by the program ffmpeg.
+/// Frames of a video, decoded one by one by the program ffmpeg.
 class Video {
 public:
-    /// Starts ffmpeg, and asks ffprobe for the rate and the number of frames.
-    /// @param played_at       frames per second to give: at each time the one that is shown then, however unevenly the
-    ///                        video's own come; empty: every frame once
-    /// @throws droplet::Error InvalidInput if one of them is not there or cannot read the file
+    /// Starts ffmpeg, and gets the frame rate and the number of frames from ffprobe.
+    /// @param played_at       output frame rate: each output frame is the one that the video shows at its time;
+    ///                        empty for every frame once
+    /// @throws droplet::Error InvalidInput if ffmpeg or ffprobe is missing or cannot read the file
     explicit Video(const std::string& path, std::optional<double> played_at = {});
     /// Ends ffmpeg.
     ~Video();
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;
 
-    /// The next frame, as a PPM; nothing after the last one.
-    /// @throws droplet::Error InvalidInput, with ffmpeg's words, if it failed or the video is cut off
+    /// Next frame, as PPM; nothing after the last one.
+    /// @throws droplet::Error InvalidInput, with ffmpeg's message, if it failed or the video is cut off
     std::optional<std::vector<std::byte>> next();
 
-    [[nodiscard]] std::optional<double> framesPerSecond() const { return announced_.rate; }
+    /// Frame rate that the file states.
+    [[nodiscard]] std::optional<double> framesPerSecond() const { return metadata_.rate; }
 
-    /// What a video says of itself.
-    struct Announced {
-        std::optional<double> rate;    ///< frames a second
-        std::optional<double> frames;  ///< how many it shows
+    /// Properties that the file states.
+    struct Metadata {
+        std::optional<double> rate;    ///< frames per second
+        std::optional<double> frames;  ///< number of shown frames
     };
 
 private:
-    /// Waits for ffmpeg; complains if it did, or if it had fewer frames than were announced.
+    /// Waits for ffmpeg.
+    /// @throws droplet::Error InvalidInput if ffmpeg failed, or there were fewer frames than the file states
     void finish();
 
     std::string path_;
-    Announced announced_;
-    std::size_t done_ = 0;  ///< frames
+    Metadata metadata_;
+    std::size_t done_ = 0;  ///< number of frames read
     pid_t process_ = -1;
     std::FILE* frames_ = nullptr;
-    std::FILE* words_ = nullptr;
+    std::FILE* log_ = nullptr;
 };
 
 }  // namespace cli

@@ -53,12 +53,12 @@ Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const 
     if (started.failure != 0) {
         throw Error(ErrorCode::OutputFailed,
                     path + ": videos are written through the program ffmpeg, which cannot be run: " +
-                        std::strerror(started.failure) + "; ask for frames instead, as in out/%05d.png");
+                        std::strerror(started.failure) + "; install it, or write pictures such as out/%05d.png");
     }
     return started.process;
 }
 
-/// Qualities from 100 down are steps of the quantiser from 0 up, each codec's own.
+/// Options for a quality: 100 is step 0 of the codec's quantiser, 0 its last step.
 std::vector<std::string> qualityOf(const std::string& codec, double quality)
 {
     const auto steps = [&](double max) { return std::to_string(std::lround(max * (1.0 - quality / 100.0))); };
@@ -110,7 +110,7 @@ void checkCodec(const std::string& codec, const std::string& path)
         text.append(part.data(), count);
     }
     std::fclose(process.output);
-    std::fclose(process.words);
+    std::fclose(process.log);
     waitFor(process.id);
     // Lines such as ` V....D libx264   libx264 H.264 / AVC`, after a legend that ends with dashes.
     std::istringstream lines(text.substr(std::min(text.find("------"), text.size())));
@@ -122,7 +122,7 @@ void checkCodec(const std::string& codec, const std::string& path)
             return;
         }
     }
-    refuse({codec, "--codec"}, "a video encoder of ffmpeg's: see ffmpeg -encoders");
+    refuse({codec, "--codec"}, "a video encoder of ffmpeg, listed by ffmpeg -encoders");
 }
 
 void tryVideo(const VideoWriterOptions& options)
@@ -143,7 +143,7 @@ void tryVideo(const VideoWriterOptions& options)
 VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path), video_(std::tmpfile())
 {
     if (video_ == nullptr) {
-        throw Error(ErrorCode::OutputFailed, path_ + ": no room for a temporary file: " + std::strerror(errno));
+        throw Error(ErrorCode::OutputFailed, path_ + ": a temporary file cannot be created: " + std::strerror(errno));
     }
     try {
         process_ = startFfmpeg(commandOf(options), Piped::Input, path_, ::fileno(video_));
@@ -162,7 +162,7 @@ VideoWriter::~VideoWriter()
         ::kill(process_.id, SIGKILL);
         waitFor(process_.id);
     }
-    std::fclose(process_.words);
+    std::fclose(process_.log);
     std::fclose(video_);
 }
 
@@ -175,10 +175,10 @@ int VideoWriter::end()
     return status;
 }
 
-void VideoWriter::complain()
+void VideoWriter::throwWriteError()
 {
-    // ffmpeg tells where in memory it speaks from: [mp4 @ 0x55d0c0de].
-    const std::string line = std::regex_replace(firstLine(process_.words), std::regex(" @ 0x[0-9a-f]+"), "");
+    // ffmpeg's messages contain addresses, which differ from run to run: [mp4 @ 0x55d0c0de].
+    const std::string line = std::regex_replace(firstLine(process_.log), std::regex(" @ 0x[0-9a-f]+"), "");
     throw Error(ErrorCode::OutputFailed, path_ + ": ffmpeg cannot write it" + (line.empty() ? "" : ": " + line));
 }
 
@@ -186,14 +186,14 @@ void VideoWriter::add(const droplet::Picture& frame)
 {
     if (std::fwrite(frame.rgb.data(), 1, frame.rgb.size(), process_.input) != frame.rgb.size()) {
         end();
-        complain();
+        throwWriteError();
     }
 }
 
 void VideoWriter::finish(std::ostream& out)
 {
     if (end() != 0) {
-        complain();
+        throwWriteError();
     }
     std::rewind(video_);
     std::array<char, 65536> part{};

@@ -10,34 +10,33 @@
 
 namespace cli {
 
-/// Looks like the frames themselves.
+/// Default quality, at which no difference from the frames is visible.
 inline constexpr double kVideoQuality = 65.0;
 
 struct VideoWriterOptions {
-    std::string path;   ///< whose extension tells the container: isVideo(path)
-    std::string codec;  ///< as ffmpeg calls its encoder
+    std::string path;   ///< its extension selects the container: isVideo(path)
+    std::string codec;  ///< ffmpeg's name of the encoder
     int width = 0;      ///< [px]
     int height = 0;     ///< [px]
     double frames_per_second = 30.0;
-    double quality = kVideoQuality;  ///< 1 … 100, where 100 is the best that the codec has
+    double quality = kVideoQuality;  ///< 1 … 100; 100 is the codec's best
 };
 
-/// Whether we write videos of that name: .mp4, .mkv, .mov or .webm.
+/// Whether a path ends in .mp4, .mkv, .mov or .webm.
 bool isVideo(const std::string& path);
 
-/// The codec of a video's name, where none is asked for.
+/// Default codec for a video's path.
 std::string codecFor(const std::string& path);
 
-/// Asks ffmpeg for its encoders.
-/// @throws droplet::Error InvalidArgument if this is none of them; OutputFailed if there is no ffmpeg
+/// Checks that ffmpeg has an encoder.
+/// @throws droplet::Error InvalidArgument if ffmpeg does not have it; OutputFailed if ffmpeg is missing
 void checkCodec(const std::string& codec, const std::string& path);
 
-/// Makes a video of one black frame, for not every encoder goes with every kind of file.
-/// @throws droplet::Error InvalidArgument, naming --codec, with ffmpeg's words
+/// Encodes one black frame as a test: not every encoder fits every container.
+/// @throws droplet::Error InvalidArgument, naming --codec, with ffmpeg's message
 void tryVideo(const VideoWriterOptions& options);
 
-/// A video on its way, encoded by the program ffmpeg into a file without a name, in the colours of BT.709, and marked
-/// so.
+/// Encodes a video by the program ffmpeg into a temporary file, in BT.709 colours, and tagged so.
 class VideoWriter {
 public:
     /// @throws droplet::Error OutputFailed
@@ -47,15 +46,16 @@ public:
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    /// @throws droplet::Error OutputFailed, with ffmpeg's words
+    /// Encodes one frame.
+    /// @throws droplet::Error OutputFailed, with ffmpeg's message
     void add(const droplet::Picture& frame);
 
-    /// Ends the video and copies it.
-    /// @throws droplet::Error OutputFailed, with ffmpeg's words
+    /// Completes the video and copies it to `out`.
+    /// @throws droplet::Error OutputFailed, with ffmpeg's message
     void finish(std::ostream& out);
 
 private:
-    [[noreturn]] void complain();
+    [[noreturn]] void throwWriteError();
     int end();
 
     std::string path_;

@@ -26,7 +26,7 @@ namespace {
 
 std::string share(double value)
 {
-    // Rounded, so that nothing is not less than nothing.
+    // Rounding first avoids -0.
     return fmt::format("{:+.1f} %", std::round(1000.0 * value) / 10.0 + 0.0);
 }
 
@@ -35,7 +35,7 @@ std::string volume(double value)
     return fmt::format("{:.4g}", value / droplet::kMicrolitre) + " µL";
 }
 
-/// What a slope and a hysteresis have in common.
+/// Heading of all lines with the same slope and hysteresis.
 std::string headOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
 {
     std::string line = run.preset + ": contact angle " +
@@ -129,7 +129,7 @@ OutputFile fileOf(const TunnelOutput& output, const WindTunnelOptions& options)
         return with([&runs, is_map](std::ostream& out) { writeSvg(drawn(runs, is_map), out); });
     };
     const auto png = [&](bool is_map) {
-        // Sharp on screens of two pixels a point.
+        // Two pixels per point are sharp on high-density screens.
         constexpr double kPixels = 2.0;
         return with([&runs, is_map](std::ostream& out) { writePng(pictureOf(drawn(runs, is_map), kPixels), out); });
     };
@@ -159,8 +159,8 @@ OutputFile fileOf(const TunnelOutput& output, const WindTunnelOptions& options)
 int runWindTunnel(int argc, const char* const* argv)
 {
     auto parsed = parseWindTunnel(argc, argv);
-    if (const auto* words = std::get_if<std::string>(&parsed)) {
-        print(*words);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
         return 0;
     }
     auto& options = std::get<WindTunnelOptions>(parsed);
@@ -192,7 +192,7 @@ int runWindTunnel(int argc, const char* const* argv)
         return 0;
     }
     if (files.empty()) {
-        print(summary(options.runs));  // it is what was asked for
+        print(summary(options.runs));  // the summary is the only output
     } else {
         std::cerr << summary(options.runs);
     }

@@ -3,7 +3,7 @@
 
 namespace cli {
 
-/// `droplet-shape wind-tunnel`. @return its exit code
+/// Runs `droplet-shape wind-tunnel` and returns the exit code.
 int runWindTunnel(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -154,15 +154,16 @@ void readTrace(const CommandLine& line, WindTunnelOptions& options)
         options.gust.period = quantity(*period, kTime);
     }
     if (options.gust.amplitude > 0.0 && options.trace.duration / options.gust.period > droplet::kMaxGusts) {
-        refuse("--gust-period: at most 100000 of them must make --time");
+        refuse("--gust-period: too short; --time must be at most 100000 periods");
     }
     if (options.traces &&
         options.trace.duration / options.trace.interval > static_cast<double>(droplet::kMaxMotionPoints)) {
-        refuse("--trace-step: at most " + std::to_string(droplet::kMaxMotionPoints) + " of them must make --time");
+        refuse("--trace-step: too short; --time must be at most " + std::to_string(droplet::kMaxMotionPoints) +
+               " steps");
     }
 }
 
-/// The options that make another plane of the measured one: nothing measured stands beside it.
+/// Whether no option changes the measured plane, so that results can be compared with the measurement.
 bool isAsMeasured(const CommandLine& line)
 {
     for (const char* option :
@@ -181,15 +182,15 @@ std::optional<droplet::WindBand> measuredBand(const CommandLine& line)
     if (!given) {
         return isAsMeasured(line) ? std::optional(droplet::kMeasuredStillBand) : std::nullopt;
     }
-    const std::string words = "two winds, such as 7..11m/s, the second the faster and the first over 0m/s";
+    const std::string allowed = "two wind speeds, such as 7..11m/s, the first over 0m/s, the second larger";
     const auto dots = given->text.find("..");
     if (dots == std::string::npos || given->text.find(',') != std::string::npos) {
-        refuse(*given, words);
+        refuse(*given, allowed);
     }
     const std::string list = given->text.substr(0, dots) + "," + given->text.substr(dots + 2);
     const std::vector<double> winds = quantities({list, given->subject}, kWind);
     if (winds.size() != 2 || !(winds[0] > 0.0) || !(winds[1] > winds[0])) {
-        refuse(*given, words);
+        refuse(*given, allowed);
     }
     return droplet::WindBand{winds[0], winds[1]};
 }
@@ -219,7 +220,8 @@ void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
     }
     model.wetting.hysteresis = droplet::hysteresisOf(model, slope, *run.falling_volume);
     if (model.wetting.hysteresis > 2.0) {
-        refuse(*angle, "less steep, or --falling-volume smaller: no contact angles hold so large a droplet so steep");
+        refuse(*angle,
+               "less steep, or --falling-volume smaller: no contact angles can hold this droplet on this slope");
     }
 }
 
@@ -261,7 +263,7 @@ std::vector<droplet::TunnelRun> readRuns(const CommandLine& line)
         const auto& preset =
             forOption(given.subject, [&]() -> const droplet::ForcePreset& { return droplet::forcePresetNamed(name); });
         if (std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.preset == name; })) {
-            refuse(given, "presets of different names");
+            refuse(given, "a list without repeated presets");
         }
         runs.push_back(runOf(line, preset));
         more = comma != std::string::npos;
@@ -270,7 +272,7 @@ std::vector<droplet::TunnelRun> readRuns(const CommandLine& line)
     return runs;
 }
 
-/// What the library would complain of in its own words is refused in those of the options.
+/// Refuses what the library would refuse, with the names of the options.
 void check(const WindTunnelOptions& options)
 {
     for (const droplet::TunnelRun& run : options.runs) {
@@ -290,7 +292,7 @@ void check(const WindTunnelOptions& options)
         }
         for (const auto& [option, count] : lists) {
             if (options.traces && count > 1) {
-                refuse("--trace follows one droplet: " + std::string(option) + " must be one value, and is " +
+                refuse("--trace follows one droplet: " + std::string(option) + " must be one value, not " +
                        std::to_string(count));
             }
         }
@@ -315,7 +317,7 @@ std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const cha
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         return *text;
     }
     WindTunnelOptions options;

@@ -13,7 +13,7 @@
 
 namespace cli {
 
-/// What an output of the wind tunnel holds.
+/// Content and format of a wind tunnel's output.
 enum class TunnelFile { Csv, Json, ChartSvg, ChartPng, MapSvg, MapPng, TraceCsv, TraceJson };
 
 struct TunnelOutput {
@@ -22,7 +22,7 @@ struct TunnelOutput {
 };
 
 struct WindTunnelOptions {
-    std::vector<droplet::TunnelRun> runs;  ///< with nothing found yet
+    std::vector<droplet::TunnelRun> runs;  ///< without results yet
     std::vector<TunnelOutput> outputs;
     bool traces = false;
     droplet::Gust gust;
@@ -33,7 +33,7 @@ struct WindTunnelOptions {
     bool quiet = false;
 };
 
-/// What the command line asks for, or the text that --help or --version prints.
+/// Reads the command line; returns the options, or the text that --help or --version prints.
 /// @throws droplet::Error InvalidArgument
 std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const char* const* argv);
 

@@ -23,13 +23,13 @@ std::string litres(double volume)
     return fmt::format("{:.4g} mL", volume / 1e-6);
 }
 
-void tell(const droplet::WindshieldReport& report)
+void printSummary(const droplet::WindshieldReport& report)
 {
     const droplet::BalanceRow& last = report.balance.back();
     const droplet::WaterBalance& water = last.balance;
     std::cerr << fmt::format("{} frame{}; at {:.4g} s {} still droplets, {} larger, of which {} move\n", report.frames,
                              report.frames == 1 ? "" : "s", last.time, last.still, last.running, last.moving)
-              << fmt::format("water: {} rained = {} on the glass + {} left + {} wiped\n", litres(water.rained),
+              << fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
                              litres(water.on_glass_still + water.on_glass_running), litres(water.left),
                              litres(water.wiped))
               << report.output << "\n";
@@ -54,9 +54,9 @@ int runWindshield(int argc, const char* const* argv)
     if (options.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
     }
-    const droplet::WindshieldReport report = playWindshield(options);
+    const droplet::WindshieldReport report = simulateWindshield(options);
     if (!options.quiet) {
-        tell(report);
+        printSummary(report);
     }
     return 0;
 }

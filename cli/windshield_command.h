@@ -3,9 +3,9 @@
 
 namespace cli {
 
-/// droplet-shape windshield.
-/// @return                the exit code
-/// @throws droplet::Error
+/// Runs `droplet-shape windshield`.
+/// @return                exit code
+/// @throws droplet::Error on any failure
 int runWindshield(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -18,7 +18,7 @@ std::string beforeExtension(std::string path, const char* map)
     return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
 }
 
-/// The same with the number's place left open.
+/// Pattern of a map's paths, with the placeholder for the number.
 std::string mapPattern(const NumberedPath& maps, const char* map)
 {
     return beforeExtension(maps.text(), map);

@@ -9,26 +9,28 @@
 
 namespace cli {
 
+/// Names of the maps of the glass, as parts of their files' names.
 inline constexpr std::array<const char*, 3> kMapNames{"normal", "thickness", "velocity"};
 
-/// Where a map of a frame goes: `maps/00001-normal.png`.
+/// Path of one map of a frame, such as `maps/00001-normal.png`.
 std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map);
 
+/// Path of the checkpoint beside the frames.
 std::string checkpointPath(const NumberedPath& files);
 
-/// What is known to fail fails before any work is done.
+/// Checks all paths before any work is done.
 /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
 void checkWindshieldFiles(const WindshieldOptions& options);
 
-/// Frames must not take the place of what is read or written otherwise, nor, if so asked for, of anything.
-/// @param frames          how many there will be
+/// Checks that frames replace no other input or output and, with --no-clobber, no existing file.
+/// @param frames          number of frames
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkFrameFiles(const WindshieldOptions& options, std::size_t frames);
 
-/// Whether all files of a frame stand.
+/// Whether all files of a frame exist.
 bool hasFrame(const WindshieldOptions& options, std::size_t number);
 
-/// What tells runs apart that would show something else: options and what is in the files they name.
+/// Hash of everything that decides what the frames show: options and input files.
 std::string fingerprintOf(const WindshieldOptions& options);
 
 }  // namespace cli

@@ -16,7 +16,8 @@
 namespace cli {
 namespace {
 
-/// The encoder of a video; refuses one that ffmpeg does not have.
+/// Encoder of the video, empty without a video.
+/// @throws droplet::Error if ffmpeg does not have it
 std::string videoCodec(const WindshieldOptions& options)
 {
     if (!options.is_video) {
@@ -29,17 +30,17 @@ std::string videoCodec(const WindshieldOptions& options)
 
 BackgroundOptions backgroundOf(const WindshieldOptions& options)
 {
-    BackgroundOptions behind;
-    behind.path = options.background;
+    BackgroundOptions background;
+    background.path = options.background;
     if (options.sized) {
-        behind.width = options.view.width;
-        behind.height = options.view.height;
+        background.width = options.view.width;
+        background.height = options.view.height;
     }
-    behind.surroundings = options.environment.has_value();
-    behind.fit = options.fit;
-    behind.frames_per_second = options.frames_per_second;
-    behind.field_of_view = options.view.field_of_view;
-    return behind;
+    background.surroundings = options.environment.has_value();
+    background.fit = options.fit;
+    background.frames_per_second = options.frames_per_second;
+    background.field_of_view = options.view.field_of_view;
+    return background;
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
     if (options_.are_maps_exr) {
-        // What writes them may not be installed: before any work is done.
+        // Writing EXR needs a library that may be missing; find this out before any work is done.
         std::ostringstream nowhere;
         writeExr(droplet::FloatPicture{1, 1, 1, {0.0F}}, nowhere);
     }
@@ -81,7 +82,7 @@ void WindshieldFrames::begin()
 }
 
 void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t number, bool is_last,
-                            const CarPlace& car)
+                            const CarState& car)
 {
     const bool is_shown = options_.files || options_.is_video || is_last;
     if (is_shown) {

@@ -16,35 +16,34 @@
 
 namespace cli {
 
-/// Where the car is in a frame.
-struct CarPlace {
-    double travelled = 0.0;  ///< since the first frame [m]
+/// Position and speed of the car in a frame.
+struct CarState {
+    double travelled = 0.0;  ///< distance since the first frame [m]
     double speed = 0.0;      ///< [m/s]
 };
 
-/// Draws a windshield's frames and maps, and writes them.
+/// Draws and writes the frames and maps of a windshield.
 class WindshieldFrames {
 public:
     /// @param options         must outlive this
     /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
     WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters);
 
-    /// How the driver looks, with the frame's size.
+    /// Driver's view, with the frame's size.
     [[nodiscard]] const droplet::ViewOptions& view() const { return view_options_; }
 
     /// Opens the video, if there is one to write.
     /// @throws droplet::Error InvalidArgument, OutputFailed
     void begin();
 
-    /// Passes over frames.
+    /// Skips frames.
     void skip(std::size_t frames) { background_.skip(frames); }
 
-    /// Draws a frame, and writes what has a file of its own.
-    /// @param number     from 1
-    /// @param car        where it is
-    void draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, const CarPlace& car);
+    /// Draws a frame, and writes it if every frame has a file of its own.
+    /// @param number     number of the frame, from 1
+    void draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, const CarState& car);
 
-    /// Returns when every frame drawn so far is written.
+    /// Waits until every frame drawn so far is written.
     void wait() { saving_.wait(); }
 
     /// Writes the video, or the picture of the last frame.
@@ -64,7 +63,7 @@ private:
     std::unique_ptr<VideoWriter> video_;
     droplet::Picture picture_;
     droplet::Layer layer_;
-    tbb::task_group saving_;  ///< a frame, while the next one is made
+    tbb::task_group saving_;  ///< writes a frame while the next one is computed
 };
 
 }  // namespace cli

@@ -145,8 +145,8 @@ void declare(CommandLine& line)
     line.exclude({"--resume", "--no-clobber"});
 }
 
-/// Sets a value, if its option is given.
-void take(const CommandLine& line, const char* option, const Range& range, double& value)
+/// Reads an option into `value`, if it is given.
+void readQuantity(const CommandLine& line, const char* option, const Range& range, double& value)
 {
     if (const auto given = line.value(option)) {
         value = quantity(*given, range);
@@ -166,7 +166,7 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
         options.preset = preset->text;
     }
     parameters = forOption("--preset", [&] { return droplet::windshieldPresetNamed(options.preset).parameters; });
-    take(line, "--rain", kRain, parameters.rainfall);
+    readQuantity(line, "--rain", kRain, parameters.rainfall);
     if (const auto speed = line.value("--speed")) {
         parameters.vehicle = droplet::constantSpeed(quantity(*speed, kSpeed));
     }
@@ -175,7 +175,7 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
         parameters.wind = choice<droplet::WindAlongGlass>(
             *wind, {{"turned", droplet::WindAlongGlass::Turned}, {"projected", droplet::WindAlongGlass::Projected}});
     }
-    take(line, "--noise", kNoise, parameters.fluctuation.acceleration);
+    readQuantity(line, "--noise", kNoise, parameters.fluctuation.acceleration);
     if (const auto wiper = line.value("--wiper")) {
         options.wiper = quantity(*wiper, kPeriod);
     }
@@ -202,13 +202,13 @@ void readGlass(const CommandLine& line, WindshieldOptions& options)
             refuse(*line.value("--surface"), "a file that ends in .glb or .gltf");
         }
     }
-    take(line, "--glass-width", kSide, options.cylinder.width);
-    take(line, "--glass-height", kSide, options.cylinder.height);
-    take(line, "--radius", kRadius, options.cylinder.radius);
-    take(line, "--slope", kSlope, options.cylinder.slope);
+    readQuantity(line, "--glass-width", kSide, options.cylinder.width);
+    readQuantity(line, "--glass-height", kSide, options.cylinder.height);
+    readQuantity(line, "--radius", kRadius, options.cylinder.radius);
+    readQuantity(line, "--slope", kSlope, options.cylinder.slope);
     if (!options.surface) {
         if (options.cylinder.width > std::numbers::pi * options.cylinder.radius) {
-            refuse("--glass-width must be at most pi times --radius: a glass bends half round at most");
+            refuse("--glass-width must be at most pi times --radius: the glass can bend by half a turn at most");
         }
         options.parameters.glass = droplet::Glass(options.cylinder);
     }
@@ -222,12 +222,12 @@ void readDroplets(const CommandLine& line, WindshieldOptions& options)
         forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
         forces.wetting.falling_angle.reset();
     }
-    take(line, "--still-diameter", kStill, options.parameters.still_diameter);
-    take(line, "--film", kFilm, options.parameters.streaks.film);
+    readQuantity(line, "--still-diameter", kStill, options.parameters.still_diameter);
+    readQuantity(line, "--film", kFilm, options.parameters.streaks.film);
 }
 
-/// A place from the middle of the glass.
-std::optional<droplet::Vec3> placeOf(const CommandLine& line, const char* option)
+/// Reads a position relative to the middle of the glass.
+std::optional<droplet::Vec3> readPosition(const CommandLine& line, const char* option)
 {
     const auto given = line.value(option);
     if (!given) {
@@ -267,11 +267,11 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     if (options.fit && !options.background) {
         refuse("--fit needs a --background");
     }
-    take(line, "--background-blur", kBlur, options.view.background_blur);
-    take(line, "--field-of-view", kView, options.view.field_of_view);
-    take(line, "--eye-distance", kEye, options.view.eye_distance);
-    options.view.eye = placeOf(line, "--eye");
-    options.view.look_at = placeOf(line, "--look-at");
+    readQuantity(line, "--background-blur", kBlur, options.view.background_blur);
+    readQuantity(line, "--field-of-view", kView, options.view.field_of_view);
+    readQuantity(line, "--eye-distance", kEye, options.view.eye_distance);
+    options.view.eye = readPosition(line, "--eye");
+    options.view.look_at = readPosition(line, "--look-at");
     if (const auto samples = line.value("--samples")) {
         options.view.samples = static_cast<int>(count(*samples, 4, "4"));
     }
@@ -292,22 +292,22 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     }
 }
 
-/// How long the shutter is open for a frame.
+/// Reads the time for which the shutter is open in each frame.
 void readShutter(const CommandLine& line, WindshieldOptions& options)
 {
     const auto given = line.value("--shutter");
     if (!given) {
         return;
     }
-    constexpr const char* kWords = "from 0deg to 360deg, or a number from 0 to 1";
+    constexpr const char* kAllowed = "from 0deg to 360deg, or a number from 0 to 1";
     double share = 0.0;
     if (const auto plain = finiteNumber(given->text)) {
         share = *plain;
     } else {
-        share = quantity(*given, {Dimension::Angle, 0.0, 360.0 * kDegree, kWords}) / (360.0 * kDegree);
+        share = quantity(*given, {Dimension::Angle, 0.0, 360.0 * kDegree, kAllowed}) / (360.0 * kDegree);
     }
     if (share < 0.0 || share > 1.0) {
-        refuse(*given, kWords);
+        refuse(*given, kAllowed);
     }
     options.view.open_time = share / options.frames_per_second;
 }
@@ -326,11 +326,11 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     }
     options.codec = text(line, "--codec");
     if (options.codec && !options.is_video) {
-        refuse("--codec is of videos; OUTPUT is '" + options.output + "'");
+        refuse("--codec needs a video as OUTPUT, not '" + options.output + "'");
     }
     if (const auto quality = line.value("--quality")) {
         if (!options.is_video) {
-            refuse("--quality is of videos; OUTPUT is '" + options.output + "'");
+            refuse("--quality needs a video as OUTPUT, not '" + options.output + "'");
         }
         options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
     }
@@ -374,7 +374,7 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");
     if (options.resume && !options.files) {
-        refuse("--resume is of frames, as in out/%05d.png; OUTPUT is '" + options.output + "'");
+        refuse("--resume needs frames as OUTPUT, such as out/%05d.png, not '" + options.output + "'");
     }
 }
 
@@ -385,7 +385,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     CommandLine line(commandText());
     declare(line);
     line.parse(argc, argv);
-    if (const auto text = textAskedFor(line)) {
+    if (const auto text = requestedText(line)) {
         return *text;
     }
     WindshieldOptions options;
@@ -397,7 +397,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     if (const auto duration = line.value("--time")) {
         options.duration = quantity(*duration, kTime);
     }
-    take(line, "--warm-up", kWarmUp, options.warm_up);
+    readQuantity(line, "--warm-up", kWarmUp, options.warm_up);
     if (const auto rate = line.value("--fps")) {
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
@@ -408,13 +408,13 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.threads = readThreads(line);
     options.output_options.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
-    // Options that tell how to go about it, or how far, are no part of what is shown.
-    const std::set<std::string> beside{"--time",  "--resume",      "--no-clobber",     "--threads",
-                                       "--quiet", "--config",      "--json",           "--droplets",
-                                       "--model", "--moving-only", "--model-animation"};
+    // These options do not change what a frame shows.
+    const std::set<std::string> neutral{"--time",  "--resume",      "--no-clobber",     "--threads",
+                                        "--quiet", "--config",      "--json",           "--droplets",
+                                        "--model", "--moving-only", "--model-animation"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
-        if (beside.count(name) == 0) {
+        if (neutral.count(name) == 0) {
             options.fingerprint.append("\n").append(name).append(" ").append(value);
         }
     }

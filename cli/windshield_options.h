@@ -16,25 +16,25 @@
 
 namespace cli {
 
-/// A windshield as asked for: everything in range, nothing looked up on disk yet but the configuration file.
+/// Options of `droplet-shape windshield`. All values are in range; no file but the configuration file has been read.
 struct WindshieldOptions {
     std::string output;                 ///< path
-    std::optional<NumberedPath> files;  ///< where every frame gets a file
-    bool is_video = false;              ///< otherwise, without files, a picture of the last frame
+    std::optional<NumberedPath> files;  ///< set if every frame gets a file
+    bool is_video = false;              ///< if neither this nor files is set, the output is the last frame
     std::string preset = "figure-3.12";
-    droplet::WindshieldParameters parameters;  ///< but for what files tell
+    droplet::WindshieldParameters parameters;  ///< without the content of files
     droplet::Glass::Cylinder cylinder;
     std::optional<std::string> surface;
     std::optional<std::string> drive_cycle;
     std::optional<double> wiper;  ///< period [s]
-    droplet::ViewOptions view;    ///< but for a size that is not asked for
-    bool sized = false;
+    droplet::ViewOptions view;    ///< without the frame's size, unless `sized`
+    bool sized = false;           ///< whether --size is given
     std::optional<std::string> background;
     std::optional<std::string> environment;
     bool fit = false;  ///< scale and crop the background
     bool layer = false;
     std::optional<std::string> codec;
-    double quality = kVideoQuality;  ///< of a video, 1 … 100
+    double quality = kVideoQuality;  ///< quality of a video, 1 … 100
     std::optional<NumberedPath> maps;
     bool are_maps_exr = false;  ///< otherwise PNG
     droplet::GlassMapOptions map;
@@ -42,20 +42,20 @@ struct WindshieldOptions {
     double warm_up = 10.0;           ///< [s]
     double frames_per_second = 30.0;
     std::optional<std::string> droplets;
-    bool moving_only = false;  ///< no rows of droplets at rest
+    bool moving_only = false;  ///< leave droplets at rest out of the table
     std::optional<std::string> model;
     droplet::SceneAnimation model_animation = droplet::SceneAnimation::Nodes;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;
-    std::string fingerprint;  ///< of all options that tell what the frames show
+    std::string fingerprint;  ///< all options that decide what the frames show
     std::optional<std::string> config;
     std::optional<std::size_t> threads;
     droplet::OutputOptions output_options;
     bool quiet = false;
 };
 
-/// Reads the command line, and the configuration file it names.
-/// @return                the job, or text for standard output if --help or --version asked for it
+/// Reads the command line and the configuration file that it names.
+/// @return                the options, or the text that --help or --version prints
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const char* const* argv);
 

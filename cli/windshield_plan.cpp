@@ -16,46 +16,46 @@ namespace {
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// A drive cycle that begins at 0, held to what the options are held to.
-/// @param whole  all of it is to be played
+/// Reads a drive cycle and moves its beginning to 0; the limits are those of --speed and --time.
+/// @param whole  whether all of the cycle is shown
 droplet::DriveCycle driveCycleFrom(const std::string& path, bool whole)
 {
     droplet::DriveCycle cycle = droplet::readDriveCycle(path);
-    const auto refuse_file = [&](const std::string& words) {
-        throw Error(ErrorCode::InvalidInput, path + ": " + words);
+    const auto refuse_file = [&](const std::string& reason) {
+        throw Error(ErrorCode::InvalidInput, path + ": " + reason);
     };
-    constexpr double kFastest = 150.0;  // as of --speed
+    constexpr double kFastest = 150.0;  // limit of --speed
     const double fastest = *std::max_element(cycle.speeds.begin(), cycle.speeds.end());
     if (fastest > kFastest) {
-        refuse_file(fmt::format("goes at {:.6g} m/s; a car may go at 150 m/s at most", fastest));
+        refuse_file(fmt::format("has a speed of {:.6g} m/s; at most 150 m/s is allowed", fastest));
     }
     const double first = cycle.times.front();
     for (double& time : cycle.times) {
         time -= first;
     }
-    constexpr double kLongest = 86400.0;  // as of --time
+    constexpr double kLongest = 86400.0;  // limit of --time
     if (whole && cycle.times.back() > kLongest) {
-        refuse_file("lasts longer than 24h: --time tells how much of it to play");
+        refuse_file("lasts longer than 24h; give --time to show a part of it");
     }
     return cycle;
 }
 
-/// The glass that a surface is, and a warning if it is not one that can be rolled out.
+/// Reads the glass from a surface, and adds a warning if its texture coordinates do not preserve lengths.
 droplet::Glass glassFrom(const std::string& surface, std::vector<std::string>& warnings)
 {
     const droplet::TexturedMesh object = droplet::readObject(surface);
     droplet::Glass glass = forOption(surface, [&] { return droplet::Glass(object, {}); });
-    constexpr double kBent = 0.02;
-    if (glass.maxStretch() > 1.0 + kBent || glass.minStretch() < 1.0 - kBent) {
-        warnings.push_back(
-            fmt::format("{}: rolled out by its uv, lengths are {:.3g} to {:.3g} times what they are on the rolled out "
-                        "glass",
-                        surface, glass.minStretch(), glass.maxStretch()));
+    constexpr double kMaxError = 0.02;
+    if (glass.maxStretch() > 1.0 + kMaxError || glass.minStretch() < 1.0 - kMaxError) {
+        warnings.push_back(fmt::format(
+            "{}: droplets will be distorted: lengths on the surface are {:.3g} to {:.3g} times those in its "
+            "texture coordinates; unwrap it with less distortion",
+            surface, glass.minStretch(), glass.maxStretch()));
     }
     return glass;
 }
 
-/// A surface may face away from the rain, above all if its triangles are the wrong way round.
+/// Refuses a surface that faces away from the rain everywhere, as it does if its triangles have the wrong winding.
 void requireRain(const std::string& surface, const droplet::WindshieldParameters& parameters)
 {
     const droplet::Glass& glass = parameters.glass;
@@ -70,8 +70,10 @@ void requireRain(const std::string& surface, const droplet::WindshieldParameters
             }
         }
     }
-    throw Error(ErrorCode::InvalidInput,
-                surface + ": no rain meets it: its triangles face downward, backward or inward");
+    throw Error(
+        ErrorCode::InvalidInput,
+        surface +
+            ": rain cannot reach it: its triangles face downward, backward or inward; normals must point outward");
 }
 
 }  // namespace
@@ -91,7 +93,7 @@ WindshieldPlan planOf(const WindshieldOptions& options)
         parameters.wipers = droplet::tandemWipers(parameters.glass, *options.wiper);
     }
     const double duration = options.duration.value_or(options.drive_cycle ? parameters.vehicle.times.back() : 10.0);
-    // The cycle begins with the first frame.
+    // The cycle begins at the first frame.
     for (double& time : parameters.vehicle.times) {
         time += options.warm_up;
     }
@@ -101,7 +103,7 @@ WindshieldPlan planOf(const WindshieldOptions& options)
     }
     plan.frames =
         std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
-    // No step is longer than a sixtieth of a second, and each frame is one.
+    // A frame is a whole number of steps of at most a sixtieth of a second.
     constexpr double kLongest = 1.0 / 60.0;
     plan.steps = static_cast<std::size_t>(std::ceil(1.0 / (kLongest * options.frames_per_second) - 1e-9));
     plan.step = 1.0 / (options.frames_per_second * static_cast<double>(plan.steps));

@@ -10,19 +10,20 @@
 
 namespace cli {
 
-/// What a run plays: the options with what their files hold.
+/// Parameters of a run: the options with the content of their files.
 struct WindshieldPlan {
     droplet::WindshieldParameters parameters;
     std::size_t frames = 0;
-    std::size_t steps = 1;  ///< for each frame
-    double step = 0.0;      ///< [s]
+    std::size_t steps = 1;  ///< time steps per frame
+    double step = 0.0;      ///< time step [s]
     std::vector<std::string> warnings;
 };
 
+/// Reads the options' files and makes the plan.
 /// @throws droplet::Error InvalidArgument, InvalidInput
 WindshieldPlan planOf(const WindshieldOptions& options);
 
-/// Runs what may find the glass unfit, and puts its file's or option's name before the complaint.
+/// Runs a function that may reject the glass, and puts the name of its file or options before the error message.
 template <typename Function>
 void forGlass(const WindshieldOptions& options, const Function& function)
 {
@@ -30,7 +31,8 @@ void forGlass(const WindshieldOptions& options, const Function& function)
         function();
     } catch (const droplet::Error& error) {
         if (options.surface) {
-            throw droplet::Error(droplet::ErrorCode::InvalidInput, *options.surface + ": as a glass: " + error.what());
+            throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                                 *options.surface + ": cannot be used as a windshield: " + error.what());
         }
         throw droplet::Error(error.code(),
                              std::string("--glass-width, --eye-distance, --eye, --look-at: ") + error.what());

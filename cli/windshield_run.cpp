@@ -30,18 +30,20 @@ class WindshieldRun {
 public:
     explicit WindshieldRun(const WindshieldOptions& options);
 
-    droplet::WindshieldReport play();
+    droplet::WindshieldReport execute();
 
 private:
-    /// Everything before the first frame, or where an interrupted run stood.
+    /// Simulates the warm-up, or resumes an interrupted run.
     void begin();
-    /// Goes on where an interrupted run stood, as far as it may.
-    /// @return whether it was the checkpoint's state to go on from; otherwise it begins anew
+    /// Resumes from the checkpoint, if that is possible.
+    /// @return whether the state is now that of the checkpoint; otherwise the run starts from the first frame
     bool resume();
+    /// Simulates one time step.
     void advance();
-    void noteBalance();
+    void recordBalance();
+    /// Moves the car by one frame.
     void travel();
-    /// Plays and draws all frames that are left.
+    /// Simulates and draws all remaining frames.
     void run();
     void finish();
     void showProgress() const;
@@ -54,10 +56,10 @@ private:
     std::optional<droplet::DropletTable> table_;
     std::optional<droplet::DropletScene> scene_;
     droplet::WindshieldState state_;
-    std::size_t played_ = 0;        ///< frames
-    std::size_t drawn_before_ = 0;  ///< frames that an interrupted run left
+    std::size_t done_ = 0;          ///< number of simulated frames
+    std::size_t drawn_before_ = 0;  ///< number of frames drawn by an interrupted run
     std::size_t travelled_frames_ = 0;
-    double travelled_ = 0.0;  ///< since the first frame [m]
+    double travelled_ = 0.0;  ///< distance since the first frame [m]
     droplet::WindshieldReport report_;
 };
 
@@ -83,7 +85,7 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options)
     report_.warnings = plan_.warnings;
 }
 
-droplet::WindshieldReport WindshieldRun::play()
+droplet::WindshieldReport WindshieldRun::execute()
 {
     begin();
     std::vector<OutputFile> files;
@@ -94,7 +96,7 @@ droplet::WindshieldReport WindshieldRun::play()
         files.push_back({options_.output, {}});
     }
     if (options_.droplets) {
-        // Rows are written as they come: the table is open for the whole run.
+        // Rows are written at once, so the table is open during the whole run.
         files.front().write = [&](std::ostream& out) {
             const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
             table_.emplace(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, report_.view.shape);
@@ -150,15 +152,15 @@ bool WindshieldRun::resume()
     const std::string path = checkpointPath(*options_.files);
     const auto checkpoint = options_.resume ? readCheckpoint(path) : std::optional<Checkpoint>();
     if (!checkpoint) {
-        // Another run's must not be taken for this one's.
+        // The checkpoint of another run must not be used for this one.
         removeCheckpoint(path, options_.output_options);
         return false;
     }
     if (checkpoint->fingerprint != fingerprint_) {
-        refuse("--resume: " + path + " is of a run with other options or files");
+        refuse("--resume: " + path + " belongs to a run with other options or files");
     }
     if (checkpoint->frames > plan_.frames) {
-        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames stand already, and --time asks for " +
+        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
                std::to_string(plan_.frames));
     }
     drawn_before_ = checkpoint->frames;
@@ -166,32 +168,32 @@ bool WindshieldRun::resume()
     for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
         is_whole = hasFrame(options_, number);
     }
-    // What is told of every frame has to be played again, as has what is missing.
+    // Tables and models need every frame to be simulated again, and so do missing files.
     if (options_.droplets || options_.model || !is_whole) {
         return false;
     }
     state_ = checkpoint->state;
     report_.balance = checkpoint->balance;
-    played_ = checkpoint->frames;
-    for (std::size_t k = 1; k < played_; ++k) {
+    done_ = checkpoint->frames;
+    for (std::size_t k = 1; k < done_; ++k) {
         travel();
     }
-    frames_.skip(played_);
+    frames_.skip(done_);
     return true;
 }
 
 void WindshieldRun::advance()
 {
-    // Steps add up to seconds but for rounding.
+    // Steps add up to full seconds, except for rounding.
     const auto second = [&] { return std::floor(state_.time + 1e-6); };
     const double before = second();
     state_ = droplet::step(std::move(state_), plan_.parameters, plan_.step);
     if (second() > before) {
-        noteBalance();
+        recordBalance();
     }
 }
 
-void WindshieldRun::noteBalance()
+void WindshieldRun::recordBalance()
 {
     report_.balance.push_back(balanceRow(state_, plan_.parameters.vehicle.speedAt(state_.time)));
 }
@@ -206,35 +208,35 @@ void WindshieldRun::travel()
 void WindshieldRun::run()
 {
     const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
-    for (; played_ < plan_.frames; ++played_) {
-        if (played_ > 0) {
+    for (; done_ < plan_.frames; ++done_) {
+        if (done_ > 0) {
             for (std::size_t k = 0; k < plan_.steps; ++k) {
                 advance();
             }
             travel();
         }
         if (table_) {
-            table_->add(played_ + 1, state_,
+            table_->add(done_ + 1, state_,
                         options_.moving_only ? droplet::DropletRows::Moving : droplet::DropletRows::All);
         }
         if (scene_) {
             scene_->add(state_);
         }
-        if (played_ >= drawn_before_ || !hasFrame(options_, played_ + 1)) {
-            frames_.draw(state_, played_ + 1, played_ + 1 == plan_.frames,
+        if (done_ >= drawn_before_ || !hasFrame(options_, done_ + 1)) {
+            frames_.draw(state_, done_ + 1, done_ + 1 == plan_.frames,
                          {travelled_, plan_.parameters.vehicle.speedAt(state_.time)});
         } else {
             frames_.skip(1);
         }
-        if (options_.files && played_ + 1 > drawn_before_ && (played_ + 1) % second == 0) {
+        if (options_.files && done_ + 1 > drawn_before_ && (done_ + 1) % second == 0) {
             frames_.wait();
-            writeCheckpoint(checkpointPath(*options_.files), {fingerprint_, played_ + 1, report_.balance, state_});
+            writeCheckpoint(checkpointPath(*options_.files), {fingerprint_, done_ + 1, report_.balance, state_});
         }
         showProgress();
     }
     frames_.wait();
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
-        noteBalance();
+        recordBalance();
     }
     report_.counts = state_.counts;
 }
@@ -248,16 +250,16 @@ void WindshieldRun::finish()
 void WindshieldRun::showProgress() const
 {
     if (!options_.quiet && errorIsTerminal()) {
-        std::cerr << "\rframe " << played_ + 1 << " of " << plan_.frames << (played_ + 1 == plan_.frames ? "\n" : "")
+        std::cerr << "\rframe " << done_ + 1 << " of " << plan_.frames << (done_ + 1 == plan_.frames ? "\n" : "")
                   << std::flush;
     }
 }
 
 }  // namespace
 
-droplet::WindshieldReport playWindshield(const WindshieldOptions& options)
+droplet::WindshieldReport simulateWindshield(const WindshieldOptions& options)
 {
-    return WindshieldRun(options).play();
+    return WindshieldRun(options).execute();
 }
 
 }  // namespace cli

@@ -6,8 +6,8 @@
 
 namespace cli {
 
-/// Plays rain on a windshield and writes all that is asked for.
-/// @throws droplet::Error
-droplet::WindshieldReport playWindshield(const WindshieldOptions& options);
+/// Simulates rain on a windshield and writes all outputs.
+/// @throws droplet::Error on any failure
+droplet::WindshieldReport simulateWindshield(const WindshieldOptions& options);
 
 }  // namespace cli

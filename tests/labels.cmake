@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# ctest reads this when it has found the tests of a program: gives `tests` their `labels`, for which gtest_discover_tests
-# takes but one. `slow` are series of meshes whose numbers take ten seconds and more under sanitizers, and which enter no
-# code that smaller tests do not; there they run with scripts/test --all.
+# Gives `tests` their `labels`; ctest reads this file after it has found the tests of a program. gtest_discover_tests
+# accepts only one label. Tests labelled `slow` are series of meshes that take ten seconds or more under sanitizers and
+# cover no code that smaller tests do not; under sanitizers they run only with scripts/test --all.
 string(JOIN "|" slow
   ConstrainedSolver.Solves
   Exact.NamesTheDroplet Exact.NearlyAHemisphere Exact.NewtonSteps Exact.RefusesMoreThan Exact.SteepCaps

@@ -5,7 +5,7 @@ _droplet_shape()
 {
     COMPREPLY=()
     local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]}
-    # bash takes the '=' of --option=value for a word of its own.
+    # bash splits --option=value into three words.
     if [[ $word == = ]]; then
         word=
     elif [[ $previous == = ]]; then

@@ -4,7 +4,7 @@ import sys
 
 import numpy
 
-numpy.bool = bool  # the importer of Debian 12's Blender uses a name that Debian 12's numpy no longer has
+numpy.bool = bool  # Blender's importer in Debian 12 uses a name that its numpy no longer has
 
 import bpy
 from mathutils import Vector
@@ -16,11 +16,11 @@ droplet = next(item for item in bpy.data.objects if item.type == "MESH")
 size = max(droplet.dimensions)
 
 
-def aimed(place, target):
-    return (Vector(target) - Vector(place)).to_track_quat("-Z", "Y").to_euler()
+def aimed(position, target):
+    return (Vector(target) - Vector(position)).to_track_quat("-Z", "Y").to_euler()
 
 
-# Just below the droplet, so that two surfaces do not lie in one place.
+# The ground is slightly below the droplet, so that the surfaces do not coincide.
 bpy.ops.mesh.primitive_plane_add(size=40 * size, location=(0, 0, -1e-3 * size))
 ground = bpy.data.materials.new("ground")
 ground.use_nodes = True
@@ -45,7 +45,7 @@ bpy.context.object.data.size = 0.8 * size
 eye = (0, -1.25 * size, 1.15 * size)
 bpy.ops.object.camera_add(location=eye, rotation=aimed(eye, (0, 0.02 * size, 0)))
 scene.camera = bpy.context.object
-scene.camera.data.clip_start = 0.01 * size  # a droplet is nearer than Blender's 10 cm
+scene.camera.data.clip_start = 0.01 * size  # a droplet is nearer than Blender's default of 10 cm
 scene.camera.data.lens = 45
 scene.render.engine = "CYCLES"
 scene.cycles.samples = 64

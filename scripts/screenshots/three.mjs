@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture of examples/three with a droplet: node three.mjs CHROMIUM PLAYWRIGHT_FOLDER THREE_FOLDER DROPLET_GLB PICTURE_PNG
+// Takes a picture of examples/three with a droplet: node three.mjs CHROMIUM PLAYWRIGHT_FOLDER THREE_FOLDER DROPLET_GLB PICTURE_PNG
 import { createServer } from 'node:http';
 import { readFileSync } from 'node:fs';
 import { extname } from 'node:path';

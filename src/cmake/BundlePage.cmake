@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The page that --html writes: npm brings three.js and esbuild as the lock file says, esbuild makes one script of it
-# and the sources in src/page, and what comes out is compiled into the library. Sets page_parts to that source file.
+# Bundles the page that --html writes. npm installs three.js and esbuild by the lock file; esbuild makes one script of
+# three.js and the sources in src/page; the result is compiled into the library. Sets page_parts to that source file.
 set(page_dir ${PROJECT_BINARY_DIR}/page)
 set(page_sources ${PROJECT_SOURCE_DIR}/src/page)
 foreach(tool npm node)
   string(TOUPPER ${tool} variable)
   find_program(${variable} ${tool})
   if(NOT ${variable})
-    message(FATAL_ERROR "${tool} is missing, which bundles the page that --html writes. scripts/setup installs it; "
-      "-DDROPLET_PAGE=OFF builds without the page.")
+    message(FATAL_ERROR "${tool} is missing; it is needed to bundle the page that --html writes. Install it with "
+      "scripts/setup, or build without the page with -DDROPLET_PAGE=OFF.")
   endif()
 endforeach()
 
-# npm installs beside its lock file, which must not happen in the source tree.
+# npm installs beside its lock file, so the file is copied out of the source tree.
 add_custom_command(
   OUTPUT ${page_dir}/installed
   COMMAND ${CMAKE_COMMAND} -E make_directory ${page_dir}
@@ -32,5 +32,5 @@ add_custom_command(
   WORKING_DIRECTORY ${page_dir}
   DEPENDS ${page_dir}/installed ${page_files}
   COMMENT "Bundling the page")
-# Its string literals are longer than every compiler must take; those we build with do.
+# Its string literals are longer than the standard guarantees; the supported compilers accept them.
 set_source_files_properties(${page_parts} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)

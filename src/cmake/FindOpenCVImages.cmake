@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Finds the modules of OpenCV named as components, imgproc or imgcodecs, without the package of all modules.
-# Defines OpenCVImages::core, OpenCVImages::imgproc, OpenCVImages::imgcodecs, each as far as it is there.
+# Finds the OpenCV modules imgproc and imgcodecs, as components, without the package of all modules.
+# Defines OpenCVImages::core, OpenCVImages::imgproc, OpenCVImages::imgcodecs, each if it is found.
 find_path(OpenCVImages_INCLUDE_DIR opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 mark_as_advanced(OpenCVImages_INCLUDE_DIR)
 set(_below)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sequences from the outside: frames from anywhere, animations and files, report, complaints.
+// `droplet-shape animate`: inputs, animations and files, report, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 using testing::writeFile;
 
-/// Two discs that approach and merge in the fourth of five frames, 64 × 48 pixels, edges smooth.
+/// Two discs that approach and merge in the fourth of five frames; 64 × 48 pixels, smooth edges.
 std::string picture(int frame)
 {
     const double x = 14.0 + 4.0 * std::min(frame, 4);
@@ -103,7 +103,7 @@ protected:
         EXPECT_EQ(bytesOf("old.glb"), "an older file\n");
     }
 
-    /// A lossless video of the frames.
+    /// Makes a lossless video of the frames.
     void makeVideo() const
     {
         CommandOptions options;
@@ -112,7 +112,7 @@ protected:
             runProgram({"ffmpeg", "-v", "error", "-framerate", "10", "-start_number", "8", "-i", "frames/f%04d.pgm",
                         "-c:v", "ffv1", "-pix_fmt", "gray", "-fflags", "+bitexact", "film.mkv"},
                        options);
-        ASSERT_EQ(made.exit_code, 0) << "ffmpeg (Debian: ffmpeg) makes the video\n" << made.error;
+        ASSERT_EQ(made.exit_code, 0) << "ffmpeg is needed to make the video\n" << made.error;
     }
 
 private:
@@ -130,35 +130,35 @@ std::vector<double> volumes(const json& report)
 
 TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
 {
-    const json told = report({"frames/f%04d.pgm", "film.glb", "--volume", "20uL", "--fps", "12.5"});
+    const json result = report({"frames/f%04d.pgm", "film.glb", "--volume", "20uL", "--fps", "12.5"});
     EXPECT_THAT(bytesOf("film.glb"), StartsWith("glTF"));
-    EXPECT_EQ(told["schema"], "droplet-shape.sequence/1");
-    EXPECT_EQ(told["volume_mode"], "total");
-    EXPECT_EQ(told["output"]["frames_per_second"], 12.5);
-    EXPECT_EQ(told["output"]["bytes"], bytesOf("film.glb").size());
-    EXPECT_EQ(told["fill"]["sharing"], "total");
-    ASSERT_THAT(told["frames"], SizeIs(5));
-    for (const json& frame : told["frames"]) {
+    EXPECT_EQ(result["schema"], "droplet-shape.sequence/1");
+    EXPECT_EQ(result["volume_mode"], "total");
+    EXPECT_EQ(result["output"]["frames_per_second"], 12.5);
+    EXPECT_EQ(result["output"]["bytes"], bytesOf("film.glb").size());
+    EXPECT_EQ(result["fill"]["sharing"], "total");
+    ASSERT_THAT(result["frames"], SizeIs(5));
+    for (const json& frame : result["frames"]) {
         EXPECT_NEAR(frame["volume_ul"].get<double>(), 20.0, 20e-9);
         EXPECT_TRUE(frame["closed"].get<bool>());
         EXPECT_EQ(frame["volume_gained_m3"], 0.0);
     }
-    EXPECT_EQ(told["frames"][0]["input"], "frames/f0008.pgm");
-    EXPECT_THAT(told["frames"][0]["droplets"], SizeIs(2));
-    EXPECT_THAT(told["frames"][4]["droplets"], SizeIs(1));
-    EXPECT_EQ(told["transitions"]["count"], 4);
-    EXPECT_EQ(told["transitions"]["vertices_kept"], 2);
-    EXPECT_GT(told["transitions"]["vertices_kept_share"].get<double>(), 0.5);
-    EXPECT_TRUE(told["frames"][1]["continues"].get<bool>());
-    EXPECT_EQ(told["input"]["width_px"], 64);
+    EXPECT_EQ(result["frames"][0]["input"], "frames/f0008.pgm");
+    EXPECT_THAT(result["frames"][0]["droplets"], SizeIs(2));
+    EXPECT_THAT(result["frames"][4]["droplets"], SizeIs(1));
+    EXPECT_EQ(result["transitions"]["count"], 4);
+    EXPECT_EQ(result["transitions"]["vertices_kept"], 2);
+    EXPECT_GT(result["transitions"]["vertices_kept_share"].get<double>(), 0.5);
+    EXPECT_TRUE(result["frames"][1]["continues"].get<bool>());
+    EXPECT_EQ(result["input"]["width_px"], 64);
 }
 
-TEST_F(AnimateTest, TracksDropletsThroughAMerger)
+TEST_F(AnimateTest, TracksDropletsWhenTheyMerge)
 {
-    const json told = report({"frames/f%04d.pgm", "film.glb", "--volume-mode", "track"});
-    const json& frames = told["frames"];
+    const json result = report({"frames/f%04d.pgm", "film.glb", "--volume-mode", "track"});
+    const json& frames = result["frames"];
     const double all = frames[0]["volume_m3"];
-    for (const double volume : volumes(told)) {
+    for (const double volume : volumes(result)) {
         EXPECT_NEAR(volume / all, 1.0, 1e-9);
     }
     EXPECT_NEAR(frames[0]["droplets"][0]["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6);
@@ -169,13 +169,13 @@ TEST_F(AnimateTest, TracksDropletsThroughAMerger)
     const auto merger =
         std::find_if(frames.begin(), frames.end(), [](const json& frame) { return frame["droplets"].size() == 1; });
     EXPECT_THAT((*merger)["droplets"][0]["from"], SizeIs(2));
-    // The larger of the two.
+    // The merged droplet keeps the identity of the larger one.
     const json& before = (*(merger - 1))["droplets"];
     const std::size_t larger = before[0]["volume_m3"] > before[1]["volume_m3"] ? 0 : 1;
     EXPECT_EQ((*merger)["droplets"][0]["id"], before[larger]["id"]);
 }
 
-TEST_F(AnimateTest, FramesComeFromAPatternAFolderAListOrAVideo)
+TEST_F(AnimateTest, ReadsFramesFromAPatternAFolderAListOrAVideo)
 {
     make({"frames/f%04d.pgm", "pattern.glb"});
     make({"frames", "folder.glb"});
@@ -184,14 +184,14 @@ TEST_F(AnimateTest, FramesComeFromAPatternAFolderAListOrAVideo)
     EXPECT_EQ(bytesOf("folder.glb"), bytesOf("pattern.glb"));
     EXPECT_EQ(bytesOf("list.glb"), bytesOf("pattern.glb"));
     ASSERT_NO_FATAL_FAILURE(makeVideo());
-    const json told = report({"film.mkv", "video.glb"});
-    EXPECT_EQ(told["output"]["frames_per_second"], 10.0) << "the video's own";
-    EXPECT_EQ(told["frames"][2]["input"], "film.mkv, frame 3");
+    const json result = report({"film.mkv", "video.glb"});
+    EXPECT_EQ(result["output"]["frames_per_second"], 10.0) << "frame rate of the video";
+    EXPECT_EQ(result["frames"][2]["input"], "film.mkv, frame 3");
     make({"film.mkv", "video.glb", "--fps", "24"});
     EXPECT_EQ(bytesOf("video.glb"), bytesOf("pattern.glb"));
 }
 
-TEST_F(AnimateTest, AFolderIsInTheOrderOfItsNumbers)
+TEST_F(AnimateTest, ReadsAFolderInTheOrderOfItsNumbers)
 {
     fs::create_directory(directory() / "loose");
     for (int frame = 0; frame < 5; ++frame) {
@@ -203,10 +203,10 @@ TEST_F(AnimateTest, AFolderIsInTheOrderOfItsNumbers)
     EXPECT_EQ(bytesOf("loose.glb"), bytesOf("frames.glb"));
 }
 
-TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
+TEST_F(AnimateTest, WritesOneFilePerFrame)
 {
     fs::create_directory(directory() / "out");
-    const json told = report({"frames/f%04d.pgm", "out/%03d.obj"});
+    const json result = report({"frames/f%04d.pgm", "out/%03d.obj"});
     std::vector<std::string> names;
     std::uintmax_t bytes = 0;
     for (const auto& entry : fs::directory_iterator(directory() / "out")) {
@@ -216,9 +216,9 @@ TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
     std::sort(names.begin(), names.end());
     EXPECT_THAT(names, ElementsAre("008.mtl", "008.obj", "009.mtl", "009.obj", "010.mtl", "010.obj", "011.mtl",
                                    "011.obj", "012.mtl", "012.obj"));
-    EXPECT_EQ(told["output"]["bytes"], bytes);
-    EXPECT_EQ(told["frames"][1]["output"], "out/009.obj");
-    // Its first frame is what the main job makes of that picture.
+    EXPECT_EQ(result["output"]["bytes"], bytes);
+    EXPECT_EQ(result["frames"][1]["output"], "out/009.obj");
+    // The first frame is the droplet of its picture alone.
     CommandOptions options;
     options.directory = directory();
     ASSERT_EQ(
@@ -228,7 +228,7 @@ TEST_F(AnimateTest, EveryFrameMayHaveAFileOfItsOwn)
     EXPECT_EQ(bytesOf("out/008.mtl"), bytesOf("008.mtl"));
 }
 
-TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
+TEST_F(AnimateTest, ContactSheetHasATileForEveryFrame)
 {
     make({"frames", "film.glb", "--contact-sheet", "sheet.png"});
     const auto size = [&](const std::string& file) {
@@ -252,7 +252,7 @@ TEST_F(AnimateTest, AContactSheetHasATileForEveryFrame)
     EXPECT_EQ(bytesOf("again.png"), bytesOf("sheet.png"));
 }
 
-TEST_F(AnimateTest, PreviewsAreFramesOfOneCameraOrAVideo)
+TEST_F(AnimateTest, WritesPreviewsAsPicturesOrAVideo)
 {
     writeFile(directory() / "frames/f0010.pgm", greymap(64, 48, [](int, int) { return 0; }));
     fs::create_directory(directory() / "seen");
@@ -278,7 +278,7 @@ TEST_F(AnimateTest, PreviewsAreFramesOfOneCameraOrAVideo)
     expectFailure({"frames/f%04d.pgm", "old.glb", "--preview", "old.glb"}, 2, {"--preview"});
 }
 
-TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
+TEST_F(AnimateTest, GivesTheSameBytesWithAnyNumberOfThreads)
 {
     for (const char* mode : {"total", "track"}) {
         make({"frames", "one.glb", "--volume-mode", mode, "-j", "1"});
@@ -287,7 +287,7 @@ TEST_F(AnimateTest, GivesTheSameBytesAtAnyNumberOfThreads)
     }
 }
 
-TEST_F(AnimateTest, SaysWhatItDid)
+TEST_F(AnimateTest, PrintsASummary)
 {
     const auto result = run({"frames", "film.glb", "--volume", "20uL"});
     EXPECT_EQ(result.exit_code, 0);
@@ -298,7 +298,7 @@ TEST_F(AnimateTest, SaysWhatItDid)
     EXPECT_THAT(piped.output, StartsWith("glTF"));
 }
 
-TEST_F(AnimateTest, ComplainsOfFramesByTheirNames)
+TEST_F(AnimateTest, NamesTheFrameInErrors)
 {
     expectFailure({"frames/g%04d.pgm", "old.glb"}, 3, {"frames/g%04d.pgm", "no such file"});
     expectFailure({"nowhere/%d.pgm", "old.glb"}, 3, {"nowhere", "No such file"});
@@ -311,9 +311,9 @@ TEST_F(AnimateTest, ComplainsOfFramesByTheirNames)
     expectFailure({"empty", "old.glb"}, 3, {"empty", "no picture"});
 }
 
-TEST_F(AnimateTest, OneFrameDecidesForAllWhatIsLiquid)
+TEST_F(AnimateTest, OneFrameDecidesForAllFramesWhatIsLiquid)
 {
-    // A dark disc that grows over the border, after a page without one.
+    // An empty page, then a dark disc that grows over the border.
     for (int frame = 8; frame <= 12; ++frame) {
         const double radius = frame == 8 ? -5.0 : 6.0 * (frame - 8) + 4.0;
         writeFile(directory() / "frames" / name(frame - 8), greymap(64, 48, [=](int i, int j) {
@@ -322,22 +322,23 @@ TEST_F(AnimateTest, OneFrameDecidesForAllWhatIsLiquid)
                   }));
     }
     writeFile(directory() / "frames" / name(4), greymap(64, 48, [](int i, int) { return i < 2 ? 255 : 0; }));
-    const auto told = report({"frames", "film.glb", "--width", "64mm"});
+    const auto result = report({"frames", "film.glb", "--width", "64mm"});
     std::vector<double> areas;
-    for (const json& frame : told["frames"]) {
+    for (const json& frame : result["frames"]) {
         areas.push_back(1e6 * frame["footprint_area_m2"].get<double>());
     }
     EXPECT_EQ(areas[0], 0.0);
     EXPECT_NEAR(areas[1], M_PI * 100.0, 3.0);
     EXPECT_NEAR(areas[3], M_PI * 22.0 * 22.0, 6.0);
     EXPECT_NEAR(areas[4], 62.0 * 48.0, 6.0);
-    ASSERT_THAT(told["warnings"], ElementsAre(HasSubstr("frame 5 by itself")));
-    EXPECT_THAT(told["warnings"][0].get<std::string>(), HasSubstr("as frames/f0009.pgm, by luma with dark as liquid"));
+    ASSERT_THAT(result["warnings"], ElementsAre(HasSubstr("frame 5 by itself")));
+    EXPECT_THAT(result["warnings"][0].get<std::string>(),
+                HasSubstr("like frames/f0009.pgm, by luma with dark as liquid"));
 }
 
-// One level cannot tell liquid from ground in this light: a first frame that is taken as a photograph decides so for
-// all, and so paper without liquid is known for what it is, first or last.
-TEST_F(AnimateTest, APhotographFirstMakesAllFramesPhotographs)
+// In this light, no single level separates liquid from ground. If the first clear frame is read as a photograph, so are
+// all others, and paper without liquid is recognised as dry, first or last.
+TEST_F(AnimateTest, PhotographMakesAllFramesPhotographs)
 {
     fs::create_directory(directory() / "light");
     const auto shoot = [&](const char* name, double brightness, bool wet) {
@@ -373,21 +374,21 @@ TEST_F(AnimateTest, APhotographFirstMakesAllFramesPhotographs)
     }
 }
 
-TEST_F(AnimateTest, FramesWithoutLiquidAreFrames)
+TEST_F(AnimateTest, AllowsFramesWithoutLiquid)
 {
     const auto dry = greymap(64, 48, [](int, int) { return 0; });
     writeFile(directory() / "frames/f0008.pgm", dry);
     writeFile(directory() / "frames/f0010.pgm", dry);
-    const json told = report({"frames", "film.glb", "--volume", "20uL", "--contact-sheet", "sheet.png"});
-    ASSERT_THAT(told["frames"], SizeIs(5));
-    EXPECT_THAT(volumes(told), ElementsAre(0.0, ::testing::DoubleNear(20e-9, 1e-16), 0.0,
-                                           ::testing::DoubleNear(20e-9, 1e-16), ::testing::DoubleNear(20e-9, 1e-16)));
-    const json& pause = told["frames"][2];
+    const json result = report({"frames", "film.glb", "--volume", "20uL", "--contact-sheet", "sheet.png"});
+    ASSERT_THAT(result["frames"], SizeIs(5));
+    EXPECT_THAT(volumes(result), ElementsAre(0.0, ::testing::DoubleNear(20e-9, 1e-16), 0.0,
+                                             ::testing::DoubleNear(20e-9, 1e-16), ::testing::DoubleNear(20e-9, 1e-16)));
+    const json& pause = result["frames"][2];
     EXPECT_THAT(pause["droplets"], IsEmpty());
     EXPECT_TRUE(pause["pressure_pa"].is_null());
     EXPECT_TRUE(pause["contact_angle_deg"]["mean"].is_null());
     EXPECT_NEAR(pause["volume_lost_m3"].get<double>(), 20e-9, 1e-16);
-    EXPECT_NEAR(told["frames"][3]["volume_gained_m3"].get<double>(), 20e-9, 1e-16);
+    EXPECT_NEAR(result["frames"][3]["volume_gained_m3"].get<double>(), 20e-9, 1e-16);
     fs::create_directory(directory() / "out");
     for (const char* kind : {"obj", "ply", "stl", "glb", "gltf"}) {
         make({"frames/f%04d.pgm", std::string("out/%d.") + kind});
@@ -402,7 +403,7 @@ TEST_F(AnimateTest, FramesWithoutLiquidAreFrames)
     EXPECT_TRUE(fs::is_empty(directory() / "none"));
 }
 
-TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)
+TEST_F(AnimateTest, ReportsUnreadableVideosAndMissingFfmpeg)
 {
     writeFile(directory() / "film.mkv", "no video");
     expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe cannot read it"});
@@ -416,9 +417,9 @@ TEST_F(AnimateTest, ComplainsOfVideosAndOfFfmpeg)
     expectFailure({"film.mkv", "old.glb"}, 3, {"film.mkv", "ffprobe, which cannot be run"}, without);
 }
 
-TEST_F(AnimateTest, VideosThatAreCutOffAreToldSo)
+TEST_F(AnimateTest, ReportsVideosThatAreCutOff)
 {
-    // Of Matroska, ffmpeg itself makes little of it; AVI says how many frames there are.
+    // ffmpeg only warns about a cut Matroska file; AVI states the number of frames.
     CommandOptions options;
     options.directory = directory();
     for (const std::string name : {"film.mkv", "film.avi", "film.mp4"}) {
@@ -431,7 +432,7 @@ TEST_F(AnimateTest, VideosThatAreCutOffAreToldSo)
         fs::resize_file(directory() / name, fs::file_size(directory() / name) * 3 / 4);
         expectFailure({name, "old.glb"}, 3, {name, "is cut off or damaged after frame "});
     }
-    // One that was trimmed without being encoded again holds frames that it does not show.
+    // A video that was trimmed without new encoding contains frames that it does not show.
     const auto trimmed = runProgram({"ffmpeg", "-v", "error", "-framerate", "10", "-start_number", "8", "-i",
                                      "frames/f%04d.pgm", "-c:v", "mpeg4", "-q:v", "1", "long.mp4"},
                                     options);
@@ -443,7 +444,7 @@ TEST_F(AnimateTest, VideosThatAreCutOffAreToldSo)
     EXPECT_EQ(run({"trimmed.mp4", "trimmed.glb"}).exit_code, 0);
 }
 
-TEST_F(AnimateTest, DrawingsAreFramesInTheirOwnSize)
+TEST_F(AnimateTest, DrawingsKeepTheirOwnSize)
 {
     fs::create_directory(directory() / "drawn");
     for (int frame = 1; frame < 3; ++frame) {
@@ -456,25 +457,25 @@ TEST_F(AnimateTest, DrawingsAreFramesInTheirOwnSize)
     EXPECT_NEAR(drawn["input"]["pixel_size_m"].get<double>() * drawn["input"]["width_px"].get<double>(), 8e-3, 1e-12);
 }
 
-TEST_F(AnimateTest, ProgressIsToldOfEveryFrame)
+TEST_F(AnimateTest, ReportsProgressOfEveryFrame)
 {
-    const std::string told = run({"frames", "out.glb", "--progress", "json"}).error;
+    const std::string log = run({"frames", "out.glb", "--progress", "json"}).error;
     std::size_t solved = 0;
-    for (auto at = told.find("solve"); at != std::string::npos; at = told.find("solve", at + 1)) {
+    for (auto at = log.find("solve"); at != std::string::npos; at = log.find("solve", at + 1)) {
         ++solved;
     }
-    EXPECT_GE(solved, 5U) << told;
+    EXPECT_GE(solved, 5U) << log;
 }
 
-TEST_F(AnimateTest, ProgressIsToldOfEveryPicture)
+TEST_F(AnimateTest, ReportsProgressOfEveryPicture)
 {
-    const std::string told = run({"frames/f0008.pgm", "frames/f0009.pgm", "out.glb", "--progress", "json", "--preview",
-                                  "%d.png", "--preview-size", "32x24", "--contact-sheet", "sheet.png"})
-                                 .error;
-    EXPECT_THAT(told, AllOf(HasSubstr(R"({"drawn":1,"of":4,)"), HasSubstr(R"({"drawn":4,"of":4,)")));
+    const std::string log = run({"frames/f0008.pgm", "frames/f0009.pgm", "out.glb", "--progress", "json", "--preview",
+                                 "%d.png", "--preview-size", "32x24", "--contact-sheet", "sheet.png"})
+                                .error;
+    EXPECT_THAT(log, AllOf(HasSubstr(R"({"drawn":1,"of":4,)"), HasSubstr(R"({"drawn":4,"of":4,)")));
 }
 
-TEST_F(AnimateTest, EdgesTooShortAreRefusedBeforeMemoryIsFull)
+TEST_F(AnimateTest, RefusesTooShortEdgesBeforeMemoryIsFull)
 {
     CommandOptions options;
     options.directory = directory();
@@ -483,7 +484,7 @@ TEST_F(AnimateTest, EdgesTooShortAreRefusedBeforeMemoryIsFull)
     EXPECT_THAT(result.error, HasSubstr("--edge"));
 }
 
-TEST_F(AnimateTest, RefusesWhatCannotBe)
+TEST_F(AnimateTest, RefusesWrongOptions)
 {
     const auto refused = [&](std::vector<std::string> arguments, const std::vector<std::string>& words) {
         arguments.insert(arguments.begin(), {"frames", "old.glb"});
@@ -495,10 +496,10 @@ TEST_F(AnimateTest, RefusesWhatCannotBe)
     refused({"--fill", "each"}, {"--fill each and --volume-mode total exclude each other"});
     refused({"--contact-sheet", "sheet.jpg"}, {"--contact-sheet", "'sheet.jpg'", ".png"});
     refused({"--contact-sheet", "old.glb.png", "--json", "old.glb.png"}, {"--json and --contact-sheet are the same"});
-    refused({"--onto", "can.glb"}, {"--onto has no place in a sequence"});
+    refused({"--onto", "can.glb"}, {"--onto cannot be used for a sequence"});
     expectFailure({}, 2, {"INPUT is missing"});
     expectFailure({"frames"}, 2, {"OUTPUT is missing", "INPUT... OUTPUT"});
-    expectFailure({"frames", "-o", "old.glb"}, 2, {"-o: OUTPUT stands without one", "INPUT... OUTPUT"});
+    expectFailure({"frames", "-o", "old.glb"}, 2, {"-o: OUTPUT needs no option", "INPUT... OUTPUT"});
     expectFailure({"frames", "film.obj"}, 2, {"film.obj", "out/%04d.obj"});
     expectFailure({"frames", "film"}, 2, {"film", "no extension"});
     expectFailure({"frames", "out/%04x.glb"}, 2, {"OUTPUT", "%04d"});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Many pictures: the same bytes as one by one, whatever the threads and shares; what fails fails alone; what stands is
-// not made again.
+// `droplet-shape batch`: the same bytes as single runs, with any threads and shares; separate failures; resuming.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,7 +73,7 @@ protected:
         return json::parse(readFile(directory() / name));
     }
 
-    /// The manifest without its times.
+    /// Manifest without times.
     [[nodiscard]] json timeless(const std::string& name = "out/manifest.json") const
     {
         json all = manifest(name);
@@ -95,7 +94,7 @@ protected:
         return all;
     }
 
-    /// Names and contents of everything in a folder but manifests.
+    /// Names and contents of all files in a folder except manifests.
     [[nodiscard]] std::map<std::string, std::string> files(const std::string& folder) const
     {
         std::map<std::string, std::string> all;
@@ -112,7 +111,7 @@ private:
     testing::ScratchDirectory scratch_;
 };
 
-TEST_F(BatchTest, EveryFileIsTheMainCommandsToTheByte)
+TEST_F(BatchTest, WritesTheSameBytesAsSingleRuns)
 {
     const auto result = batch({"--contact-angle", "60deg"});
     EXPECT_EQ(result.exit_code, 0) << result.error;
@@ -160,10 +159,10 @@ TEST_F(BatchTest, ManifestHasARowForEveryPicture)
     EXPECT_EQ(all["totals"]["bytes"], bytes);
 }
 
-TEST_F(BatchTest, ThreadsChangeNothing)
+TEST_F(BatchTest, ResultDoesNotDependOnThreads)
 {
     writeFile(directory() / "masks/aa_broken.pgm", "P5");
-    for (const char* way : {"--keep-going", "--no-resume"}) {  // the second is the same as nothing here
+    for (const char* way : {"--keep-going", "--no-resume"}) {  // --no-resume has no effect here
         ASSERT_EQ(batch({way, "-j", "1"}).exit_code, 6);
         const auto one = files("out");
         const json rows = timeless();
@@ -183,7 +182,7 @@ TEST_F(BatchTest, ThreadsChangeNothing)
     }
 }
 
-TEST_F(BatchTest, FailureEndsTheBatchOrNot)
+TEST_F(BatchTest, FailureEndsTheBatchUnlessKeepGoing)
 {
     writeFile(directory() / "masks/b.pgm", "P5");
     writeFile(directory() / "masks/bb.pgm", discPicture(20, 0.0));
@@ -204,12 +203,12 @@ TEST_F(BatchTest, FailureEndsTheBatchOrNot)
     EXPECT_EQ(manifest()["totals"]["failed"], 2);
 }
 
-TEST_F(BatchTest, OutOfMemoryIsOnePicturesFault)
+TEST_F(BatchTest, OutOfMemoryFailsOnlyOnePicture)
 {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer itself takes terabytes of address space";
 #endif
-    // Two gigabytes of coverage, should it come to that.
+    // Its coverage would take two gigabytes.
     writeFile(directory() / "masks/b.pbm", "P4\n16000 16000\n" + std::string(std::size_t{2000} * 16000, '\x55'));
     fs::remove(directory() / "masks/b.SVG");
     CommandOptions options;
@@ -223,7 +222,7 @@ TEST_F(BatchTest, OutOfMemoryIsOnePicturesFault)
     EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("memory"));
 }
 
-TEST_F(BatchTest, DrawingThatBreaksItsProgramIsOnePicturesFault)
+TEST_F(BatchTest, DrawingThatCrashesItsReaderFailsAlone)
 {
     const auto drawings = testing::hostileDrawings();
     const auto drawing = std::find_if(drawings.begin(), drawings.end(),
@@ -236,7 +235,7 @@ TEST_F(BatchTest, DrawingThatBreaksItsProgramIsOnePicturesFault)
     EXPECT_THAT(manifest()["items"][1]["error"].get<std::string>(), HasSubstr("b.SVG: SVG image "));
 }
 
-TEST_F(BatchTest, WhatStandsIsNotMadeAgain)
+TEST_F(BatchTest, SkipsWhatIsUpToDate)
 {
     ASSERT_EQ(batch({}).exit_code, 0);
     const auto first = files("out");
@@ -245,7 +244,7 @@ TEST_F(BatchTest, WhatStandsIsNotMadeAgain)
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.error, HasSubstr("3 skipped"));
     EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped"));
-    // What is known of the files is still known.
+    // The rows keep the figures of the files.
     for (std::size_t i = 0; i < 3; ++i) {
         json row = timeless().at("items")[i];
         row["status"] = "made";
@@ -263,7 +262,7 @@ TEST_F(BatchTest, WhatStandsIsNotMadeAgain)
     EXPECT_THAT(statuses(), ElementsAre("skipped", "made", "skipped"));
     EXPECT_EQ(files("out"), first);
 
-    // Another date is not another picture.
+    // A new date without a change does not make the picture again.
     fs::last_write_time(directory() / "masks/a.pgm", fs::file_time_type::clock::now());
     writeFile(directory() / "masks/c.pgm", discPicture(24, 8.0));
     ASSERT_EQ(batch({}).exit_code, 0);
@@ -277,7 +276,7 @@ TEST_F(BatchTest, WhatStandsIsNotMadeAgain)
     EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
 }
 
-TEST_F(BatchTest, FilesReadBesideThePictureCountToo)
+TEST_F(BatchTest, ChangedGroundMakesAllAgain)
 {
     writeFile(directory() / "ground.pgm", discPicture(8, 3.0));
     const std::vector<std::string> options{"--surface", "ground.pgm", "--surface-depth", "0.1mm"};
@@ -289,7 +288,7 @@ TEST_F(BatchTest, FilesReadBesideThePictureCountToo)
     EXPECT_THAT(statuses(), ElementsAre("made", "made", "made"));
 }
 
-TEST_F(BatchTest, ReportsAreMadeAlong)
+TEST_F(BatchTest, WritesReportsBesideDroplets)
 {
     ASSERT_EQ(batch({}).exit_code, 0);
     const std::vector<std::string> with_reports{"--json", "reports/{stem}.json"};
@@ -305,7 +304,7 @@ TEST_F(BatchTest, ReportsAreMadeAlong)
     EXPECT_THAT(statuses(), ElementsAre("made", "skipped", "skipped"));
 }
 
-TEST_F(BatchTest, SharesMakeTheWhole)
+TEST_F(BatchTest, SharesMakeTheWholeBatch)
 {
     ASSERT_EQ(batch({"--recursive"}).exit_code, 0);
     const auto whole = files("out");
@@ -320,22 +319,22 @@ TEST_F(BatchTest, SharesMakeTheWhole)
     ASSERT_EQ(second["items"].size(), 1U);
     EXPECT_EQ(second["items"][0]["index"], 2);
     EXPECT_EQ(second["items"][0]["output"], "out/b.glb");
-    // The whole takes what shares have made, but not what has changed since.
+    // A run without shares skips files of the shares, unless they have changed.
     writeFile(directory() / "out/c.glb", "changed");
-    writeFile(directory() / "out/manifest-x-of-3.json", "not a share's");
+    writeFile(directory() / "out/manifest-x-of-3.json", "not a manifest of a share");
     writeFile(directory() / "out/manifest-9-of-9.json", "broken");
     ASSERT_EQ(batch({"--recursive"}).exit_code, 0);
     EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "made", "skipped"));
     fs::remove(directory() / "out/manifest-x-of-3.json");
     fs::remove(directory() / "out/manifest-9-of-9.json");
-    // A share takes up its own work, and one without pictures is done.
+    // A share skips its own files; a share without pictures succeeds.
     ASSERT_EQ(batch({"--recursive", "--shard", "1/3"}).exit_code, 0);
     EXPECT_THAT(statuses("out/manifest-1-of-3.json"), ElementsAre("skipped", "skipped"));
     ASSERT_EQ(batch({"--shard", "7/8", "--manifest", "m.json"}).exit_code, 0);
     EXPECT_THAT(statuses("m-7-of-8.json"), IsEmpty());
 }
 
-TEST_F(BatchTest, PlaceholdersAreFilledIn)
+TEST_F(BatchTest, ReplacesPlaceholders)
 {
     const auto make = [&](const std::string& pattern) {
         fs::remove_all(directory() / "out");
@@ -353,7 +352,7 @@ TEST_F(BatchTest, PlaceholdersAreFilledIn)
                             "{5}-pgm-masks-a.glb"));
 }
 
-TEST_F(BatchTest, WhatIsKnownToFailFailsBeforeAnyWork)
+TEST_F(BatchTest, FindsErrorsBeforeAnyWork)
 {
     const auto expect_refused = [&](const std::vector<std::string>& arguments, int code, const std::string& words) {
         const auto result = run(arguments);
@@ -376,10 +375,10 @@ TEST_F(BatchTest, WhatIsKnownToFailFailsBeforeAnyWork)
     expect_refused({"batch", "masks", "-o", "out/one.glb"}, 2, "same output");
     expect_refused({"batch", "masks/a.pgm", "masks/../masks/a.pgm", "-o", "out/{stem}.glb"}, 2, "same output");
     expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--json", "out/{stem}.glb"}, 2, "same output");
-    expect_refused({"batch", "masks", "-o", "masks/{name}", "--format", "stl"}, 2, "which is read");
-    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/a.pgm"}, 2, "which is read");
+    expect_refused({"batch", "masks", "-o", "masks/{name}", "--format", "stl"}, 2, "which is an input");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/a.pgm"}, 2, "which is an input");
     expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/notes.txt"}, 2,
-                   "is no droplet-shape.manifest/1");
+                   "is not a droplet-shape.manifest/1");
     for (const char* share : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/0", "-1/3"}) {
         expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--shard", share}, 2, "--shard");
     }
@@ -389,7 +388,7 @@ TEST_F(BatchTest, WhatIsKnownToFailFailsBeforeAnyWork)
     EXPECT_EQ(readFile(directory() / "masks/notes.txt"), "not looked at");
 }
 
-TEST_F(BatchTest, OutputThatCannotBeWrittenIsOneFailure)
+TEST_F(BatchTest, OutputThatCannotBeWrittenFailsAlone)
 {
     fs::create_directories(directory() / "out/b.glb");
     const auto result = batch({"--keep-going"});
@@ -397,7 +396,7 @@ TEST_F(BatchTest, OutputThatCannotBeWrittenIsOneFailure)
     EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
     EXPECT_EQ(manifest()["items"][1]["exit_code"], 4);
     EXPECT_THAT(result.error, HasSubstr("out/b.glb"));
-    // Nor is what stands replaced where that is not wanted; what this batch made itself is.
+    // --no-clobber protects a foreign file; files of this batch are skipped.
     fs::remove(directory() / "out/b.glb");
     writeFile(directory() / "out/b.glb", "old");
     EXPECT_EQ(batch({"--keep-going", "--no-clobber"}).exit_code, 6);
@@ -405,14 +404,14 @@ TEST_F(BatchTest, OutputThatCannotBeWrittenIsOneFailure)
     EXPECT_EQ(readFile(directory() / "out/b.glb"), "old");
 }
 
-TEST_F(BatchTest, ManifestOnAFullDiskIsAFailedOutput)
+TEST_F(BatchTest, ManifestOnAFullDiskFails)
 {
     const auto result = batch({"--manifest", "/dev/full"});
     EXPECT_EQ(result.exit_code, 4);
     EXPECT_THAT(result.error, HasSubstr("/dev/full"));
 }
 
-TEST_F(BatchTest, ProgressInJsonIsALineAnItem)
+TEST_F(BatchTest, JsonProgressIsOneLinePerItem)
 {
     writeFile(directory() / "masks/bb.pgm", "P5");
     const auto result = batch({"--progress", "json", "--keep-going"});
@@ -432,14 +431,14 @@ TEST_F(BatchTest, ProgressInJsonIsALineAnItem)
     EXPECT_THAT(batch({"--keep-going", "--no-resume"}, terminal).error, HasSubstr("manifest"));
 }
 
-TEST_F(BatchTest, InterruptedBatchIsTakenUpWhereItEnded)
+TEST_F(BatchTest, ResumesAnInterruptedBatch)
 {
     fs::remove_all(directory() / "masks");
     fs::create_directory(directory() / "masks");
     for (int i = 10; i < 60; ++i) {
         writeFile(directory() / ("masks/" + std::to_string(i) + ".pgm"), discPicture(100 + i, 40.0));
     }
-    // The signal is sent once three droplets are there; far from all by then.
+    // The signal is sent when three of fifty droplets exist.
     CommandOptions options;
     options.directory = directory();
     const std::string script =
@@ -466,8 +465,8 @@ TEST_F(BatchTest, InterruptedBatchIsTakenUpWhereItEnded)
     }
 }
 
-// Of what stands: made now or before, not what failed; the same however it came about.
-TEST_F(BatchTest, ContactSheetShowsAllThatStands)
+// The sheet shows droplets made now or before, but no failed ones.
+TEST_F(BatchTest, ContactSheetShowsAllFinishedDroplets)
 {
     ASSERT_EQ(batch({"--contact-sheet", "sheets/all.png"}).exit_code, 0);
     const std::string all = readFile(directory() / "sheets/all.png");
@@ -475,8 +474,8 @@ TEST_F(BatchTest, ContactSheetShowsAllThatStands)
     EXPECT_GT(picture.width, 2 * 320);
     ASSERT_EQ(batch({"--contact-sheet", "again.png", "-j", "1"}).exit_code, 0);
     EXPECT_TRUE(readFile(directory() / "again.png") == all);
-    const CommandResult told = batch({"--contact-sheet", "again.png", "--one-scale"});
-    EXPECT_THAT(told.error, HasSubstr("sheet      again.png: 3 droplets; "));
+    const CommandResult one_scale = batch({"--contact-sheet", "again.png", "--one-scale"});
+    EXPECT_THAT(one_scale.error, HasSubstr("sheet      again.png: 3 droplets; "));
     EXPECT_FALSE(readFile(directory() / "again.png") == all);
     const CommandResult events = batch({"--contact-sheet", "again.png", "--progress", "json"});
     EXPECT_THAT(events.error, HasSubstr(R"({"drawn":3,"of":3,"elapsed_s":)"));
@@ -486,20 +485,20 @@ TEST_F(BatchTest, ContactSheetShowsAllThatStands)
 
     writeFile(directory() / "masks/broken.pgm", "no picture");
     EXPECT_EQ(batch({"--contact-sheet", "three.png", "--keep-going", "--material", "water"}).exit_code, 6);
-    EXPECT_TRUE(readFile(directory() / "three.png") == all) << "what failed is not shown";
+    EXPECT_TRUE(readFile(directory() / "three.png") == all) << "a failed item is not shown";
 }
 
-TEST_F(BatchTest, SharesHaveContactSheetsOfTheirOwn)
+TEST_F(BatchTest, EveryShareHasItsContactSheet)
 {
     ASSERT_EQ(batch({"--shard", "2/2", "--contact-sheet", "sheet.png"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(directory() / "sheet-2-of-2.png"));
     EXPECT_FALSE(fs::exists(directory() / "sheet.png"));
 }
 
-TEST_F(BatchTest, ContactSheetMustBeAPictureOfItsOwn)
+TEST_F(BatchTest, RefusesWrongContactSheets)
 {
     for (const auto& [name, words] :
-         {std::pair{"sheet.jpg", "a file that ends in .png"}, {"masks/a.png", "which is read"}}) {
+         {std::pair{"sheet.jpg", "a file that ends in .png"}, {"masks/a.png", "which is an input"}}) {
         writeFile(directory() / "masks/a.png", "a picture");
         const CommandResult result = batch({"--contact-sheet", name});
         EXPECT_EQ(result.exit_code, 2);

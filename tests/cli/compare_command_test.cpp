@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `droplet-shape compare`: exit codes, the report's keys, what is refused.
+// `droplet-shape compare`: exit codes, keys of the report, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,10 +60,10 @@ protected:
 
 TEST_F(CompareCommand, ToleranceDecidesTheExitCode)
 {
-    // A paraboloid 1 mm high, and one 1.1 mm high: 0.1 mm apart at the top and nowhere more.
+    // Paraboloids of height 1 mm and 1.1 mm: their largest distance is 0.1 mm, at the top.
     const std::string a = file("a.glb", roundDroplet());
     const std::string b = file("b.obj", roundDroplet({.height = 1.1e-3}));
-    EXPECT_EQ(compare({a, b}).exit_code, 0) << "nothing was asked for";
+    EXPECT_EQ(compare({a, b}).exit_code, 0) << "no tolerance is given";
     EXPECT_EQ(compare({a, b, "--tolerance", "0.11mm"}).exit_code, 0);
     const CommandResult over = compare({a, b, "--tolerance", "90um"});
     EXPECT_EQ(over.exit_code, 1);
@@ -73,7 +73,7 @@ TEST_F(CompareCommand, ToleranceDecidesTheExitCode)
     EXPECT_THAT(over.output, HasSubstr("distance"));
 
     EXPECT_EQ(compare({a, b, "--volume-tolerance", "10.1%"}).exit_code, 0);
-    EXPECT_EQ(compare({b, a, "--volume-tolerance", "9.2%"}).exit_code, 0) << "of the first";
+    EXPECT_EQ(compare({b, a, "--volume-tolerance", "9.2%"}).exit_code, 0) << "share of the first volume";
     const CommandResult more = compare({a, b, "--volume-tolerance", "9%", "-q", "--tolerance", "1mm"});
     EXPECT_EQ(more.exit_code, 1);
     EXPECT_EQ(more.output, "");
@@ -83,7 +83,7 @@ TEST_F(CompareCommand, ToleranceDecidesTheExitCode)
     EXPECT_THAT(compare({a, b, "--normal-tolerance", "0.1deg"}).error, HasSubstr("the rms angle between normals"));
 }
 
-TEST_F(CompareCommand, TopologyMustBeTheSameWithAnyTolerance)
+TEST_F(CompareCommand, AnyToleranceRequiresTheSameTopology)
 {
     const std::string closed = file("closed.glb", roundDroplet());
     const std::string open = file("open.glb", roundDroplet({.open = true}));
@@ -98,7 +98,7 @@ TEST_F(CompareCommand, TopologyMustBeTheSameWithAnyTolerance)
     }
 }
 
-TEST_F(CompareCommand, EveryFormatIsTheSameDroplet)
+TEST_F(CompareCommand, AllFormatsHoldTheSameDroplet)
 {
     const std::string first = file("droplet.glb", roundDroplet());
     for (const char* const name : {"droplet.glb", "droplet.gltf", "droplet.obj", "droplet.ply", "droplet.stl"}) {
@@ -107,8 +107,8 @@ TEST_F(CompareCommand, EveryFormatIsTheSameDroplet)
     }
 }
 
-// Every facet of an STL stands alone; its picture must have the colours of the same surface in one piece.
-TEST_F(CompareCommand, PictureOfFacetsHasItsColours)
+// The facets of an STL are separate; the picture must have the colours of the connected surface.
+TEST_F(CompareCommand, PictureOfSeparateFacetsIsColoured)
 {
     const auto coloured = [&](const std::string& extension) {
         const std::string a = file("a" + extension, roundDroplet());
@@ -158,7 +158,7 @@ TEST_F(CompareCommand, ReportHasEveryKey)
     EXPECT_EQ(json["same_topology"], true);
     EXPECT_THAT(json["exceeded"], SizeIs(1));
     EXPECT_THAT(json["warnings"], IsEmpty());
-    // docs/reports.md names them all.
+    // docs/reports.md lists all keys.
     const std::string page = testing::readFile(testing::inSource("docs/reports.md"));
     const auto begin = page.find("```compare-report\n");
     ASSERT_NE(begin, std::string::npos);
@@ -180,7 +180,7 @@ TEST_F(CompareCommand, ReportHasEveryKey)
     EXPECT_EQ(documented, keys);
 }
 
-TEST_F(CompareCommand, SameBytesAtAnyNumberOfThreads)
+TEST_F(CompareCommand, SameBytesWithAnyNumberOfThreads)
 {
     const std::string a = file("a.glb", roundDroplet({.rings = 9, .segments = 31}));
     const std::string b = file("b.glb", roundDroplet({.rings = 7, .segments = 40}));
@@ -191,7 +191,7 @@ TEST_F(CompareCommand, SameBytesAtAnyNumberOfThreads)
     EXPECT_EQ(compare({a, b, "-j", "1"}).output, compare({a, b, "-j", "5"}).output);
 }
 
-TEST_F(CompareCommand, WhatIsNotUnderstoodIsRefused)
+TEST_F(CompareCommand, RefusesWrongArguments)
 {
     const std::string a = file("a.glb", roundDroplet());
     expectRefused({}, 2, "A is missing");
@@ -211,7 +211,7 @@ TEST_F(CompareCommand, WhatIsNotUnderstoodIsRefused)
     expectRefused({a, a, "--picture", "a.jpg"}, 2, ".png");
 }
 
-TEST_F(CompareCommand, FilesThatCannotBeReadOrWritten)
+TEST_F(CompareCommand, ReportsFilesThatCannotBeReadOrWritten)
 {
     const std::string a = file("a.glb", roundDroplet());
     const std::string missing = (scratch_.path() / "missing.glb").string();

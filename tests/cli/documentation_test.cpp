@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// --help, manual page and completion say the same, and say what is so.
+// --help, manual page and completions agree with each other and with the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::string help(const std::string& command = "")
     return command.empty() ? runDroplet({"--help"}).output : runDroplet({command, "--help"}).output;
 }
 
-/// The commands beside the main job, as its help lists them.
+/// Commands that --help lists.
 std::vector<std::string> commands()
 {
     std::istringstream lines(help());
@@ -70,13 +70,13 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-/// The manual page with its escapes for dashes taken out.
+/// Manual page without the escapes of dashes.
 std::string manual()
 {
     return replaced(sourceFile("droplet-shape.1"), "\\-", "-");
 }
 
-/// What pressing the tab key offers after these words.
+/// Completions that bash offers after these words.
 std::vector<std::string> completions(const std::vector<std::string>& words)
 {
     std::string script = "source \"$1\"; COMP_WORDS=(droplet-shape";
@@ -104,7 +104,7 @@ TEST(Documentation, TablesManualAndCompletionsAreMadeFromTheHelp)
     EXPECT_EQ(made.output, "");
 }
 
-TEST(Documentation, CompletionOffersTheOptionsOfTheCommandThatStandsFirst)
+TEST(Documentation, CompletionOffersTheOptionsOfTheCommand)
 {
     const auto expect_options = [](const std::vector<std::string>& words, const std::string& text) {
         const auto offered = completions(words);
@@ -131,7 +131,7 @@ TEST(Documentation, EveryOptionInTheHelpIsAccepted)
     }
 }
 
-TEST(Documentation, DefaultsInTheHelpAreTheLibrarys)
+TEST(Documentation, DefaultsInTheHelpAreThoseOfTheLibrary)
 {
     const std::string text = help();
     const auto default_of = [&](const std::string& option) {
@@ -191,7 +191,7 @@ TEST(Documentation, CompletionOffersNamesThatAreAccepted)
         const auto offered = completions({option, ""});
         EXPECT_THAT(offered, Not(IsEmpty())) << option;
         for (const std::string& name : offered) {
-            // Without INPUT a run ends there, once all options have been understood.
+            // A run without INPUT ends with this message after all options are accepted.
             EXPECT_THAT(runDroplet({option, name}).error, HasSubstr("INPUT is missing")) << option << " " << name;
         }
     }
@@ -209,17 +209,17 @@ TEST(Documentation, CompletionOffersFiles)
     }
 }
 
-/// What fish offers after a line.
+/// Completions that fish offers after a line.
 std::string offeredByFish(const std::string& line)
 {
     const std::string file = testing::inSource("cli/completion/droplet-shape.fish");
     const auto result = runProgram({"fish", "--no-config", "-c", "source '" + file + "'; complete -C '" + line + "'"});
-    EXPECT_EQ(result.exit_code, 0) << "fish (Debian: fish) completes";
+    EXPECT_EQ(result.exit_code, 0) << "fish must be installed (Debian: fish)";
     EXPECT_EQ(result.error, "");
     return result.output;
 }
 
-TEST(Documentation, FishCompletesOptionsOfTheCommandAndTheirWords)
+TEST(Documentation, FishCompletesOptionsAndTheirValues)
 {
     EXPECT_THAT(offeredByFish("droplet-shape --volume"),
                 AllOf(HasSubstr("--volume\t"), Not(HasSubstr("--volume-mode"))));
@@ -228,7 +228,7 @@ TEST(Documentation, FishCompletesOptionsOfTheCommandAndTheirWords)
     EXPECT_THAT(offeredByFish("droplet-shape --model "), AllOf(HasSubstr("linear"), HasSubstr("exact")));
 }
 
-/// What the completion for zsh offers after these words: the specifications that it hands to zsh's own functions.
+/// Completions for zsh after these words: the specifications that are passed to zsh's functions.
 std::string offeredByZsh(const std::string& words)
 {
     const std::string file = testing::inSource("cli/completion/_droplet-shape");
@@ -236,12 +236,12 @@ std::string offeredByZsh(const std::string& words)
                                     "_arguments() { print -rl -- \"$@\"; }; _describe() { print -rl -- ${(P)2}; }; "
                                     "words=(droplet-shape " +
                                         words + " ''); CURRENT=${#words}; source '" + file + "'"});
-    EXPECT_EQ(result.exit_code, 0) << "zsh (Debian: zsh) completes";
+    EXPECT_EQ(result.exit_code, 0) << "zsh must be installed (Debian: zsh)";
     EXPECT_EQ(result.error, "");
     return result.output;
 }
 
-TEST(Documentation, ZshCompletesOptionsOfTheCommandAndTheirWords)
+TEST(Documentation, ZshCompletesOptionsAndTheirValues)
 {
     EXPECT_THAT(offeredByZsh(""), AllOf(HasSubstr("animate:"), HasSubstr("\n--model["), HasSubstr(":(linear exact)\n"),
                                         Not(HasSubstr("--volume-mode["))));
@@ -252,7 +252,7 @@ TEST(Documentation, ManualIsCleanRoff)
 {
     const std::string file = testing::inSource("cli/droplet-shape.1");
     const auto formatted = runProgram({"groff", "-man", "-ww", "-Tutf8", file});
-    ASSERT_EQ(formatted.exit_code, 0) << "groff (Debian: groff-base) formats the manual page";
+    ASSERT_EQ(formatted.exit_code, 0) << "groff must be installed (Debian: groff-base)";
     EXPECT_EQ(formatted.error, "");
     EXPECT_THAT(formatted.output, HasSubstr("DROPLET-SHAPE(1)"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What README.md and the pages in docs/ say is so: their program is the one package_test builds, their options are the
-// command's, their links resolve.
+// README.md and the pages in docs/ are true: their program is the one that package_test builds, their messages and keys
+// are the program's, their links resolve.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::string sourceFile(const std::string& name)
     return content;
 }
 
-/// The Markdown files in a folder of the source and in those below it, as paths from the root, sorted.
+/// Markdown files in a folder and its subfolders, as sorted paths from the root.
 std::vector<std::string> markdownIn(const std::string& folder)
 {
     std::vector<std::string> names;
@@ -76,7 +76,7 @@ std::vector<std::string> linesOf(const std::string& text)
     return lines;
 }
 
-/// The fenced blocks of that language, in order.
+/// Fenced blocks of a language, in order.
 std::vector<std::string> codeBlocks(const std::string& markdown, const std::string& language)
 {
     std::vector<std::string> blocks;
@@ -94,7 +94,7 @@ std::vector<std::string> codeBlocks(const std::string& markdown, const std::stri
     return blocks;
 }
 
-/// The fenced blocks of that language in all documents.
+/// Fenced blocks of a language in all documents.
 std::vector<std::string> codeBlocksInDocuments(const std::string& language)
 {
     std::vector<std::string> blocks;
@@ -112,14 +112,14 @@ std::string withoutLicenceLine(const std::string& content)
     return content.substr(content.find('\n') + 1);
 }
 
-TEST(Readme, ShowsTheProgramThatIsBuiltOutside)
+TEST(Readme, ShowsTheProgramOfTheConsumerTest)
 {
     const std::string program = withoutLicenceLine(sourceFile("tests/consumer/main.cpp"));
     EXPECT_THAT(codeBlocks(sourceFile("README.md"), "cpp"), ElementsAre(program));
     EXPECT_THAT(codeBlocksInDocuments("cpp"), ElementsAre(program));
 }
 
-TEST(Readme, ShowsHowItIsBuiltOutside)
+TEST(Readme, ShowsTheBuildOfTheConsumerTest)
 {
     const std::string project = sourceFile("tests/consumer/CMakeLists.txt");
     const auto blocks = codeBlocksInDocuments("cmake");
@@ -143,23 +143,23 @@ TEST(Readme, EveryCommandHasAPage)
     EXPECT_THAT(list, HasSubstr("\n  windshield "));
 }
 
-/// All strings of the program's sources, one that is broken over lines in one piece.
-std::string wordsOfSources()
+/// Sources of the program, with strings joined that are split over lines.
+std::string joinedSources()
 {
-    std::string words;
+    std::string text;
     for (const char* folder : {"src", "cli"}) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(inSource(folder))) {
             if (entry.path().extension() == ".cpp") {
-                words += testing::readFile(entry.path());
+                text += testing::readFile(entry.path());
             }
         }
     }
-    return std::regex_replace(words, std::regex(R"("\s*\n\s*")"), "");
+    return std::regex_replace(text, std::regex(R"("\s*\n\s*")"), "");
 }
 
-TEST(Readme, TroubleshootingShowsMessagesOfTheProgram)
+TEST(Readme, TroubleshootingQuotesMessagesOfTheProgram)
 {
-    const std::string words = wordsOfSources() + std::strerror(ENOSPC);
+    const std::string sources = joinedSources() + std::strerror(ENOSPC);
     int count = 0;
     for (const std::string& line : linesOf(sourceFile("docs/troubleshooting.md"))) {
         std::smatch message;
@@ -168,14 +168,14 @@ TEST(Readme, TroubleshootingShowsMessagesOfTheProgram)
         }
         std::istringstream parts(std::regex_replace(message.str(1), std::regex(";? *… *"), "\n"));
         for (std::string part; std::getline(parts, part); ++count) {
-            EXPECT_NE(words.find(part), std::string::npos) << part << " in " << line;
+            EXPECT_NE(sources.find(part), std::string::npos) << part << " in " << line;
         }
     }
     EXPECT_GT(count, 50);
 }
 
-/// The keys of a report as docs/reports.md shows them: those without others below them share a line with their
-/// neighbours; of an array named `rows`, the first row's.
+/// Keys of a report as docs/reports.md shows them: neighbouring keys without members share a line; of the array `rows`,
+/// the keys of the first row are shown.
 std::string keysOf(const nlohmann::ordered_json& report, const std::string& rows)
 {
     std::string keys;
@@ -196,7 +196,7 @@ std::string keysOf(const nlohmann::ordered_json& report, const std::string& rows
     return keys + "\n";
 }
 
-TEST(Readme, ExitCodesAreTheCommands)
+TEST(Readme, PageHasTheExitCodesOfTheHelp)
 {
     const std::string help = runDroplet({"--help"}).output;
     const std::string page = sourceFile("docs/cli/droplet-shape.md");
@@ -212,7 +212,7 @@ TEST(Readme, ExitCodesAreTheCommands)
     EXPECT_EQ(count, 7);
 }
 
-TEST(Readme, ReportsHaveTheKeysShown)
+TEST(Readme, PageHasTheKeysOfReports)
 {
     testing::ScratchDirectory scratch;
     const auto report_of = [&](std::vector<std::string> arguments, const std::string& data) {
@@ -235,7 +235,7 @@ TEST(Readme, ReportsHaveTheKeysShown)
     }
 }
 
-TEST(Readme, FirstPictureIsWhatTheFirstCommandMakes)
+TEST(Readme, FirstPictureShowsTheFirstCommand)
 {
     const std::string readme = sourceFile("README.md");
     const std::string command = codeBlocks(readme, "sh").at(0);
@@ -252,7 +252,7 @@ TEST(Readme, FirstPictureIsWhatTheFirstCommandMakes)
 
 // ------------------------------------------------------------------------------------------------ pages and links
 
-/// A heading's anchor as Markdown renderers make it: lower case, spaces to dashes, other marks left out.
+/// Anchor of a heading as Markdown renderers make it: lower case, dashes for spaces, without other punctuation.
 std::string anchorOf(const std::string& heading)
 {
     std::string anchor;
@@ -268,7 +268,7 @@ std::string anchorOf(const std::string& heading)
     return anchor;
 }
 
-/// The lines outside of fenced blocks.
+/// Lines outside fenced blocks.
 std::vector<std::string> proseOf(const std::string& markdown)
 {
     std::vector<std::string> prose;
@@ -284,7 +284,7 @@ std::vector<std::string> proseOf(const std::string& markdown)
     return prose;
 }
 
-/// The anchors of all headings; the second of a name ends in -1, and so on.
+/// Anchors of all headings; repeated ones end in -1, -2 and so on.
 std::set<std::string> anchorsOf(const std::string& markdown)
 {
     std::set<std::string> anchors;
@@ -301,7 +301,7 @@ std::set<std::string> anchorsOf(const std::string& markdown)
     return anchors;
 }
 
-/// Targets of links and pictures, but for those elsewhere on the web.
+/// Targets of links and pictures, except those on the web.
 std::vector<std::string> relativeLinksOf(const std::string& markdown)
 {
     static const std::regex kLink(R"re(\]\(([^)\s]+)[^)]*\)|^\[[^\]]+\]: *(\S+)|(?:href|src)="([^"]+)")re");
@@ -318,7 +318,7 @@ std::vector<std::string> relativeLinksOf(const std::string& markdown)
     return targets;
 }
 
-/// Where a link in that document leads: a path from the root.
+/// Destination of a link in a document, as a path from the root.
 std::string destinationOf(const std::string& document, const std::string& target)
 {
     const std::string file = target.substr(0, target.find('#'));
@@ -328,7 +328,7 @@ std::string destinationOf(const std::string& document, const std::string& target
     return (std::filesystem::path(document).parent_path() / file).lexically_normal().generic_string();
 }
 
-TEST(Readme, LinksLeadSomewhere)
+TEST(Readme, LinksResolve)
 {
     std::vector<std::string> names = documents();
     for (const char* folder : {"bench", "data", "examples"}) {
@@ -361,7 +361,7 @@ TEST(Readme, PagesAreShort)
     }
 }
 
-TEST(Readme, PagesAreListedAndLeadBack)
+TEST(Readme, PagesAreListedAndLinkBack)
 {
     const auto destinations = [](const std::string& name) {
         std::vector<std::string> found;

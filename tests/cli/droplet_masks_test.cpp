@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The river on every mask of data/ and on masks that are hard to take.
+// The whole pipeline on every mask of data/ and on awkward masks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,8 +57,8 @@ Counts counted(const Droplet& droplet)
     return counts;
 }
 
-/// Runs the river without dropping specks; the droplets must be those of the mask, sound, and of the volume asked for.
-void expectTaken(const Mask& mask, std::size_t triangles = 2'000)
+/// Runs the pipeline without dropping specks; expects the mask's droplets, sound and with the given volume.
+void expectSoundDroplets(const Mask& mask, std::size_t triangles = 2'000)
 {
     constexpr double kVolume = 1.0 * kMicrolitre;
     DropletOptions options;
@@ -73,7 +73,7 @@ void expectTaken(const Mask& mask, std::size_t triangles = 2'000)
     EXPECT_NEAR(enclosedVolume(droplet.surface) / kVolume, 1.0, 1e-9);
 }
 
-// Every mask of data/.
+// Masks of data/.
 
 class DataMaskTest : public ::testing::TestWithParam<const char*> {};
 
@@ -88,7 +88,7 @@ TEST_P(DataMaskTest, BecomesASoundDroplet)
     EXPECT_THAT(droplet.warnings, ::testing::Not(::testing::Contains(::testing::HasSubstr("asked for"))));
 }
 
-TEST_P(DataMaskTest, HasTheAnglesPromised)
+TEST_P(DataMaskTest, HasThePromisedAngles)
 {
     const Droplet droplet = makeDroplet(readMask(kData + GetParam()));
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
@@ -98,7 +98,7 @@ TEST_P(DataMaskTest, HasTheAnglesPromised)
 
 TEST_P(DataMaskTest, KeepsEveryPixelOfItsTopology)
 {
-    expectTaken(readMask(kData + GetParam()), 5'000);
+    expectSoundDroplets(readMask(kData + GetParam()), 5'000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, DataMaskTest,
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DataMaskTest,
 
 TEST(DataMasks, GiveTheSameBytesInEveryProcess)
 {
-    // Addresses differ from process to process; nothing may be ordered by them.
+    // Addresses differ between processes; no order may depend on them.
     const ScratchDirectory scratch;
     for (const char* name : {"cluster.png", "debian_swirl.png", "maze.pgm"}) {
         SCOPED_TRACE(name);
@@ -127,7 +127,7 @@ TEST(DataMasks, GiveTheSameBytesInEveryProcess)
     }
 }
 
-// Masks that are hard to take.
+// Awkward masks.
 
 struct AwkwardMask {
     const char* name;
@@ -146,7 +146,7 @@ TEST_P(AwkwardMaskTest, BecomesASoundDroplet)
 {
     const Mask mask = GetParam().make();
     ASSERT_EQ(flooded(mask), GetParam().counts);
-    expectTaken(mask);
+    expectSoundDroplets(mask);
 }
 
 Mask comb()
@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
                             ".....###..\n.....####.\n....######\n....######\n.....####.\n......##..");
                     }},
         AwkwardMask{"Spiral", {1, 0}, spiral}, AwkwardMask{"Comb", {1, 0}, comb},
-        AwkwardMask{"OnlyBarelyLiquid",
+        AwkwardMask{"BarelyLiquid",
                     {1, 0},
                     [] {
                         Mask mask = hardMask(16, 16, disc({8.0, 8.0}, 5.0));
@@ -215,19 +215,19 @@ INSTANTIATE_TEST_SUITE_P(
                     }}),
     [](const auto& info) { return std::string(info.param.name); });
 
-TEST(AwkwardMasks, SpecksAloneAreNoLiquid)
+TEST(AwkwardMasks, RefusesSpecksAlone)
 {
     for (const Mask& mask : {drawnMask("#"), drawnMask("....\n.#..\n...#"), drawnMask("...\n...")}) {
         try {
             makeDroplet(mask);
-            ADD_FAILURE() << "a droplet from nothing";
+            ADD_FAILURE() << "a droplet was made from specks";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
         }
     }
 }
 
-/// Uniform numbers in [0, 1) from Knuth's 64-bit linear congruential generator: the same everywhere.
+/// Uniform numbers in [0, 1) from Knuth's 64-bit linear congruential generator, the same on every platform.
 class Noise {
 public:
     explicit Noise(std::uint64_t seed) : state_(seed) {}
@@ -262,7 +262,7 @@ TEST_P(NoiseMaskTest, BecomesSoundDroplets)
             EXPECT_THROW(makeDroplet(mask), Error);
             continue;
         }
-        expectTaken(mask, 1'000);
+        expectSoundDroplets(mask, 1'000);
         if (HasFatalFailure()) {
             return;
         }
@@ -272,7 +272,7 @@ TEST_P(NoiseMaskTest, BecomesSoundDroplets)
 INSTANTIATE_TEST_SUITE_P(Mask, NoiseMaskTest, ::testing::Values(true, false),
                          [](const auto& info) { return std::string(info.param ? "Hard" : "Grey"); });
 
-TEST(AwkwardMasks, LargeAndNearlyEmpty)
+TEST(AwkwardMasks, LargeMaskWithOneSmallDroplet)
 {
     constexpr int kSide = 4096;
     Mask mask;

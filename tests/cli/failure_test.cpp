@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bad inputs and outputs: a clear line, the right exit code, nothing lost.
+// Bad inputs and outputs: one clear line, the right exit code, no file lost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ using testing::writeFile;
 
 class FailureTest : public RefusalTest {
 protected:
-    /// A picture of these bytes is refused, from a file and from standard input.
+    /// Expects that a picture of these bytes is refused, from a file and from standard input.
     void expectBadPicture(const std::string& bytes, const std::vector<std::string>& words) const
     {
         writeFile(directory() / "bad.png", bytes);
@@ -40,7 +40,7 @@ protected:
         expectRefusal({"-", "old.glb", "--json", "old.json"}, 3, named, options);
     }
 
-    /// A command line of the shell that begins with droplet-shape.
+    /// Runs droplet-shape with these arguments in a shell, after the commands in `before`.
     [[nodiscard]] testing::CommandResult runShell(const std::string& arguments, const std::string& before = "") const
     {
         CommandOptions options;
@@ -57,38 +57,38 @@ protected:
     }
 };
 
-TEST_F(FailureTest, MissingPicture)
+TEST_F(FailureTest, ReportsMissingPicture)
 {
     expectRefusal({"missing.png", "old.glb", "--json", "old.json"}, 3, {"missing.png", "No such file"});
 }
 
-TEST_F(FailureTest, EmptyPicture)
+TEST_F(FailureTest, ReportsEmptyPicture)
 {
     expectBadPicture("", {"empty"});
 }
 
-TEST_F(FailureTest, TruncatedPicture)
+TEST_F(FailureTest, ReportsTruncatedPicture)
 {
     const std::string whole = discPicture(64, 24.0);
     expectBadPicture(whole.substr(0, whole.size() / 2), {});
     expectBadPicture(whole.substr(0, 5), {});
 }
 
-TEST_F(FailureTest, NotAPicture)
+TEST_F(FailureTest, ReportsFileThatIsNotAPicture)
 {
     expectBadPicture("This is no picture, but a sentence of some length.\n", {});
 }
 
-TEST_F(FailureTest, DirectoryForAPicture)
+TEST_F(FailureTest, ReportsDirectoryInsteadOfPicture)
 {
     fs::create_directory(directory() / "folder.png");
     expectRefusal({"folder.png", "old.glb"}, 3, {"folder.png", "irectory"});
 }
 
-TEST_F(FailureTest, UnreadablePicture)
+TEST_F(FailureTest, ReportsUnreadablePicture)
 {
     if (!canRespectPermissions()) {
-        GTEST_SKIP() << "runs as a root that may not give up its privileges";
+        GTEST_SKIP() << "runs as root that cannot drop its privileges";
     }
     fs::permissions(directory() / "disc.pgm", fs::perms::none);
     CommandOptions options;
@@ -96,10 +96,10 @@ TEST_F(FailureTest, UnreadablePicture)
     expectRefusal({"disc.pgm", "old.glb", "--json", "old.json"}, 3, {"disc.pgm", "Permission denied"}, options);
 }
 
-TEST_F(FailureTest, BombOfATinyFile)
+TEST_F(FailureTest, ReportsTinyFileOfAHugePicture)
 {
     expectBadPicture("P5\n20000 20000\n255\nabc", {"20000"});
-    // A PNG of 100000 × 100000 one-bit pixels with its checksums right and hardly any data.
+    // A PNG of 100000 × 100000 one-bit pixels with valid checksums and almost no data.
     constexpr std::array<unsigned char, 45> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,
                                                  'I',  'H', 'D', 'R', 0,    0x01, 0x86, 0xa0, 0,    0x01, 0x86, 0xa0,
                                                  1,    0,   0,   0,   0,    0x80, 0x29, 0x36, 0x65, 0,    0,    0,
@@ -107,7 +107,7 @@ TEST_F(FailureTest, BombOfATinyFile)
     expectBadPicture(std::string(kPng.begin(), kPng.end()), {"100000"});
 }
 
-TEST_F(FailureTest, GroundThatCannotBeRead)
+TEST_F(FailureTest, ReportsUnreadableGround)
 {
     const std::vector<std::string> run{"disc.pgm", "old.glb", "--json", "old.json", "--surface-depth", "1mm"};
     const auto expect_bad = [&](const std::string& path, const std::vector<std::string>& words) {
@@ -130,12 +130,12 @@ TEST_F(FailureTest, GroundThatCannotBeRead)
     expect_bad("words.png", {});
 }
 
-TEST_F(FailureTest, GroundOfWholeNumbersWithoutItsDepth)
+TEST_F(FailureTest, ReportsMissingDepthOfAnIntegerHeightMap)
 {
     expectRefusal({"disc.pgm", "old.glb", "--surface", "disc.pgm"}, 2, {"--surface-depth is missing", "disc.pgm"});
 }
 
-TEST_F(FailureTest, FootprintBeyondTheGround)
+TEST_F(FailureTest, ReportsFootprintLargerThanTheGround)
 {
     // The disc is 7.5 mm in radius.
     expectRefusal({"disc.pgm", "old.glb", "--surface", "sphere:R=7mm"}, 2, {"radius 7", "sphere", "must exceed 7.5"});
@@ -143,7 +143,7 @@ TEST_F(FailureTest, FootprintBeyondTheGround)
                   {"radius 7", "cylinder", "must exceed 7."});
 }
 
-TEST_F(FailureTest, ObjectThatCannotBeRead)
+TEST_F(FailureTest, ReportsUnreadableObject)
 {
     writeFile(directory() / "words.glb", "This is no object, but a sentence of some length.\n");
     fs::create_directory(directory() / "folder.glb");
@@ -152,7 +152,7 @@ TEST_F(FailureTest, ObjectThatCannotBeRead)
     }
 }
 
-TEST_F(FailureTest, DropletsThatDoNotExist)
+TEST_F(FailureTest, ReportsDropletsThatDoNotExist)
 {
     const std::vector<std::string> run{"disc.pgm",         "old.glb", "--json",      "old.json", "-q",
                                        "--export-evolver", "old.fe",  "--triangles", "2k"};
@@ -161,9 +161,9 @@ TEST_F(FailureTest, DropletsThatDoNotExist)
         arguments.insert(arguments.end(), options.begin(), options.end());
         expectRefusal(arguments, 5, words);
     };
-    // A cap on a disc of 7.5 mm ends at the half ball: 2/3 π R³ = 884 µL.
+    // The largest cap on a disc of radius 7.5 mm is the half ball: 2/3 π R³ = 884 µL.
     expect_none({"--model", "exact", "--gravity", "0m/s2", "--volume", "1000uL"}, {"largest volume", "uL"});
-    // Of a linear droplet that hangs from a disc the Bond number is below 3.8317², J₁'s first zero: here it is 17.
+    // A linear droplet that hangs from a disc has a Bond number below 3.8317², the first zero of J₁; here it is 17.
     for (const std::vector<std::string>& upside_down :
          {std::vector<std::string>{"--gravity", "-9.81m/s2"}, std::vector<std::string>{"--tilt", "180deg"}}) {
         auto options = upside_down;
@@ -172,18 +172,18 @@ TEST_F(FailureTest, DropletsThatDoNotExist)
     }
 }
 
-TEST_F(FailureTest, PictureWithoutLiquid)
+TEST_F(FailureTest, ReportsPictureWithoutLiquid)
 {
     expectBadPicture(greymap(32, 32, [](int, int) { return 0; }), {"liquid"});
 }
 
-TEST_F(FailureTest, PictureOfSpecksOnly)
+TEST_F(FailureTest, ReportsPictureOfSpecksOnly)
 {
     const auto specks = greymap(32, 32, [](int x, int y) { return x % 8 == 4 && y % 8 == 4 ? 255 : 0; });
     expectBadPicture(specks, {"speck"});
 }
 
-TEST_F(FailureTest, MissingFolder)
+TEST_F(FailureTest, ReportsMissingFolder)
 {
     expectBadOutput({"nowhere/new.glb", "--json", "old.json"}, {"nowhere/new.glb", "No such file or directory"});
     expectBadOutput({"old.glb", "--json", "nowhere/new.json"}, {"nowhere/new.json", "No such file or directory"});
@@ -191,22 +191,22 @@ TEST_F(FailureTest, MissingFolder)
                     {"nowhere/new.fe", "No such file or directory"});
 }
 
-TEST_F(FailureTest, FileForAFolder)
+TEST_F(FailureTest, ReportsFileInsteadOfFolder)
 {
     expectBadOutput({"disc.pgm/new.glb", "--json", "old.json"}, {"disc.pgm/new.glb", "Not a directory"});
 }
 
-TEST_F(FailureTest, DirectoryForAnOutput)
+TEST_F(FailureTest, ReportsDirectoryInsteadOfOutput)
 {
     fs::create_directory(directory() / "folder.glb");
     expectBadOutput({"folder.glb", "--json", "old.json"}, {"folder.glb", "Is a directory"});
     expectBadOutput({"old.glb", "--json", "folder.glb"}, {"folder.glb", "Is a directory"});
 }
 
-TEST_F(FailureTest, ReadOnlyFolder)
+TEST_F(FailureTest, ReportsReadOnlyFolder)
 {
     if (!canRespectPermissions()) {
-        GTEST_SKIP() << "runs as a root that may not give up its privileges";
+        GTEST_SKIP() << "runs as root that cannot drop its privileges";
     }
     const fs::path locked = directory() / "locked";
     fs::create_directory(locked);
@@ -221,18 +221,18 @@ TEST_F(FailureTest, ReadOnlyFolder)
     fs::permissions(locked, fs::perms::owner_all);
 }
 
-TEST_F(FailureTest, FullDevice)
+TEST_F(FailureTest, ReportsFullDevice)
 {
     for (const char* format : {"glb", "gltf", "obj", "ply", "stl"}) {
         expectBadOutput({"/dev/full", "--format", format, "--json", "old.json"}, {"/dev/full", "No space left"});
     }
-    // The droplet itself could be written: that it is not there without its report is the promise.
+    // The droplet could be written, but must not appear without its report.
     expectBadOutput({"old.glb", "--json", "/dev/full"}, {"/dev/full", "No space left"});
     expectBadOutput({"old.glb", "--json", "old.json", "--export-evolver", "/dev/full"}, {"/dev/full", "No space left"});
     expectBadOutput({"old.glb", "--json", "/dev/full", "--export-evolver", "new.fe"}, {"/dev/full", "No space left"});
 }
 
-TEST_F(FailureTest, FullStandardOutput)
+TEST_F(FailureTest, ReportsFullStandardOutput)
 {
     CommandOptions options;
     options.output_file = "/dev/full";
@@ -240,7 +240,7 @@ TEST_F(FailureTest, FullStandardOutput)
     expectBadOutput({"old.glb", "--json", "-"}, {"No space left"}, options);
 }
 
-TEST_F(FailureTest, ReaderThatWentAway)
+TEST_F(FailureTest, ReportsClosedPipe)
 {
     CommandOptions options;
     options.output_closed = true;
@@ -248,14 +248,14 @@ TEST_F(FailureTest, ReaderThatWentAway)
     expectBadOutput({"old.glb", "--json", "-"}, {"Broken pipe"}, options);
 }
 
-TEST_F(FailureTest, ExistingFilesThatMustStay)
+TEST_F(FailureTest, NoClobberProtectsExistingFiles)
 {
     expectBadOutput({"old.glb", "--no-clobber"}, {"old.glb", "exists"});
     expectBadOutput({"new.glb", "--json", "old.json", "--no-clobber"}, {"old.json", "exists"});
     expectBadOutput({"new.glb", "--export-evolver", "old.json", "--no-clobber"}, {"old.json", "exists"});
 }
 
-TEST_F(FailureTest, StandardInputThatIsTheOutput)
+TEST_F(FailureTest, RefusesToReplaceStandardInput)
 {
     const std::string before = readFile(directory() / "disc.pgm");
     const auto result = runShell("- disc.pgm --format glb < disc.pgm");
@@ -264,7 +264,7 @@ TEST_F(FailureTest, StandardInputThatIsTheOutput)
     EXPECT_EQ(readFile(directory() / "disc.pgm"), before);
 }
 
-TEST_F(FailureTest, ClosedStandardStreams)
+TEST_F(FailureTest, ReportsClosedStandardStreams)
 {
     const auto no_input = runShell("- old.glb <&-");
     EXPECT_EQ(no_input.exit_code, 3);
@@ -274,26 +274,26 @@ TEST_F(FailureTest, ClosedStandardStreams)
     EXPECT_THAT(no_output.error, HasSubstr("/dev/stdout"));
     expectOlderFiles();
 
-    // A file that took the place of standard error would also take the words meant for it.
+    // An output file that got the number of standard error would receive its messages, too.
     EXPECT_EQ(runShell("disc.pgm silent.ply -v 2>&-").exit_code, 0);
     EXPECT_EQ(runShell("disc.pgm loud.ply -v").exit_code, 0);
     EXPECT_TRUE(readFile(directory() / "silent.ply") == readFile(directory() / "loud.ply"));
 }
 
-TEST_F(FailureTest, NamesThatWouldBreakALine)
+TEST_F(FailureTest, PrintsNamesWithLineBreaksOnOneLine)
 {
     expectRefusal({"two\nlines.png", "old.glb"}, 3, {"lines.png"});
     expectRefusal({"disc.pgm", "two\nlines"}, 2, {"lines"});
     expectRefusal({"disc.pgm", "old.glb", "--width", "4\nmm"}, 2, {"--width"});
 }
 
-TEST_F(FailureTest, EdgeTooShortForTheFootprint)
+TEST_F(FailureTest, RefusesEdgeTooShortForTheFootprint)
 {
     expectRefusal({"disc.pgm", "old.glb", "--edge", "1nm", "--json", "old.json"}, 2,
                   {"--edge", "1e-06mm", "triangles", "at least"});
 }
 
-TEST_F(FailureTest, OutOfMemory)
+TEST_F(FailureTest, ReportsOutOfMemory)
 {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer itself takes terabytes of address space";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// droplet-shape glyphs, as it is called.
+// `droplet-shape glyphs`: texts, sets of glyphs, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ protected:
     }
 };
 
-TEST_F(Glyphs, ATextIsOneFile)
+TEST_F(Glyphs, WritesATextToOneFile)
 {
     succeeds({"--text", "Water", "-o", "water.glb", "--triangles", "3k", "--json", "water.json"});
     EXPECT_THAT(readFile(directory() / "water.glb"), StartsWith("glTF"));
@@ -80,13 +80,14 @@ TEST_F(Glyphs, ATextIsOneFile)
     EXPECT_EQ(report["mesh"]["droplets"], 5);
     EXPECT_EQ(report["mesh"]["holes"], 2);
     EXPECT_EQ(report["output"]["closed"], true);
-    EXPECT_NEAR(report["shape"]["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6) << "each letter the same";
+    EXPECT_NEAR(report["shape"]["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6)
+        << "all letters have the same angle";
     for (const json& letter : report["droplets"]) {
         EXPECT_NEAR(letter["contact_angle_deg"]["mean"].get<double>(), 40.0, 1e-6);
     }
 }
 
-TEST_F(Glyphs, TheSummaryTellsWhatWasSet)
+TEST_F(Glyphs, SummaryShowsTheText)
 {
     const CommandResult result = glyphs({"--text", "A水", "-o", "a.stl", "--triangles", "500", "--em", "1cm"});
     EXPECT_EQ(result.exit_code, 0);
@@ -95,7 +96,7 @@ TEST_F(Glyphs, TheSummaryTellsWhatWasSet)
     EXPECT_THAT(result.error, ::testing::Not(HasSubstr("pixel")));
 }
 
-TEST_F(Glyphs, EachCharacterIsAFileOfItsOwn)
+TEST_F(Glyphs, WritesOneFilePerCharacter)
 {
     const CommandResult result = glyphs(
         {"--charset", "A-Ca水 ", "-o", "out/{name}.stl", "--json", "out/{codepoint}_{gid}.json", "--triangles", "300"});
@@ -113,7 +114,7 @@ TEST_F(Glyphs, EachCharacterIsAFileOfItsOwn)
         EXPECT_GT(row["volume_m3"].get<double>(), 0.0);
     }
     EXPECT_EQ(manifest["items"][3]["name"], "glyph 'a'");
-    ASSERT_THAT(manifest["left_out"], SizeIs(1)) << "white space between is passed over";
+    ASSERT_THAT(manifest["left_out"], SizeIs(1)) << "white space in a charset is ignored";
     EXPECT_EQ(manifest["left_out"][0]["name"], "U+6C34 '水'");
     const json report = parsed("out/U+0041_36.json");
     EXPECT_EQ(report["input"]["type"]["glyph"], 36);
@@ -122,14 +123,14 @@ TEST_F(Glyphs, EachCharacterIsAFileOfItsOwn)
     EXPECT_TRUE(report["input"]["type"]["text"].is_null());
 }
 
-TEST_F(Glyphs, OneGlyphOfManyIsTheSameAsAlone)
+TEST_F(Glyphs, GlyphOfASetEqualsTheSameGlyphAlone)
 {
     succeeds({"--charset", "g&", "-o", "{name}.stl", "--triangles", "400", "-j", "2"});
     succeeds({"--text", "g", "-o", "text.stl", "--triangles", "400"});
     EXPECT_TRUE(readFile(directory() / "g.stl") == readFile(directory() / "text.stl"));
 }
 
-TEST_F(Glyphs, TheSameBytesAtAnyNumberOfThreads)
+TEST_F(Glyphs, SameBytesWithAnyNumberOfThreads)
 {
     for (const char* threads : {"1", "3"}) {
         const std::string folder = std::string("j") + threads;
@@ -142,7 +143,7 @@ TEST_F(Glyphs, TheSameBytesAtAnyNumberOfThreads)
     }
 }
 
-TEST_F(Glyphs, GlyphsWithoutInkAreToldAndNoError)
+TEST_F(Glyphs, ListsGlyphsWithoutInkAsLeftOut)
 {
     succeeds({"--charset", "U+00A0 U+0021", "-o", "out/{name}.stl", "--triangles", "200"});
     const json manifest = parsed("out/manifest.json");
@@ -152,7 +153,7 @@ TEST_F(Glyphs, GlyphsWithoutInkAreToldAndNoError)
     EXPECT_EQ(manifest["left_out"][0]["reason"], "no ink");
 }
 
-TEST_F(Glyphs, WhatStandsIsSkippedAndWhatChangedIsMade)
+TEST_F(Glyphs, SkipsGlyphsThatAreUpToDate)
 {
     const std::vector<std::string> job{"--charset", "ab", "-o", "{name}.stl", "--triangles", "200"};
     const auto with = [&](std::vector<std::string> more) {
@@ -162,12 +163,12 @@ TEST_F(Glyphs, WhatStandsIsSkippedAndWhatChangedIsMade)
     EXPECT_THAT(with({}), HasSubstr("made       2 of 2"));
     EXPECT_THAT(with({}), HasSubstr("made       0 of 2, 2 skipped"));
     EXPECT_THAT(with({"--em", "30mm"}), HasSubstr("made       2 of 2"));
-    // More glyphs: those there are stand.
+    // With another glyph, the existing ones are skipped.
     EXPECT_THAT(glyphs({"--charset", "abc", "-o", "{name}.stl", "--triangles", "200", "--em", "30mm"}).error,
                 HasSubstr("made       1 of 3, 2 skipped"));
 }
 
-TEST_F(Glyphs, ATowerIsToldEvenIfQuiet)
+TEST_F(Glyphs, WarnsAboutATowerEvenIfQuiet)
 {
     const CommandResult result =
         glyphs({"--charset", "o", "-o", "{name}.glb", "--height", "40mm", "--triangles", "500", "-q"});
@@ -175,7 +176,7 @@ TEST_F(Glyphs, ATowerIsToldEvenIfQuiet)
     EXPECT_THAT(result.error, AllOf(HasSubstr("warning: glyph 'o'"), HasSubstr("40 mm high, but a puddle")));
 }
 
-TEST_F(Glyphs, SharesTakeEveryGlyphOnce)
+TEST_F(Glyphs, SharesMakeEveryGlyphOnce)
 {
     for (const char* share : {"1/3", "2/3", "3/3"}) {
         succeeds({"--charset", "a-g", "-o", "out/{name}.stl", "--triangles", "200", "--shard", share});
@@ -183,7 +184,7 @@ TEST_F(Glyphs, SharesTakeEveryGlyphOnce)
     EXPECT_THAT(filesIn("out"), SizeIs(7 + 3));
 }
 
-TEST_F(Glyphs, AllOfAFontHasNamesForAnyFileSystem)
+TEST_F(Glyphs, AllGlyphsHaveSafeFileNames)
 {
     const CommandResult listed = glyphs({"--list"});
     EXPECT_EQ(listed.exit_code, 0);
@@ -238,7 +239,7 @@ TEST_F(Glyphs, EqualHeightIsThatOfTheLetterO)
             {"--equal-height and --fill total"});
 }
 
-TEST_F(Glyphs, AxesAndSizeChangeWhatIsMade)
+TEST_F(Glyphs, AxesAndEmChangeTheFootprint)
 {
     const auto area = [&](const std::vector<std::string>& more) {
         std::vector<std::string> job{"--text", "H", "-o", "h.stl", "--json", "h.json", "--triangles", "300"};
@@ -252,7 +253,7 @@ TEST_F(Glyphs, AxesAndSizeChangeWhatIsMade)
     EXPECT_NEAR(area({"--em", "40mm"}), 4 * regular, 1e-2 * regular);
 }
 
-TEST_F(Glyphs, TextsHaveLinesAndBackslashes)
+TEST_F(Glyphs, TextsMayHaveLinesAndBackslashes)
 {
     const auto droplets = [&](const char* text) {
         succeeds({"--text", text, "-o", "t.stl", "--json", "t.json", "--triangles", "400", "--align", "centre",
@@ -275,9 +276,9 @@ TEST_F(Glyphs, CharsetsMayComeFromAFile)
     refuses({"--charset", "@none.txt", "-o", "{name}.glb"}, 3, {"--charset", "none.txt cannot be read"});
 }
 
-TEST_F(Glyphs, SomeThatFailAreExitCode6)
+TEST_F(Glyphs, FailedGlyphsGiveExitCode6)
 {
-    // A colon asks more of the exact model than its dots can hold, so that nothing stands.
+    // The volume is too large for a dot in the exact model, so all glyphs fail.
     const CommandResult result = glyphs({"--charset", ".:", "-o", "out/{name}.stl", "--triangles", "300", "--model",
                                          "exact", "--volume", "20uL", "--keep-going"});
     EXPECT_EQ(result.exit_code, 6);
@@ -286,7 +287,7 @@ TEST_F(Glyphs, SomeThatFailAreExitCode6)
     EXPECT_EQ(manifest["items"][0]["exit_code"], 5);
 }
 
-TEST_F(Glyphs, IsRefusedWithAReason)
+TEST_F(Glyphs, RefusesWrongOptions)
 {
     refuses({"--text", "a"}, 2, {"--output is missing"});
     refuses({"--text", "a", "-o", "{name}.glb"}, 2, {"--output", "{name}.glb", "--charset or --all"});
@@ -298,7 +299,7 @@ TEST_F(Glyphs, IsRefusedWithAReason)
     refuses({"--text", " ", "-o", "x.glb"}, 3, {"the text has no ink"});
     refuses({"--text", "水", "-o", "x.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});
     refuses({"--charset", "水", "-o", "{name}.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});
-    refuses({"--charset", "U+00A0", "-o", "{name}.glb"}, 3, {"none of the glyphs asked for has ink"});
+    refuses({"--charset", "U+00A0", "-o", "{name}.glb"}, 3, {"none of the chosen glyphs has ink"});
     refuses({"--charset", "b-a", "-o", "{name}.glb"}, 2, {"--charset", "runs backward"});
     refuses({"--charset", "ab", "-o", "x.glb"}, 2, {"same output, 'x.glb'"});
     refuses({"--charset", "ab", "-o", "{nom}.glb"}, 2, {"--output", "{name}, {gid} or {codepoint}"});
@@ -317,12 +318,12 @@ TEST_F(Glyphs, IsRefusedWithAReason)
     refuses({"--all", "-o", "{name}.glb", "--align", "end"}, 2, {"--align goes with --text alone"});
     refuses({"--text", "a", "-o", "x.glb"}, 3, {"disc.pgm: is not a font"}, "disc.pgm");
     refuses({"--text", "a", "-o", "x.glb"}, 3, {"cannot read none.ttf"}, "none.ttf");
-    refuses({"--text", "a", "-o", "x.glb"}, 2, {"--font is missing, or no file"}, "-");
+    refuses({"--text", "a", "-o", "x.glb"}, 2, {"--font must name a file"}, "-");
     refuses({"--text", "a", "-o", "x.glb", "--edge", "1nm"}, 2, {"--edge", "would take"});
-    expectRefusal({"glyphs", "--text", "a", "-o", "x.glb"}, 2, {"--font is missing"});
+    expectRefusal({"glyphs", "--text", "a", "-o", "x.glb"}, 2, {"--font must name a file"});
 }
 
-TEST_F(Glyphs, TheFontIsNotReplaced)
+TEST_F(Glyphs, DoesNotReplaceTheFont)
 {
     std::filesystem::copy_file(kSans, directory() / "font.glb");
     refuses({"--text", "a", "-o", "font.glb"}, 2, {"and --font are the same", "font.glb"}, "font.glb");

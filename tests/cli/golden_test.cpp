@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Droplets as they were when last looked at, in tests/golden, against what the program makes of the same masks now.
-// Geometry is compared, not bytes: another machine may round otherwise, and one flipped edge changes them all.
+// Compares droplets from the masks with the reference droplets in tests/golden. Geometry is compared, not bytes:
+// rounding differs between machines, and one flipped edge changes all bytes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -37,8 +37,8 @@ const std::filesystem::path kRoot = testing::kSourceDir;
 /// One line of tests/golden/cases.
 struct Case {
     std::string name;
-    double mean_distance = 0.0;          ///< allowed, as a share of the droplet's height
-    std::vector<std::string> arguments;  ///< of droplet-shape, beside the output
+    double mean_distance = 0.0;          ///< allowed mean distance, as a share of the droplet's height
+    std::vector<std::string> arguments;  ///< arguments of droplet-shape, without the output
 };
 
 void PrintTo(const Case& golden, std::ostream* out)
@@ -66,7 +66,7 @@ std::vector<Case> cases()
     return result;
 }
 
-/// The bytes of an accessor that is tightly packed.
+/// Values of a tightly packed accessor.
 template <typename T>
 std::vector<T> values(const tinygltf::Model& model, int accessor, std::size_t components)
 {
@@ -82,7 +82,7 @@ std::vector<T> values(const tinygltf::Model& model, int accessor, std::size_t co
     return result;
 }
 
-/// The triangles of a GLB, its Y up.
+/// Triangles of a GLB, with Y up.
 TriangleMesh readGlb(const std::filesystem::path& path)
 {
     tinygltf::Model model;
@@ -92,12 +92,12 @@ TriangleMesh readGlb(const std::filesystem::path& path)
         throw std::runtime_error(path.string() + ": " + error);
     }
     const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
-    const auto places = values<float>(model, primitive.attributes.at("POSITION"), 3);
+    const auto positions = values<float>(model, primitive.attributes.at("POSITION"), 3);
     // Golden droplets are small enough for 16-bit indices.
     const auto corners = values<std::uint16_t>(model, primitive.indices, 1);
     TriangleMesh mesh;
-    for (std::size_t k = 0; k + 2 < places.size(); k += 3) {
-        mesh.positions.push_back({places[k], places[k + 1], places[k + 2]});
+    for (std::size_t k = 0; k + 2 < positions.size(); k += 3) {
+        mesh.positions.push_back({positions[k], positions[k + 1], positions[k + 2]});
     }
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
         mesh.triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
@@ -114,7 +114,7 @@ double height(const TriangleMesh& mesh)
     return top;
 }
 
-/// A quantity with its unit, such as `30uL`, made larger or smaller.
+/// Quantity with its unit, such as `30uL`, times a factor.
 std::string times(double factor, const std::string& quantity)
 {
     std::size_t end = 0;
@@ -126,7 +126,8 @@ constexpr std::size_t kTriangles = 1500;
 
 class GoldenTest : public ::testing::TestWithParam<Case> {
 protected:
-    /// How a droplet made now, of so much more liquid, differs from the golden one; distances as shares of its height.
+    /// Difference of a new droplet from the golden one; distances are shares of the height.
+    /// @param more  factor of the amount of liquid
     [[nodiscard]] Difference difference(std::size_t triangles = kTriangles, double more = 1.0) const
     {
         std::vector<std::string> arguments = GetParam().arguments;
@@ -151,8 +152,8 @@ protected:
 
     [[nodiscard]] static bool alike(const Difference& found)
     {
-        // Where the rim turns sharply, two good triangulations of so few triangles stray up to 11 % of the height from
-        // one another in a point; they agree to 0.4 % in volume, prescribed or not, and to 0.02 % in area.
+        // At sharp turns of the rim, two good triangulations with so few triangles differ by up to 11 % of the height
+        // in one point. Their volumes agree within 0.4 %, prescribed or not, and their areas within 0.02 %.
         return found.distance.mean < GetParam().mean_distance && found.distance.largest < 0.16 &&
                std::abs(found.volume) < 6e-3 && std::abs(found.area) < 3e-4;
     }
@@ -161,40 +162,40 @@ private:
     ScratchDirectory scratch_;
 };
 
-std::string inWords(const Difference& found)
+std::string textOf(const Difference& found)
 {
-    std::ostringstream words;
-    words << "distance " << found.distance.mean << " in the mean, " << found.distance.largest << " at most, volume "
-          << found.volume << ", area " << found.area;
-    return words.str();
+    std::ostringstream text;
+    text << "distance " << found.distance.mean << " in the mean, " << found.distance.largest << " at most, volume "
+         << found.volume << ", area " << found.area;
+    return text.str();
 }
 
-TEST_P(GoldenTest, DropletIsWhatItWas)
+TEST_P(GoldenTest, DropletIsUnchanged)
 {
     const Difference found = difference();
-    EXPECT_TRUE(alike(found)) << inWords(found);
+    EXPECT_TRUE(alike(found)) << textOf(found);
 }
 
-TEST_P(GoldenTest, AnotherTriangulationIsTheSameDroplet)
+TEST_P(GoldenTest, OtherTriangulationIsTheSameDroplet)
 {
     for (const std::size_t triangles : {1400U, 1600U}) {
         const Difference found = difference(triangles);
-        EXPECT_TRUE(alike(found)) << triangles << " triangles: " << inWords(found);
+        EXPECT_TRUE(alike(found)) << triangles << " triangles: " << textOf(found);
         EXPECT_GT(found.distance.largest, 0.0) << "not another triangulation";
     }
 }
 
-TEST_P(GoldenTest, FourPercentOfLiquidIsAnotherDroplet)
+TEST_P(GoldenTest, FourPercentMoreOrLessLiquidIsAnotherDroplet)
 {
     for (const double more : {0.96, 1.04}) {
         const Difference found = difference(kTriangles, more);
-        EXPECT_FALSE(alike(found)) << more << ": " << inWords(found);
-        // Not on account of volume or area alone.
+        EXPECT_FALSE(alike(found)) << more << ": " << textOf(found);
+        // The distance alone shows the difference.
         EXPECT_GT(found.distance.mean, GetParam().mean_distance) << more;
     }
 }
 
-TEST(Golden, FilesAreThoseOfTheCases)
+TEST(Golden, EveryCaseHasItsFile)
 {
     std::vector<std::string> wanted;
     for (const Case& golden : cases()) {
@@ -211,9 +212,9 @@ TEST(Golden, FilesAreThoseOfTheCases)
     EXPECT_GE(wanted.size(), 4U);
 }
 
-// The comparison itself, on shapes whose distance is known.
+// The comparison itself, on shapes with known distance.
 
-TEST(CompareSurfaces, SeesHowFarTheyLieApart)
+TEST(CompareSurfaces, MeasuresKnownDistances)
 {
     const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
     const TriangleMesh other_diagonal{square.positions, {{0, 1, 3}, {1, 2, 3}}};
@@ -226,7 +227,7 @@ TEST(CompareSurfaces, SeesHowFarTheyLieApart)
     EXPECT_NEAR(compare(lifted, square).distance.mean, 0.25, 1e-15);
     EXPECT_NEAR(compare(lifted, square).distance.largest, 0.25, 1e-15);
 
-    // A part is near the whole, but the whole is not near the part: its far centre is 1/3 · 1/√2 away.
+    // Every point of the half lies on the square, but not the reverse: the far centre is 1/3 · 1/√2 away.
     const TriangleMesh half{square.positions, {{0, 1, 2}}};
     const Difference missing = compare(half, square);
     EXPECT_NEAR(missing.distance.mean, 0.5 * std::sqrt(0.5) / 3.0, 1e-15);
@@ -244,7 +245,7 @@ TEST(CompareSurfaces, MeasuresDistanceFromEveryPartOfATriangle)
     EXPECT_EQ(testing::distance({2, -3, 4}, a, b, c), 5.0);
     EXPECT_NEAR(testing::distance({2 + 3, 1.5 + 4, 0}, a, b, c), 5.0, 1e-15);
     EXPECT_EQ(testing::distance({4, 0, 0}, a, b, c), 0.0);
-    // A triangle without area is its longest side.
+    // A triangle without area equals its longest side.
     EXPECT_EQ(testing::distance({1, 3, 0}, a, b, b), 3.0);
 }
 

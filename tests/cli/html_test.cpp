@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// --html from the outside: what the page holds beside the other files of a run.
+// --html: the page's content, and the other files of a run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using testing::ScratchDirectory;
 using ::testing::StartsWith;
 using testing::writeFile;
 
-/// What stands in a script element.
+/// Content of a script element.
 std::string script(const std::string& html, const std::string& id)
 {
     const auto at = html.find("<script id=\"" + id + "\"");
@@ -66,7 +66,7 @@ json contentOf(const std::string& html)
     return json::parse(script(html, "content"));
 }
 
-/// The JSON of a GLB.
+/// JSON chunk of a GLB.
 json gltfOf(const std::string& glb)
 {
     std::array<std::uint32_t, 5> head{};
@@ -80,7 +80,7 @@ protected:
     HtmlTest()
     {
         if (!pageIsBuiltIn()) {
-            throw std::logic_error("--html is tested where it is built in");
+            throw std::logic_error("this test needs a program with --html built in");
         }
         writeFile(directory() / "disc.pgm", discPicture(64, 24.0));
     }
@@ -108,7 +108,7 @@ private:
     ScratchDirectory scratch_;
 };
 
-TEST_F(HtmlTest, ChangesNothingOfTheOtherFiles)
+TEST_F(HtmlTest, DoesNotChangeTheOtherFiles)
 {
     for (const std::string extension : {".glb", ".gltf", ".ply"}) {
         make({"disc.pgm", "plain" + extension, "--json", "plain.json"});
@@ -122,11 +122,11 @@ TEST_F(HtmlTest, ChangesNothingOfTheOtherFiles)
             (*report)["output"].erase("path");
         }
         EXPECT_EQ(plain, beside);
-        EXPECT_TRUE(beside["fill"]["range"].is_null()) << "the slider is the page's alone";
+        EXPECT_TRUE(beside["fill"]["range"].is_null()) << "only the page has a slider";
     }
 }
 
-TEST_F(HtmlTest, HasASliderWhereverThereCanBeOne)
+TEST_F(HtmlTest, HasASliderIfPossible)
 {
     make({"disc.pgm", "disc.obj", "--html", "page.html"});
     EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0]["extras"]["fill_range"], json({0.0, 2.0}));
@@ -141,7 +141,7 @@ TEST_F(HtmlTest, HasASliderWhereverThereCanBeOne)
     }
 }
 
-TEST_F(HtmlTest, ShowsTheVeryFileThatIsWritten)
+TEST_F(HtmlTest, ContainsTheWrittenGlb)
 {
     make({"disc.pgm", "disc.glb", "--html", "page.html", "--fill-range", "0..2", "--material", "honey"});
     EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
@@ -149,13 +149,13 @@ TEST_F(HtmlTest, ShowsTheVeryFileThatIsWritten)
     EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
 }
 
-TEST_F(HtmlTest, MaterialIsOfUseToThePage)
+TEST_F(HtmlTest, MaterialAffectsThePage)
 {
-    make({"disc.pgm", "disc.stl", "--html", "page.html", "--material", "mercury"});  // and no word of warning
+    make({"disc.pgm", "disc.stl", "--html", "page.html", "--material", "mercury"});  // no warning
     EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["materials"][0]["name"], "mercury");
 }
 
-TEST_F(HtmlTest, HoldsTheReportAndThePicturesName)
+TEST_F(HtmlTest, ContainsTheReportAndThePicturesName)
 {
     make({"disc.pgm", "out.glb", "--html", "page.html", "--json", "report.json", "--volume", "20uL"});
     json report = json::parse(bytesOf("report.json"));
@@ -167,7 +167,7 @@ TEST_F(HtmlTest, HoldsTheReportAndThePicturesName)
     EXPECT_NEAR(content["report"]["shape"]["volume_ul"].get<double>(), 20.0, 1e-6);
 }
 
-TEST_F(HtmlTest, OddNamesOfPicturesStayNames)
+TEST_F(HtmlTest, EscapesNamesOfPictures)
 {
     const std::string odd = "a \"b\" <script>alert(1)<!-- & \xff.pgm";
     writeFile(directory() / odd, discPicture(64, 24.0));
@@ -188,14 +188,14 @@ TEST_F(HtmlTest, OddNamesOfPicturesStayNames)
     }
 }
 
-TEST_F(HtmlTest, IsTheSameAtAnyNumberOfThreads)
+TEST_F(HtmlTest, IsTheSameWithAnyNumberOfThreads)
 {
     make({"disc.pgm", "out.glb", "--html", "one.html", "-j", "1"});
     make({"disc.pgm", "out.glb", "--html", "two.html", "-j", "2"});
     EXPECT_EQ(bytesOf("one.html"), bytesOf("two.html"));
 }
 
-TEST_F(HtmlTest, GoesToStandardOutput)
+TEST_F(HtmlTest, WritesToStandardOutput)
 {
     const auto piped = run({"disc.pgm", "out.glb", "--html", "-"});
     ASSERT_EQ(piped.exit_code, 0) << piped.error;
@@ -204,7 +204,7 @@ TEST_F(HtmlTest, GoesToStandardOutput)
     EXPECT_EQ(piped.output, bytesOf("page.html"));
 }
 
-TEST_F(HtmlTest, IsRefusedWhereItWouldReplaceAnotherFile)
+TEST_F(HtmlTest, RefusesToReplaceOtherFiles)
 {
     const auto refused = [&](const std::vector<std::string>& arguments, int exit_code, const std::string& words) {
         const auto result = run(arguments);
@@ -218,7 +218,7 @@ TEST_F(HtmlTest, IsRefusedWhereItWouldReplaceAnotherFile)
     refused({"disc.pgm", "out.glb", "--html", "/dev/full"}, 4, "/dev/full");
     writeFile(directory() / "page.html", "older");
     refused({"disc.pgm", "out.glb", "--html", "page.html", "--no-clobber"}, 4, "page.html");
-    // A report that cannot be written takes the page with it.
+    // If the report cannot be written, neither is the page.
     refused({"disc.pgm", "out.glb", "--html", "page.html", "--json", "/dev/full"}, 4, "/dev/full");
     EXPECT_EQ(bytesOf("page.html"), "older");
     EXPECT_THAT(names(), ElementsAre("disc.pgm", "page.html"));

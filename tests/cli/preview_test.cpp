@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures from the outside: files, options that fit together, and those that do not.
+// --preview and its options: files, effects, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using testing::RefusalTest;
 
 class PreviewTest : public RefusalTest {
 protected:
-    /// A run on the disc with small pictures, which must do well.
+    /// Runs on the disc with small pictures, and expects success.
     CommandResult made(std::vector<std::string> options) const
     {
         std::vector<std::string> arguments = {"disc.pgm", "out.glb", "--triangles", "500", "--preview-size", "64x48"};
@@ -37,7 +37,7 @@ protected:
     [[nodiscard]] Picture pictureOf(const std::string& name) const { return readPicture(directory() / name); }
 };
 
-TEST_F(PreviewTest, WritesAPngOfTheSizeAskedFor)
+TEST_F(PreviewTest, WritesAPngOfTheGivenSize)
 {
     EXPECT_THAT(made({"--preview", "look.png"}).output, IsEmpty());
     const Picture picture = pictureOf("look.png");
@@ -47,7 +47,7 @@ TEST_F(PreviewTest, WritesAPngOfTheSizeAskedFor)
     EXPECT_TRUE(fs::exists(directory() / "out.glb"));
 }
 
-TEST_F(PreviewTest, IsTheSameAtAnyNumberOfThreads)
+TEST_F(PreviewTest, IsTheSameWithAnyNumberOfThreads)
 {
     made({"--preview", "one.png", "-j", "1"});
     made({"--preview", "two.png", "-j", "2"});
@@ -55,7 +55,7 @@ TEST_F(PreviewTest, IsTheSameAtAnyNumberOfThreads)
     EXPECT_EQ(made({"--preview", "-", "-q"}).output, readFile(directory() / "one.png"));
 }
 
-TEST_F(PreviewTest, EveryOptionShowsInThePicture)
+TEST_F(PreviewTest, EveryOptionChangesThePicture)
 {
     made({"--preview", "plain.png"});
     const Picture plain = pictureOf("plain.png");
@@ -83,8 +83,7 @@ TEST_F(PreviewTest, EveryOptionShowsInThePicture)
     EXPECT_EQ(pictureOf("same.png"), plain);
 }
 
-// A turn of a disc seen from above on ground of one colour shows the same disc, under lights that stay.
-TEST_F(PreviewTest, TurntablesAreNumberedAndTurn)
+TEST_F(PreviewTest, TurntablePicturesAreNumberedAndTurned)
 {
     made({"--preview", "turn.png", "--turntable", "3"});
     for (const char* name : {"turn-001.png", "turn-002.png", "turn-003.png"}) {
@@ -92,19 +91,19 @@ TEST_F(PreviewTest, TurntablesAreNumberedAndTurn)
     }
     EXPECT_FALSE(fs::exists(directory() / "turn.png"));
     EXPECT_FALSE(fs::exists(directory() / "turn-004.png"));
-    EXPECT_NE(pictureOf("turn-001.png"), pictureOf("turn-002.png")) << "the table's ruling";
+    EXPECT_NE(pictureOf("turn-001.png"), pictureOf("turn-002.png")) << "the table's ruling turns";
 }
 
-TEST_F(PreviewTest, HasNoBackgroundIfAskedFor)
+TEST_F(PreviewTest, BackgroundNoneIsTransparent)
 {
     made({"--preview", "cut.png", "--background", "none"});
-    constexpr std::size_t kColourType = 25;  // of PNG's header
+    constexpr std::size_t kColourType = 25;  // offset in a PNG
     EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 6) << "with alpha";
     made({"--preview", "cut.png", "--background", "ground"});
     EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 2);
 }
 
-TEST_F(PreviewTest, WhatHasNoEffectIsSaid)
+TEST_F(PreviewTest, WarnsAboutOptionsWithoutEffect)
 {
     for (const std::vector<std::string>& option : {std::vector<std::string>{"--view", "top"},
                                                    {"--ground", "disc.pgm"},
@@ -117,14 +116,14 @@ TEST_F(PreviewTest, WhatHasNoEffectIsSaid)
     }
     EXPECT_THAT(made({"--preview", "a.png", "--colour", "contours", "--ground", "disc.pgm"}).error,
                 HasSubstr("--ground has no effect with --colour contours"));
-    // A picture shows the material that a mesh alone would not.
+    // With a preview, the material has an effect even if the mesh has none.
     const CommandResult stl = run({"disc.pgm", "out.stl", "--triangles", "500", "--material", "ink", "--preview",
                                    "ink.png", "--preview-size", "32x32"});
     EXPECT_EQ(stl.exit_code, 0);
     EXPECT_THAT(stl.error, Not(HasSubstr("--material")));
 }
 
-TEST_F(PreviewTest, RefusesWhatCannotBe)
+TEST_F(PreviewTest, RefusesWrongOptions)
 {
     const auto refused = [&](std::vector<std::string> options, int exit_code, const std::vector<std::string>& words) {
         std::vector<std::string> arguments = {"disc.pgm", "new.glb"};
@@ -148,7 +147,7 @@ TEST_F(PreviewTest, RefusesWhatCannotBe)
             {"--background none", "--ground"});
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
     refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
-    refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview -"});
+    refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview must name a file"});
     refused({"--preview", "a.png", "--colour", "contours", "--onto", "o.glb"}, 2, {"--colour contours", "--onto"});
     refused({"--preview", "a.png", "--ground", "missing.png"}, 3, {"missing.png"});
     refused({"--preview", "a.png", "--ground", "old.json"}, 3, {"old.json"});
@@ -161,8 +160,8 @@ TEST_F(PreviewTest, RefusesWhatCannotBe)
     expectRefusal({"disc.pgm", "new.glb", "--preview", "-", "--json", "-"}, 2, {"--preview", "--json"});
 }
 
-// Whole or not at all, all of them together.
-TEST_F(PreviewTest, PictureThatCannotBeWrittenLeavesNothing)
+// All files are written, or none.
+TEST_F(PreviewTest, WritesNothingIfAPictureCannotBeWritten)
 {
     expectRefusal({"disc.pgm", "new.glb", "--triangles", "500", "--preview-size", "64x48", "--preview", "/dev/full"}, 2,
                   {"--preview"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scripts/regress on a folder of references.
+// scripts/regress on folders of references.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ CommandResult regress(std::vector<std::string> arguments)
     return testing::runProgram(arguments);
 }
 
-TEST(Regress, FolderOfOnesOwn)
+TEST(Regress, ComparesAnyFolderOfReferences)
 {
     const testing::ScratchDirectory scratch;
     const std::filesystem::path folder = scratch.path();
@@ -40,15 +40,15 @@ TEST(Regress, FolderOfOnesOwn)
     testing::writeFile(folder / "cases",
                        "# a name, a mask, options\n"
                        "same   disc.pgm  --triangles 400 --width 9mm\n"
-                       "other  0.5 disc.pgm  --triangles 400 --width '9mm'  # the number is not ours\n");
-    const CommandResult well = regress({folder.string()});
-    EXPECT_EQ(well.exit_code, 0) << well.output << well.error;
-    EXPECT_THAT(well.output, HasSubstr("2 of 2 as they were"));
+                       "other  0.5 disc.pgm  --triangles 400 --width '9mm'  # regress does not use the number\n");
+    const CommandResult unchanged = regress({folder.string()});
+    EXPECT_EQ(unchanged.exit_code, 0) << unchanged.output << unchanged.error;
+    EXPECT_THAT(unchanged.output, HasSubstr("2 of 2 unchanged"));
 
     make("other.stl", {"--width", "9mm", "--contact-angle", "50deg"});
     const CommandResult changed = regress({folder.string(), "--pictures", (folder / "pictures").string()});
     EXPECT_EQ(changed.exit_code, 1);
-    EXPECT_THAT(changed.output, HasSubstr("1 of 2 as they were"));
+    EXPECT_THAT(changed.output, HasSubstr("1 of 2 unchanged"));
     EXPECT_THAT(changed.output, HasSubstr("the largest distance of"));
     EXPECT_THAT(testing::readFile(folder / "pictures/other.png"), StartsWith("\x89PNG"));
     EXPECT_FALSE(std::filesystem::exists(folder / "pictures/same.png"));
@@ -62,7 +62,7 @@ TEST(Regress, FolderOfOnesOwn)
     EXPECT_EQ(regress({(folder / "pictures").string()}).exit_code, 2);
 }
 
-TEST(Regress, GoldenDropletsAreWhatTheyWere)
+TEST(Regress, GoldenDropletsAreUnchanged)
 {
     const CommandResult result = regress({});
     EXPECT_EQ(result.exit_code, 0) << result.output << result.error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The main job from the outside: files, pipes, report, words.
+// `droplet-shape` without a command: files, pipes, report, summary.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 using testing::writeFile;
 
-/// Two droplets, the left one a ring: liquid bright on dry black.
+/// Two droplets, bright on black; the left one is a ring.
 std::string ringAndDisc()
 {
     return greymap(96, 64, [](int x, int y) {
@@ -66,7 +66,7 @@ protected:
         return runDroplet(arguments, options);
     }
 
-    /// A quiet run that must succeed; few triangles keep it quick.
+    /// Runs quietly with few triangles, and expects success.
     void make(std::vector<std::string> arguments) const
     {
         arguments.insert(arguments.end(), {"--triangles", "2k", "-q"});
@@ -104,7 +104,7 @@ TEST_F(ShapeCommandTest, WritesEveryFormatByItsExtension)
     EXPECT_EQ(stl["output"]["triangles"], triangles);
 }
 
-TEST_F(ShapeCommandTest, FormatGoesBeforeTheExtension)
+TEST_F(ShapeCommandTest, FormatOverridesTheExtension)
 {
     make({"disc.pgm", "droplet.bin", "--format", "stl"});
     make({"disc.pgm", "droplet.stl"});
@@ -123,7 +123,7 @@ TEST_F(ShapeCommandTest, ReadsStandardInputAndWritesStandardOutput)
     EXPECT_THAT(piped.error, AllOf(HasSubstr("written"), Not(HasSubstr("glTF"))));
 }
 
-TEST_F(ShapeCommandTest, StandardOutputThatIsAFileIsWrittenNotReplaced)
+TEST_F(ShapeCommandTest, WritesIntoAFileThatIsStandardOutput)
 {
     make({"disc.pgm", "file.stl"});
     CommandOptions options;
@@ -132,7 +132,7 @@ TEST_F(ShapeCommandTest, StandardOutputThatIsAFileIsWrittenNotReplaced)
     EXPECT_EQ(bytesOf("redirected.stl"), bytesOf("file.stl"));
 }
 
-TEST_F(ShapeCommandTest, ReportOnStandardOutputIsNothingButJson)
+TEST_F(ShapeCommandTest, StandardOutputContainsOnlyTheReport)
 {
     const auto result = run({"disc.pgm", "droplet.glb", "--triangles", "2k", "--json", "-"});
     EXPECT_EQ(result.exit_code, 0);
@@ -140,7 +140,7 @@ TEST_F(ShapeCommandTest, ReportOnStandardOutputIsNothingButJson)
     EXPECT_EQ(report["output"]["bytes"], fs::file_size(directory() / "droplet.glb"));
 }
 
-TEST_F(ShapeCommandTest, ReportTellsWhatWasReadAndWritten)
+TEST_F(ShapeCommandTest, ReportDescribesInputAndOutput)
 {
     const json report = this->report({"two.pgm", "two.glb", "--width", "9.6mm", "--volume", "2uL"});
     EXPECT_EQ(report["input"]["path"], "two.pgm");
@@ -159,7 +159,7 @@ TEST_F(ShapeCommandTest, ReportTellsWhatWasReadAndWritten)
     EXPECT_EQ(report["output"]["components"], 2);
     EXPECT_EQ(report["mesh"]["droplets"], 2);
     EXPECT_EQ(report["mesh"]["holes"], 1);
-    // The base has few triangles, but one at least for every vertex of the rim that it joins.
+    // The base has few triangles, but at least one for every vertex of the rim.
     EXPECT_GT(report["output"]["triangles"], report["mesh"]["triangles"].get<int>());
     EXPECT_LT(report["output"]["triangles"], 2 * report["mesh"]["triangles"].get<int>());
     EXPECT_EQ(report["solve"]["converged"], true);
@@ -181,14 +181,14 @@ TEST_F(ShapeCommandTest, RowsOfDropletsAddUpToTheShape)
     }
     EXPECT_NEAR(report["shape"]["volume_m3"], volume, 1e-12 * volume);
     EXPECT_NEAR(report["mesh"]["footprint_area_m2"], area, 1e-12 * area);
-    // Every bright pixel of the picture, which is 96 pixels and 20 mm wide.
+    // The area is that of all bright pixels; the picture is 96 pixels and 20 mm wide.
     const std::string picture = bytesOf("two.pgm");
     const auto bright = std::count(picture.begin(), picture.end(), '\xff');
     const double pixel = 20e-3 / 96;
     EXPECT_NEAR(area, static_cast<double>(bright) * pixel * pixel, 0.005 * area);
 }
 
-TEST_F(ShapeCommandTest, OneReservoirHasOnePressureAndTheVolumeInTotal)
+TEST_F(ShapeCommandTest, TotalFillHasOnePressureAndTheGivenTotalVolume)
 {
     const json report = this->report({"two.pgm", "two.glb", "--volume", "2uL", "--fill", "total"});
     EXPECT_EQ(report["fill"]["sharing"], "total");
@@ -198,7 +198,7 @@ TEST_F(ShapeCommandTest, OneReservoirHasOnePressureAndTheVolumeInTotal)
     }
 }
 
-TEST_F(ShapeCommandTest, EveryWayToFillIsMet)
+TEST_F(ShapeCommandTest, MeetsEveryKindOfFill)
 {
     EXPECT_NEAR(report({"disc.pgm", "a.glb"})["shape"]["contact_angle_deg"]["mean"], 40.0, 1e-6);
     EXPECT_NEAR(report({"disc.pgm", "a.glb", "--contact-angle", "0.5rad"})["shape"]["contact_angle_deg"]["mean"],
@@ -207,7 +207,7 @@ TEST_F(ShapeCommandTest, EveryWayToFillIsMet)
     EXPECT_NEAR(report({"disc.pgm", "a.glb", "--volume", "30uL"})["shape"]["volume_m3"], 30e-9, 30e-19);
 }
 
-TEST_F(ShapeCommandTest, PhysicsIsAsAskedFor)
+TEST_F(ShapeCommandTest, LiquidAndGravityAreThoseGiven)
 {
     const json liquid = report({"disc.pgm", "a.glb", "--liquid", "mercury", "--gravity", "1.62m/s2"})["liquid"];
     EXPECT_EQ(liquid["name"], "mercury");
@@ -245,7 +245,7 @@ TEST_F(ShapeCommandTest, ExactModelMakesACap)
         this->report({"disc.pgm", "a.glb", "--model", "exact", "--gravity", "0m/s2", "--contact-angle", "60deg"});
     EXPECT_EQ(report["model"], "exact");
     EXPECT_GT(report["solve"]["newton_steps"], 1);
-    // A cap's height is R tan(θ/2), its pressure 2σ sin θ / R; the disc of pixels is round to 1 %.
+    // A cap has height R tan(θ/2) and pressure 2σ sin θ / R; the disc of pixels is round within 1 %.
     const double radius = std::sqrt(report["mesh"]["footprint_area_m2"].get<double>() / std::numbers::pi);
     EXPECT_NEAR(report["shape"]["height_max_m"], radius / std::sqrt(3.0), 0.01 * radius);
     EXPECT_NEAR(report["shape"]["pressure_pa"], std::sqrt(3.0) * 0.0728 / radius, 0.02 * 0.0728 / radius);
@@ -253,7 +253,7 @@ TEST_F(ShapeCommandTest, ExactModelMakesACap)
     EXPECT_EQ(report["shape"]["bond_number"], 0.0);
 }
 
-TEST_F(ShapeCommandTest, FiguresOfPhysicistsAgreeWithOneAnother)
+TEST_F(ShapeCommandTest, DerivedFiguresAgreeWithEachOther)
 {
     const json report = this->report({"disc.pgm", "a.glb"});
     const json& shape = report["shape"];
@@ -307,7 +307,7 @@ TEST_F(ShapeCommandTest, GravityAwayFromTheGroundMakesDropletsHang)
     EXPECT_NEAR(height({"--tilt", "180deg", "--gravity", "-1g"}), standing, 1e-6 * standing);
 }
 
-TEST_F(ShapeCommandTest, SaysWhetherDropletsWouldSlide)
+TEST_F(ShapeCommandTest, ReportsWhetherDropletsWouldSlide)
 {
     const auto retained = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"disc.pgm", "a.glb", "--volume", "50uL"});
@@ -329,16 +329,16 @@ TEST_F(ShapeCommandTest, SaysWhetherDropletsWouldSlide)
     EXPECT_EQ(level["shape"]["would_slide"], false);
     EXPECT_EQ(level["shape"]["driving_force_n"], 0.0);
 
-    const auto words = run({"disc.pgm", "a.glb", "--triangles", "2k", "--volume", "50uL", "--tilt", "90deg",
-                            "--advancing", "60deg", "--receding", "50deg"});
-    EXPECT_THAT(words.error, AllOf(HasSubstr("retention  1 droplet would slide"), HasSubstr("µN")));
+    const auto sliding = run({"disc.pgm", "a.glb", "--triangles", "2k", "--volume", "50uL", "--tilt", "90deg",
+                              "--advancing", "60deg", "--receding", "50deg"});
+    EXPECT_THAT(sliding.error, AllOf(HasSubstr("retention  1 droplet would slide"), HasSubstr("µN")));
     EXPECT_THAT(run({"two.pgm", "a.glb", "--triangles", "2k", "--advancing", "60deg", "--receding", "50deg"}).error,
                 HasSubstr("retention  no droplet would slide; pulled by 0 µN"));
 }
 
 TEST_F(ShapeCommandTest, OneOfTwoDropletsMaySlide)
 {
-    // On a wall, both as high: the disc comes off, the ring is held by two rims.
+    // On a wall, with the same height, the disc slides; two rims hold the ring.
     const json report = this->report(
         {"two.pgm", "a.glb", "--tilt", "90deg", "--height", "1mm", "--advancing", "65deg", "--receding", "48deg"});
     ASSERT_THAT(report["droplets"], SizeIs(2));
@@ -354,7 +354,7 @@ TEST_F(ShapeCommandTest, OneOfTwoDropletsMaySlide)
     EXPECT_LT(report["shape"]["driving_force_n"], report["shape"]["retention_force_n"]) << "together they would stay";
 }
 
-TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
+TEST_F(ShapeCommandTest, WarnsAboutOptionsWithoutEffect)
 {
     const auto warnings = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"disc.pgm", "a.glb", "--contact-angle", "20deg"});
@@ -373,7 +373,7 @@ TEST_F(ShapeCommandTest, OptionsWithoutEffectAreSaid)
     EXPECT_EQ(warnings({"--no-penetration", "--surface", "sphere:R=1m"}), "[]");
 }
 
-TEST_F(ShapeCommandTest, GroundIsAsAskedFor)
+TEST_F(ShapeCommandTest, GroundIsTheOneGiven)
 {
     const auto ground = [&](const std::string& surface) {
         return report({"disc.pgm", "a.glb", "--surface", surface})["ground"];
@@ -410,7 +410,7 @@ std::pair<double, double> rangeOfZ(const std::string& stl)
 
 TEST_F(ShapeCommandTest, BaseFollowsTheGround)
 {
-    // The disc is 7.5 mm in radius: there a ball of 20 mm has fallen by R − √(R² − r²) = 1.46 mm, a bowl has risen.
+    // At the disc's radius of 7.5 mm, a ball of 20 mm is lower by R − √(R² − r²) = 1.46 mm, and a bowl is higher.
     make({"disc.pgm", "ball.stl", "--surface", "sphere:R=20mm", "--contact-angle", "5deg"});
     EXPECT_NEAR(rangeOfZ(bytesOf("ball.stl")).first, -1.46, 0.03);
     make({"disc.pgm", "bowl.stl", "--surface", "sphere:R=-20mm", "--contact-angle", "5deg"});
@@ -432,7 +432,7 @@ TEST_F(ShapeCommandTest, LevelHeightMapLiftsTheDroplet)
     }
 }
 
-/// A TIFF of one pixel that holds a floating-point number.
+/// TIFF of one floating-point pixel.
 std::string floatTiff(float value)
 {
     std::string bytes("II*\0\x08\0\0\0\x09\0", 10);
@@ -441,7 +441,7 @@ std::string floatTiff(float value)
         std::memcpy(raw.data(), &number, sizeof number);
         bytes.append(raw.data(), raw.size());
     };
-    // Width, length, bits, compression, photometric, strip's place, rows, its bytes, sample format (TIFF 6.0).
+    // Width, length, bits, compression, photometric, strip offset, rows, strip bytes, sample format (TIFF 6.0).
     constexpr std::uint32_t kData = 10 + 9 * 12 + 4;
     for (const auto& [tag, entry] : std::vector<std::pair<std::uint16_t, std::uint32_t>>{
              {256, 1}, {257, 1}, {258, 32}, {259, 1}, {262, 1}, {273, kData}, {278, 1}, {279, 4}, {339, 3}}) {
@@ -466,7 +466,7 @@ TEST_F(ShapeCommandTest, HeightMapOfFloatsIsInMetres)
 
 TEST_F(ShapeCommandTest, NoPenetrationLeavesGroundDry)
 {
-    // Thesis, figure 4.14: a puddle far wider than the capillary length, tilted, sinks into the ground uphill.
+    // Thesis, figure 4.14: a tilted puddle, far wider than the capillary length, sinks into the ground uphill.
     const std::vector<std::string> puddle{"disc.pgm", "a.glb", "--width", "8cm", "--volume", "3mL", "--tilt", "30deg"};
     const json before = report(puddle);
     EXPECT_EQ(before["no_penetration"], false);
@@ -482,7 +482,7 @@ TEST_F(ShapeCommandTest, NoPenetrationLeavesGroundDry)
     EXPECT_EQ(after["output"]["closed"], true);
 }
 
-TEST_F(ShapeCommandTest, WritesForSurfaceEvolver)
+TEST_F(ShapeCommandTest, WritesADatafileForSurfaceEvolver)
 {
     make({"two.pgm", "a.glb"});
     make({"two.pgm", "b.glb", "--export-evolver", "b.fe"});
@@ -499,7 +499,7 @@ TEST_F(ShapeCommandTest, WritesForSurfaceEvolver)
 
 TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
 {
-    // The object is a droplet itself: an open cap whose uv is that of its picture.
+    // The object is another droplet: an open cap with the texture coordinates of its picture.
     make({"disc.pgm", "cap.glb", "--open", "--width", "6cm"});
     writeFile(directory() / "spot.pgm", discPicture(64, 8.0));
     const json own_size = report({"spot.pgm", "laid.stl", "--onto", "cap.glb"});
@@ -507,7 +507,7 @@ TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
     EXPECT_EQ(own_size["onto"]["droplets_laid"], 1);
     EXPECT_EQ(own_size["onto"]["droplets_left_out"], 0);
     EXPECT_EQ(own_size["output"]["closed"], true);
-    // Drawn at the object's own size: the picture is as wide as the cap's, but for what the cap's slope adds.
+    // At the object's own size, the picture is as wide as the cap's, except for the cap's slope.
     EXPECT_NEAR(own_size["input"]["pixel_size_m"].get<double>() * 64, 6e-2, 6e-3);
     EXPECT_NEAR(report({"spot.pgm", "a.glb", "--onto", "cap.glb", "--width", "1cm"})["onto"]["most_scale"], 6.0, 1.0);
 
@@ -522,7 +522,7 @@ TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
     EXPECT_THAT(run({"spot.pgm", "a.glb", "--onto", "cap.glb", "--triangles", "2k"}).error,
                 HasSubstr("object     cap.glb: 1 droplet laid on it, 0 left out, lengths "));
 
-    // Beside the cap there is no object.
+    // The droplet lies beside the cap, where there is no object.
     const auto beside = run({"disc.pgm", "b.glb", "--onto", "cap.glb", "--invert"});
     EXPECT_EQ(beside.exit_code, 5);
     EXPECT_THAT(beside.errorLines(), SizeIs(1));
@@ -556,7 +556,7 @@ TEST_F(ShapeCommandTest, FootprintOptionsReachTheOutline)
     EXPECT_EQ(report({"grey.pgm", "a.glb", "--channel", "luma"})["input"]["channel"], "luma");
 }
 
-TEST_F(ShapeCommandTest, ResolutionAndOpenness)
+TEST_F(ShapeCommandTest, TriangleOptionsSetTheMesh)
 {
     const auto triangles = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"disc.pgm", "a.glb", "-q", "--json", "report.json"});
@@ -591,7 +591,7 @@ TEST_F(ShapeCommandTest, ReportedVerticesAreThoseOfTheFile)
     EXPECT_EQ(file["accessors"][position]["count"], gltf["output"]["vertices"]);
 }
 
-TEST_F(ShapeCommandTest, MaterialChangesTheFileAndIsSaidToBeOfNoUseInStl)
+TEST_F(ShapeCommandTest, MaterialChangesTheFileAndHasNoEffectOnStl)
 {
     make({"disc.pgm", "water.glb"});
     make({"disc.pgm", "ink.glb", "--material", "ink"});
@@ -603,7 +603,7 @@ TEST_F(ShapeCommandTest, MaterialChangesTheFileAndIsSaidToBeOfNoUseInStl)
     EXPECT_THAT(json::parse(bytesOf("report.json"))["warnings"].dump(), HasSubstr("--material ink has no effect"));
 }
 
-TEST_F(ShapeCommandTest, LiquidsLookLikeWhatTheyAreUnlessAMaterialSaysOtherwise)
+TEST_F(ShapeCommandTest, LiquidsHaveTheirOwnLookUnlessAMaterialIsGiven)
 {
     const auto made = [&](const std::string& name, std::vector<std::string> options) {
         std::vector<std::string> arguments{"disc.pgm",    name + ".gltf",   "--preview",
@@ -623,13 +623,13 @@ TEST_F(ShapeCommandTest, LiquidsLookLikeWhatTheyAreUnlessAMaterialSaysOtherwise)
     }
 }
 
-TEST_F(ShapeCommandTest, ObjBringsItsMaterialWholeOrNotAtAll)
+TEST_F(ShapeCommandTest, ObjIsWrittenWithItsMaterialOrNotAtAll)
 {
     make({"disc.pgm", "a.obj", "--liquid", "honey", "--unit", "cm"});
     EXPECT_THAT(bytesOf("a.obj").substr(0, 200),
                 AllOf(HasSubstr("# unit: centimetre"), HasSubstr("mtllib a.mtl\nusemtl honey")));
     EXPECT_THAT(bytesOf("a.mtl"), HasSubstr("newmtl honey"));
-    // An existing one is not replaced, nor is the droplet then written.
+    // With --no-clobber, an existing material prevents the droplet, too.
     writeFile(directory() / "b.mtl", "mine");
     const auto kept = run({"disc.pgm", "b.obj", "--triangles", "500", "--no-clobber"});
     EXPECT_EQ(kept.exit_code, 4);
@@ -638,7 +638,7 @@ TEST_F(ShapeCommandTest, ObjBringsItsMaterialWholeOrNotAtAll)
     EXPECT_EQ(bytesOf("b.mtl"), "mine");
     const auto clash = run({"disc.pgm", "b.obj", "--json", "b.mtl"});
     EXPECT_EQ(clash.exit_code, 2);
-    // Standard output has no file beside it.
+    // Standard output has no material file.
     const auto stream = run({"disc.pgm", "-", "--format", "obj", "--triangles", "500"});
     EXPECT_EQ(stream.exit_code, 0);
     EXPECT_THAT(stream.output, Not(HasSubstr("mtllib")));
@@ -646,7 +646,7 @@ TEST_F(ShapeCommandTest, ObjBringsItsMaterialWholeOrNotAtAll)
                 HasSubstr("--unit m has no effect: glb files are in metres"));
 }
 
-TEST_F(ShapeCommandTest, GivesTheSameBytesAtAnyNumberOfThreads)
+TEST_F(ShapeCommandTest, GivesTheSameBytesWithAnyNumberOfThreads)
 {
     for (const char* format : {"glb", "gltf", "obj", "ply", "stl"}) {
         make({"two.pgm", "one", "--format", format, "-j", "1"});
@@ -661,9 +661,9 @@ TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
 {
     make({"two.pgm", "plain.gltf"});
     const json plain = json::parse(bytesOf("plain.gltf"));
-    const json told = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5"});
+    const json with_range = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5"});
     const json slider = json::parse(bytesOf("slider.gltf"));
-    EXPECT_EQ(told["fill"]["range"], json({0.5, 1.5}));
+    EXPECT_EQ(with_range["fill"]["range"], json({0.5, 1.5}));
     EXPECT_EQ(slider["meshes"][0]["extras"], json({{"targetNames", {"volume"}}, {"fill_range", {0.5, 1.5}}}));
     EXPECT_EQ(slider["meshes"][0]["weights"], json({0.0}));
     EXPECT_EQ(slider["meshes"][0]["primitives"][0]["targets"].size(), 1U);
@@ -672,10 +672,10 @@ TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
         return file["accessors"][file["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
     };
     EXPECT_EQ(bounds(slider), bounds(plain));
-    // On level ground one more fill raises the highest place by its height.
+    // On level ground, another fill raises the highest point by its height.
     const auto& change =
         slider["accessors"][slider["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
-    EXPECT_NEAR(change["max"][1].get<double>(), told["shape"]["height_max_m"].get<double>(), 1e-9);
+    EXPECT_NEAR(change["max"][1].get<double>(), with_range["shape"]["height_max_m"].get<double>(), 1e-9);
 
     make({"two.pgm", "one.glb", "--fill-range", "0..2", "--tilt", "40deg", "-j", "1"});
     make({"two.pgm", "other.glb", "--fill-range", "0..2", "--tilt", "40deg", "-j", "2"});
@@ -683,7 +683,7 @@ TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
     EXPECT_TRUE(report({"two.pgm", "plain.glb"})["fill"]["range"].is_null());
 }
 
-/// A report without what no two runs share.
+/// Report without time and memory, which differ between runs.
 json comparable(json report)
 {
     report.erase("time_s");
@@ -691,7 +691,7 @@ json comparable(json report)
     return report;
 }
 
-TEST_F(ShapeCommandTest, GivesTheSameBytesOnEveryGroundAtAnyNumberOfThreads)
+TEST_F(ShapeCommandTest, GivesTheSameBytesOnEveryGroundWithAnyNumberOfThreads)
 {
     const std::vector<std::vector<std::string>> physics{
         {"--model", "exact"},
@@ -711,13 +711,13 @@ TEST_F(ShapeCommandTest, GivesTheSameBytesOnEveryGroundAtAnyNumberOfThreads)
     }
 }
 
-TEST_F(ShapeCommandTest, ReportsAreTheSameButForTimeAndMemory)
+TEST_F(ShapeCommandTest, ReportsDifferOnlyInTimeAndMemory)
 {
     const json first = report({"two.pgm", "a.glb"});
     EXPECT_EQ(comparable(first), comparable(report({"two.pgm", "a.glb"})));
 }
 
-TEST_F(ShapeCommandTest, ConfigurationFileMeansTheSameAsOptions)
+TEST_F(ShapeCommandTest, ConfigurationFileIsEquivalentToOptions)
 {
     writeFile(directory() / "settings.toml",
               "# A comment, and an empty line\n\n"
@@ -746,7 +746,7 @@ TEST_F(ShapeCommandTest, GroundAndGravityMayComeFromAConfigurationFile)
     make({"disc.pgm", "options.glb", "--gravity", "-1.62m/s2", "--tilt=170deg", "--tilt-direction", "-45deg", "--model",
           "exact", "--surface", "cylinder:axis=-10deg,R=33mm", "--no-penetration"});
     EXPECT_TRUE(bytesOf("file.glb") == bytesOf("options.glb"));
-    // An object on the command line settles what the file says of the ground.
+    // An object on the command line overrides the ground of the file.
     make({"disc.pgm", "cap.glb", "--open", "--contact-angle", "10deg"});
     const json report = this->report({"disc.pgm", "a.glb", "--config", "settings.toml", "--onto", "cap.glb", "--width",
                                       "19mm", "--no-penetration=false"});
@@ -754,10 +754,10 @@ TEST_F(ShapeCommandTest, GroundAndGravityMayComeFromAConfigurationFile)
     EXPECT_EQ(report["onto"]["path"], "cap.glb");
 }
 
-TEST_F(ShapeCommandTest, CommandLineGoesBeforeTheConfigurationFile)
+TEST_F(ShapeCommandTest, CommandLineOverridesTheConfigurationFile)
 {
     writeFile(directory() / "settings.toml", "width = \"9.6mm\"\nvolume = \"2uL\"\nopen = true\nverbose = true\n");
-    // A height on the command line also settles what the file says of volume.
+    // A height on the command line also overrides the volume of the file.
     const json report =
         this->report({"two.pgm", "a.glb", "--config", "settings.toml", "--height", "1mm", "--open=false"});
     EXPECT_EQ(report["fill"]["by"], "height_m");
@@ -765,14 +765,14 @@ TEST_F(ShapeCommandTest, CommandLineGoesBeforeTheConfigurationFile)
     EXPECT_EQ(report["output"]["closed"], true);
 }
 
-TEST_F(ShapeCommandTest, ConfigurationStringsMayHoldAnything)
+TEST_F(ShapeCommandTest, ConfigurationStringsMayContainAnyCharacter)
 {
     writeFile(directory() / "settings.toml", "json = \"a#b, \\\"c\\\".json\"\nquiet = true\ntriangles = 2000\n");
     EXPECT_EQ(run({"disc.pgm", "a.glb", "--config", "settings.toml"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(directory() / "a#b, \"c\".json"));
 }
 
-TEST_F(ShapeCommandTest, ReplacesOlderFilesWholeAndLeavesNothingElse)
+TEST_F(ShapeCommandTest, ReplacesOlderFilesCompletelyAndLeavesNoOthers)
 {
     writeFile(directory() / "a.glb", std::string(1'000'000, 'x'));
     writeFile(directory() / "report.json", std::string(1'000'000, 'x'));
@@ -781,22 +781,22 @@ TEST_F(ShapeCommandTest, ReplacesOlderFilesWholeAndLeavesNothingElse)
     EXPECT_THAT(scratch().names(), ElementsAre("a.glb", "disc.pgm", "report.json", "two.pgm"));
 }
 
-TEST_F(ShapeCommandTest, NoClobberWritesWhereNothingStands)
+TEST_F(ShapeCommandTest, NoClobberWritesNewFiles)
 {
     make({"disc.pgm", "a.glb", "--no-clobber", "--json", "a.json"});
     EXPECT_TRUE(fs::exists(directory() / "a.glb"));
     EXPECT_TRUE(fs::exists(directory() / "a.json"));
 }
 
-TEST_F(ShapeCommandTest, SummaryTellsWhatMatters)
+TEST_F(ShapeCommandTest, SummaryShowsTheMainFigures)
 {
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "--volume", "2uL", "--speck-size", "250"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output, IsEmpty());
-    for (const char* words :
+    for (const char* text :
          {"96 × 64 pixels", "bright is liquid (luma)", "hard edges", "1 speck dropped", "2 droplets, 0 holes", "mm²",
           "4 µL", "mm high", "contact angle", "smallest angle", "two.glb:", "kB", "closed"}) {
-        EXPECT_THAT(result.error, HasSubstr(words));
+        EXPECT_THAT(result.error, HasSubstr(text));
     }
     EXPECT_THAT(result.error, Not(HasSubstr("memory")));
     EXPECT_THAT(result.error, Not(HasSubstr("\033"))) << "colours are for terminals";
@@ -805,10 +805,10 @@ TEST_F(ShapeCommandTest, SummaryTellsWhatMatters)
 TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
 {
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "-v"});
-    for (const char* words :
+    for (const char* text :
          {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "ground     flat\n", "µJ",
           "linear model", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
-        EXPECT_THAT(result.error, HasSubstr(words));
+        EXPECT_THAT(result.error, HasSubstr(text));
     }
     EXPECT_THAT(result.error, Not(HasSubstr("more, all in")));
     EXPECT_THAT(run({"disc.pgm", "a.glb", "--triangles", "2k", "-v", "--model", "exact", "--tilt", "20deg", "--surface",
@@ -823,7 +823,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
                 AllOf(HasSubstr("100 droplets"), HasSubstr("and 80 more")));
 }
 
-TEST_F(ShapeCommandTest, WarnsOfSlopesBeyondTheModel)
+TEST_F(ShapeCommandTest, WarnsAboutSlopesBeyondTheLinearModel)
 {
     const auto steep = run({"disc.pgm", "a.glb", "--contact-angle", "75deg", "--triangles", "2k"});
     EXPECT_EQ(steep.exit_code, 0);
@@ -855,7 +855,7 @@ TEST_F(ShapeCommandTest, ProgressAsJsonIsOneObjectPerLine)
     EXPECT_THAT(warnings, SizeIs(1));
 }
 
-TEST_F(ShapeCommandTest, ProgressThatFailsIsNeverDone)
+TEST_F(ShapeCommandTest, ProgressOfAFailedRunIsNotDone)
 {
     const auto result = run({"missing.pgm", "a.glb", "--progress", "json"});
     EXPECT_EQ(result.exit_code, 3);
@@ -864,12 +864,12 @@ TEST_F(ShapeCommandTest, ProgressThatFailsIsNeverDone)
     EXPECT_THAT(result.errorLines()[1], StartsWith("droplet-shape: "));
 }
 
-TEST_F(ShapeCommandTest, BarShowsOnATerminalWhenARunIsSlowAndGoesAway)
+TEST_F(ShapeCommandTest, SlowRunShowsABarOnATerminalAndErasesIt)
 {
     CommandOptions options;
     options.error_is_terminal = true;
     options.input = bytesOf("disc.pgm");
-    options.input_waits_for = "[....";  // the picture comes only when the bar has been seen
+    options.input_waits_for = "[....";  // the picture is sent after the bar appears
     const auto result = run({"-", "a.glb", "--triangles", "2k"}, options);
     EXPECT_EQ(result.exit_code, 0) << result.error;
     const auto bar = result.error.rfind("[....");
@@ -893,7 +893,7 @@ TEST_F(ShapeCommandTest, BarIsErasedBeforeAnError)
     EXPECT_THAT(result.error.substr(result.error.rfind('[')), StartsWith("[Kdroplet-shape: standard input"));
 }
 
-TEST_F(ShapeCommandTest, ColoursOnATerminalUnlessToldOtherwise)
+TEST_F(ShapeCommandTest, UsesColoursOnATerminalUnlessForbidden)
 {
     CommandOptions options;
     options.error_is_terminal = true;
@@ -907,7 +907,7 @@ TEST_F(ShapeCommandTest, ColoursOnATerminalUnlessToldOtherwise)
     EXPECT_THAT(run(arguments, options).error, AllOf(HasSubstr("written"), Not(HasSubstr("\033"))));
 }
 
-TEST_F(ShapeCommandTest, NamesThatLookLikeOptionsStandBehindTwoDashes)
+TEST_F(ShapeCommandTest, NamesThatLookLikeOptionsMayFollowTwoDashes)
 {
     writeFile(directory() / "-in.pgm", discPicture(64, 24.0));
     make({"--json=r.json", "./-in.pgm", "a.glb"});
@@ -915,7 +915,7 @@ TEST_F(ShapeCommandTest, NamesThatLookLikeOptionsStandBehindTwoDashes)
     EXPECT_TRUE(fs::exists(directory() / "-out.glb"));
 }
 
-/// A dark blot and a ring, on paper lit from the left; 400 × 300 pixels.
+/// A dark blot and a dark ring on paper that is lit from the left; 400 × 300 pixels.
 std::string unevenInk()
 {
     return greymap(400, 300, [](int x, int y) {
@@ -926,7 +926,7 @@ std::string unevenInk()
     });
 }
 
-TEST_F(ShapeCommandTest, MakesTheMaskOfAPhotographAndShowsIt)
+TEST_F(ShapeCommandTest, MakesAndWritesTheMaskOfAPhotograph)
 {
     writeFile(directory() / "ink.pgm", unevenInk());
     const auto result =
@@ -940,7 +940,7 @@ TEST_F(ShapeCommandTest, MakesTheMaskOfAPhotographAndShowsIt)
     EXPECT_EQ(report["mesh"]["holes"], 1);
     const double truth = std::numbers::pi * (70 * 70 + 50 * 50 - 25 * 25) * std::pow(20e-3 / 400, 2);
     EXPECT_NEAR(report["mesh"]["footprint_area_m2"].get<double>() / truth, 1.0, 0.01);
-    // The mask is a mask, and makes the same droplet.
+    // The written mask gives the same droplet.
     make({"mask.png", "again.glb", "--segment", "threshold", "--json", "again.json"});
     const json again = json::parse(bytesOf("again.json"));
     EXPECT_EQ(again["mesh"]["footprint_area_m2"], report["mesh"]["footprint_area_m2"]);
@@ -957,7 +957,7 @@ TEST_F(ShapeCommandTest, MakesTheMaskOfAPhotographAndShowsIt)
     }
 }
 
-TEST_F(ShapeCommandTest, RefusesAPictureThatIsNoMaskUnlessItIsInsistedOn)
+TEST_F(ShapeCommandTest, RefusesAPictureWithoutAClearMaskUnlessForced)
 {
     const std::string glow = greymap(300, 200, [](int x, int y) {
         return std::max(0, 250 - static_cast<int>(1.2 * std::hypot(x - 150.0, y - 90.0)));
@@ -968,13 +968,13 @@ TEST_F(ShapeCommandTest, RefusesAPictureThatIsNoMaskUnlessItIsInsistedOn)
     EXPECT_THAT(result.error, AllOf(HasSubstr("glow.pgm: does not look like a footprint"), HasSubstr("--segment")));
     EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1);
     EXPECT_FALSE(fs::exists(directory() / "glow.glb"));
-    const auto insisted = run({"glow.pgm", "glow.glb", "--threshold", "0.5", "--triangles", "2k"});
-    EXPECT_EQ(insisted.exit_code, 0) << insisted.error;
-    EXPECT_THAT(insisted.error, HasSubstr("hardly a mask"));
+    const auto forced = run({"glow.pgm", "glow.glb", "--threshold", "0.5", "--triangles", "2k"});
+    EXPECT_EQ(forced.exit_code, 0) << forced.error;
+    EXPECT_THAT(forced.error, HasSubstr("hardly a mask"));
     make({"glow.pgm", "glow.glb", "--segment", "threshold"});
 }
 
-TEST_F(ShapeCommandTest, WarnsOfATowerEvenIfQuiet)
+TEST_F(ShapeCommandTest, WarnsAboutATowerEvenIfQuiet)
 {
     const auto result = run({"disc.pgm", "a.glb", "--height", "40mm", "--json", "a.json", "--triangles", "2k", "-q"});
     ASSERT_EQ(result.exit_code, 0) << result.error;
@@ -986,7 +986,7 @@ TEST_F(ShapeCommandTest, WarnsOfATowerEvenIfQuiet)
     EXPECT_TRUE(json::parse(bytesOf("b.json"))["shape"]["height_bound_m"].is_null());
 }
 
-TEST_F(ShapeCommandTest, TakesAColour)
+TEST_F(ShapeCommandTest, TakesOneColourAsLiquid)
 {
     writeFile(
         directory() / "icon.svg",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the command line refuses before any work is done: exit code 2 and one line that says what is allowed.
+// Errors in the command line: exit code 2, and one line that says what is allowed, before any work is done.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using testing::writeFile;
 
 class UsageTest : public RefusalTest {
 protected:
-    /// A run that would replace old.glb and old.json were it not for one option.
+    /// Expects that options prevent a run which would replace old.glb and old.json.
     void expectRefused(const std::vector<std::string>& options, const std::vector<std::string>& words) const
     {
         std::vector<std::string> arguments{"disc.pgm", "old.glb", "--json", "old.json"};
@@ -64,14 +64,14 @@ TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
     }
 }
 
-TEST_F(UsageTest, HelpOnAFullDeviceIsAFailedOutput)
+TEST_F(UsageTest, HelpOnAFullDeviceFails)
 {
     CommandOptions options;
     options.output_file = "/dev/full";
     expectRefusal({"--help"}, 4, {"/dev/stdout", "No space left"}, options);
 }
 
-TEST_F(UsageTest, MissingAndExtraArguments)
+TEST_F(UsageTest, RefusesMissingAndExtraArguments)
 {
     expectRefusal({}, 2, {"INPUT is missing", "--help"});
     expectRefusal({"disc.pgm"}, 2, {"OUTPUT is missing", "--help"});
@@ -79,7 +79,7 @@ TEST_F(UsageTest, MissingAndExtraArguments)
     expectRefusal({"disc.pgm", "old.glb", "third"}, 2, {"unexpected argument 'third'"});
 }
 
-TEST_F(UsageTest, UnknownOptions)
+TEST_F(UsageTest, RefusesUnknownOptions)
 {
     expectRefused({"--trianglse", "5k"}, {"unknown option --trianglse", "--triangles"});
     expectRefused({"--zzz=3"}, {"unknown option --zzz", "--help"});
@@ -88,18 +88,18 @@ TEST_F(UsageTest, UnknownOptions)
     expectRefused({"--wid", "5mm"}, {"unknown option --wid"});
 }
 
-TEST_F(UsageTest, UnknownCommands)
+TEST_F(UsageTest, RefusesUnknownCommands)
 {
     expectRefusal({"glyph", "--all"}, 2, {"unknown command 'glyph', did you mean glyphs?"});
     expectRefusal({"wind-tunel"}, 2, {"did you mean wind-tunnel?"});
     expectRefusal({"windsheild", "a.png"}, 2, {"did you mean windshield?"});
     expectRefusal({"render"}, 2, {"OUTPUT is missing"});
-    expectRefusal({"disc.pgm", "-o", "old.glb"}, 2, {"-o: OUTPUT stands without one"});
+    expectRefusal({"disc.pgm", "-o", "old.glb"}, 2, {"-o: OUTPUT needs no option"});
     writeFile(directory() / "batc", "no picture, but a file");
     expectRefusal({"batc", "old.glb"}, 3, {"batc"});
 }
 
-TEST_F(UsageTest, OptionsWithoutTheirValue)
+TEST_F(UsageTest, RefusesOptionsWithoutAValue)
 {
     expectRefused({"--width"}, {"--width", "value is missing"});
     expectRefused({"--width="}, {"--width", "empty"});
@@ -108,7 +108,7 @@ TEST_F(UsageTest, OptionsWithoutTheirValue)
     expectRefused({"--width", "3mm", "--width", "4mm"}, {"--width", "2 times"});
 }
 
-TEST_F(UsageTest, BareNumbersNameTheUnitsAllowed)
+TEST_F(UsageTest, RefusesBareNumbersAndNamesTheUnits)
 {
     expectRefused({"--width", "20"}, {"--width", "'20' has no unit", "mm", "as in 4mm"});
     expectRefused({"--pixel-size", "20"}, {"--pixel-size", "no unit", "um"});
@@ -128,7 +128,7 @@ TEST_F(UsageTest, BareNumbersNameTheUnitsAllowed)
     expectRefused({"--surface", "cylinder:R=33mm,axis=45"}, {"--surface", "axis", "'45' has no unit", "deg"});
 }
 
-TEST_F(UsageTest, AbsurdQuantities)
+TEST_F(UsageTest, RefusesQuantitiesOutOfRange)
 {
     for (const char* length :
          {"0mm", "-1mm", "1e300m", "-1e300m", "1e-300m", "nan", "inf", "infmm", "1e999mm", "4uL"}) {
@@ -168,7 +168,7 @@ TEST_F(UsageTest, AbsurdQuantities)
     expectRefused({"--width", "0mm"}, {"from 1nm to 1000m"});
 }
 
-TEST_F(UsageTest, NumbersOutOfRange)
+TEST_F(UsageTest, RefusesNumbersOutOfRange)
 {
     for (const char* threshold : {"0", "1", "-0.5", "2", "nan", "half", "0.5x"}) {
         expectRefused({"--threshold", threshold}, {"--threshold", threshold, "over 0 and under 1"});
@@ -191,7 +191,7 @@ TEST_F(UsageTest, NumbersOutOfRange)
     }
 }
 
-TEST_F(UsageTest, GroundsThatAreNone)
+TEST_F(UsageTest, RefusesMalformedGrounds)
 {
     for (const char* ground : {"", "sphere", "sphere:", "sphere:R", "sphere:=40mm", "sphere:r=40mm", "sphere:R=4mm,",
                                "sphere:R=4mm,R=5mm", "sphere:R=4mm,axis=y", "sphere:R=4mm axis=y,R=3mm", "cylinder",
@@ -210,14 +210,14 @@ TEST_F(UsageTest, GroundsThatAreNone)
     }
 }
 
-TEST_F(UsageTest, AnglesOfARimThatMovesBelongTogether)
+TEST_F(UsageTest, AdvancingAndRecedingAngleBelongTogether)
 {
     expectRefused({"--advancing", "90deg"}, {"--advancing and --receding", "--receding is missing"});
     expectRefused({"--receding", "30deg"}, {"--advancing and --receding", "--advancing is missing"});
     expectRefused({"--advancing", "30deg", "--receding", "31deg"}, {"--receding", "'31deg'", "at most", "'30deg'"});
 }
 
-TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
+TEST_F(UsageTest, RefusesUnknownNamesAndListsTheKnownOnes)
 {
     expectRefused({"--model", "quadratic"}, {"--model", "'quadratic'", "linear, exact"});
     expectRefused({"--solver", "gauss"}, {"--solver", "'gauss'", "auto, llt, multigrid"});
@@ -230,7 +230,7 @@ TEST_F(UsageTest, UnknownNamesListTheKnownOnes)
     expectRefused({"--progress", "loud"}, {"--progress", "'loud'", "auto, none, json"});
 }
 
-TEST_F(UsageTest, OptionsThatExcludeEachOther)
+TEST_F(UsageTest, RefusesOptionsThatExcludeEachOther)
 {
     expectRefused({"--width", "2cm", "--pixel-size", "1um"}, {"--width and --pixel-size exclude each other"});
     expectRefused({"--volume", "1uL", "--height", "1mm"}, {"--volume and --height exclude each other"});
@@ -241,7 +241,7 @@ TEST_F(UsageTest, OptionsThatExcludeEachOther)
     expectRefused({"-q", "-v"}, {"--quiet and --verbose exclude each other"});
 }
 
-TEST_F(UsageTest, FillRangesHoldTheDropletItselfAndAreOfTheLinearModelInGltf)
+TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)
 {
     for (const char* wrong :
          {"2", "0..", "..2", "0...2", "a..b", "-1..2", "1.5..2", "0..0.5", "1..1", "0..inf", "0..1e9"}) {
@@ -255,15 +255,15 @@ TEST_F(UsageTest, FillRangesHoldTheDropletItselfAndAreOfTheLinearModelInGltf)
     }
 }
 
-TEST_F(UsageTest, OutputFormats)
+TEST_F(UsageTest, RefusesUnknownOutputFormats)
 {
     expectRefusal({"disc.pgm", "new.fbx"}, 2, {"OUTPUT 'new.fbx'", ".fbx", "glb", "stl"});
     expectRefusal({"disc.pgm", "new"}, 2, {"OUTPUT 'new' has no extension", "glb", "--format"});
     expectRefusal({"disc.pgm", ".glb"}, 2, {"OUTPUT '.glb' has no extension"});
-    expectRefusal({"disc.pgm", "-"}, 2, {"--format is needed", "glb"});
+    expectRefusal({"disc.pgm", "-"}, 2, {"--format is missing", "glb"});
 }
 
-TEST_F(UsageTest, FilesThatWouldMeet)
+TEST_F(UsageTest, RefusesTwoFilesAtOnePath)
 {
     expectRefusal({"disc.pgm", "disc.pgm", "--format", "glb"}, 2, {"OUTPUT and INPUT are the same"});
     expectRefusal({"disc.pgm", "./disc.pgm", "--format", "glb"}, 2, {"OUTPUT and INPUT are the same"});
@@ -292,7 +292,7 @@ TEST_F(UsageTest, FilesThatWouldMeet)
                   {"--json and --config are the same"});
 }
 
-TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
+TEST_F(UsageTest, RefusesErrorsInConfigurationFiles)
 {
     expectConfigRefused("widht = \"8cm\"\n", {"settings.toml:1", "unknown key 'widht'", "'width'"});
     expectConfigRefused("# fine\n\nx = 1\n", {"settings.toml:3", "unknown key 'x'"});
@@ -306,7 +306,7 @@ TEST_F(UsageTest, ConfigurationFilesAreReadWithCare)
     expectConfigRefused("width = \"8cm\n", {"settings.toml:1", "'width = \"8cm' is not TOML"});
     expectConfigRefused("width = \"8cm\" 3\n", {"saw '3'"});
     expectConfigRefused("width = \"\\q\"\n", {"escape"});
-    expectConfigRefused("[size]\nwidth = \"8cm\"\n", {"settings.toml:1", "tables"});
+    expectConfigRefused("[size]\nwidth = \"8cm\"\n", {"settings.toml:1", "begins a table"});
     expectConfigRefused("triangles = [1, 2]\n", {"settings.toml:1", "[1, 2]"});
     expectConfigRefused("triangles = 20\nwidth = 1979-05-27\n", {"settings.toml:2", "1979-05-27", "quotes"});
     expectConfigRefused("width = \"\"\"8cm\n", {"settings.toml:", "end"});

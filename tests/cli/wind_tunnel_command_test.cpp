@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `droplet-shape wind-tunnel`: lists and ranges, tables, charts, series, what is refused.
+// `droplet-shape wind-tunnel`: lists and ranges, tables, charts, traces, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ std::vector<double> volumesOf(const std::string& list)
 
 // ---------------------------------------------------------------------------------------------- lists and ranges
 
-TEST(ValueList, UnitIsWrittenOnceOrOnEach)
+TEST(ValueList, UnitIsGivenOnceOrForEachValue)
 {
     EXPECT_THAT(windsOf("1m/s,2m/s,3m/s"), ElementsAre(1.0, 2.0, 3.0));
     EXPECT_THAT(windsOf("1,2,3m/s"), ElementsAre(1.0, 2.0, 3.0));
@@ -77,7 +77,7 @@ TEST(ValueList, UnitIsWrittenOnceOrOnEach)
     EXPECT_THAT(windsOf("0m/s"), ElementsAre(0.0));
 }
 
-TEST(ValueList, RangeHoldsItsStartAndItsEndIfStepsLeadThere)
+TEST(ValueList, RangeContainsItsBeginAndItsEndIfAStepMeetsIt)
 {
     EXPECT_THAT(windsOf("0..2m/s:0.5"), ElementsAre(0.0, 0.5, 1.0, 1.5, 2.0));
     EXPECT_THAT(windsOf("0..2:0.5m/s"), ElementsAre(0.0, 0.5, 1.0, 1.5, 2.0));
@@ -89,8 +89,8 @@ TEST(ValueList, RangeHoldsItsStartAndItsEndIfStepsLeadThere)
     EXPECT_THAT(windsOf("0..16m/s:0.25"), SizeIs(65));
 }
 
-// What a range makes is, to the last bit, what one would have written.
-TEST(ValueList, RangesHaveTheNumbersThatWouldBeWritten)
+// Values of a range equal single values to the last bit.
+TEST(ValueList, RangesContainExactlyTheWrittenNumbers)
 {
     const auto range = volumesOf("10..100uL:10");
     EXPECT_EQ(range, volumesOf("10,20,30,40,50,60,70,80,90,100uL"));
@@ -118,7 +118,7 @@ protected:
     }
 };
 
-TEST_F(WindTunnelRefusal, OfLists)
+TEST_F(WindTunnelRefusal, RefusesWrongLists)
 {
     expectRefused({"--volume", "30"}, {"--volume", "no unit"});
     expectRefused({"--volume", "30m/s"}, {"--volume", "not a volume"});
@@ -143,7 +143,7 @@ TEST_F(WindTunnelRefusal, OfLists)
     expectRefused({"--volume", "1..1000uL:1", "--wind", "0..100m/s:0.001"}, {"--volume", "100001000", "10000000"});
 }
 
-TEST_F(WindTunnelRefusal, OfParameters)
+TEST_F(WindTunnelRefusal, RefusesWrongParameters)
 {
     expectRefused({"--preset", "kaneda"}, {"--preset", "'kaneda'", "thesis, hashimoto"});
     expectRefused({"--preset", "thesis,thesis"}, {"--preset"});
@@ -162,20 +162,20 @@ TEST_F(WindTunnelRefusal, OfParameters)
     expectRefused({"--density", "0kg/m3"}, {"--density"});
     expectRefused({"--gravity", "-1m/s2"}, {"--gravity"});
     expectRefused({"--air-density", "1"}, {"--air-density", "no unit"});
-    expectRefused({"--measured", "7m/s"}, {"--measured", "two winds"});
-    expectRefused({"--measured", "11..7m/s"}, {"--measured", "two winds"});
-    expectRefused({"--measured", "0..7m/s"}, {"--measured", "two winds"});
+    expectRefused({"--measured", "7m/s"}, {"--measured", "two wind speeds"});
+    expectRefused({"--measured", "11..7m/s"}, {"--measured", "two wind speeds"});
+    expectRefused({"--measured", "0..7m/s"}, {"--measured", "two wind speeds"});
     expectRefused({"--threads", "0"}, {"--threads"});
 }
 
-TEST_F(WindTunnelRefusal, OfOutputs)
+TEST_F(WindTunnelRefusal, RefusesWrongOutputs)
 {
     expectRefused({"out.txt"}, {"OUTPUT", "'out.txt'", ".csv"});
     expectRefused({"--chart", "out.pdf"}, {"--chart", "'out.pdf'", ".svg"});
     expectRefused({"--map", "out.csv"}, {"--map", "'out.csv'"});
     expectRefused({"-", "--json", "-"}, {"-", "different files"});
     expectRefused({"--time", "1s"}, {"--time needs --trace"});
-    expectRefused({"--trace", "t.csv"}, {"--trace", "--volume must be one value, and is 4"});
+    expectRefused({"--trace", "t.csv"}, {"--trace", "--volume must be one value, not 4"});
     expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--preset", "thesis,hashimoto"},
                   {"--trace", "--preset"});
     expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--time", "0s"}, {"--time"});
@@ -191,7 +191,7 @@ TEST_F(WindTunnelRefusal, OfOutputs)
 
 // ------------------------------------------------------------------------------------------------------ tables
 
-TEST(WindTunnelCommand, ReportHasTheKeysThePageShows)
+TEST(WindTunnelCommand, ReportHasTheKeysOfItsPage)
 {
     const std::string page = readFile(testing::inSource("docs/reports.md"));
     const std::string fence = "```wind-tunnel-report\n";
@@ -211,7 +211,7 @@ TEST(WindTunnelCommand, ReportHasTheKeysThePageShows)
     EXPECT_EQ(found, keys);
 }
 
-TEST(WindTunnelCommand, ReportSaysWhatTheLibraryFinds)
+TEST(WindTunnelCommand, ReportHasTheResultsOfTheLibrary)
 {
     const Json run = reportOf({"--preset", "hashimoto"}).at("runs").at(0);
     const ForcePreset& preset = forcePresetNamed("hashimoto");
@@ -238,8 +238,8 @@ TEST(WindTunnelCommand, ReportSaysWhatTheLibraryFinds)
     EXPECT_NEAR(run.at("cases").at(3).at("threshold_ratio").get<double>(), 1.37, 0.005);
 }
 
-// The page's words on the distance from what was measured are the program's.
-TEST(WindTunnelCommand, DistanceOnThePageIsComputed)
+// The page quotes the program's lines on the distance from the measurement.
+TEST(WindTunnelCommand, PageQuotesTheComputedDistance)
 {
     const std::string page = readFile(testing::inSource("docs/cli/wind-tunnel.md"));
     const CommandResult result = tunnel({"--preset", "thesis,hashimoto"});
@@ -255,7 +255,7 @@ TEST(WindTunnelCommand, DistanceOnThePageIsComputed)
     }
 }
 
-TEST(WindTunnelCommand, MeasuredStandsBesidePlanesAsTheyWereMeasuredOnly)
+TEST(WindTunnelCommand, MeasurementIsShownOnlyForTheMeasuredPlane)
 {
     const auto measured = [](const std::vector<std::string>& arguments) {
         return reportOf(arguments).at("runs").at(0).at("measured_still_m_per_s");
@@ -266,7 +266,7 @@ TEST(WindTunnelCommand, MeasuredStandsBesidePlanesAsTheyWereMeasuredOnly)
     EXPECT_EQ(measured({"--slope", "45deg", "--measured", "8..12m/s"}).dump(), "[8.0,12.0]");
 }
 
-/// A table's columns by name, and the lines before its head.
+/// Columns of a table by name, and the comment lines before its header.
 struct Table {
     std::vector<std::string> remarks;
     std::map<std::string, std::vector<std::string>> columns;
@@ -305,7 +305,7 @@ struct Table {
     }
 };
 
-TEST(WindTunnelCommand, TableAndReportSayTheSame)
+TEST(WindTunnelCommand, TableAgreesWithTheReport)
 {
     const std::vector<std::string> sweep{
         "--preset", "thesis,hashimoto", "--volume",           "3,30uL", "--wind", "0..16m/s:0.5",
@@ -341,7 +341,7 @@ TEST(WindTunnelCommand, TableAndReportSayTheSame)
     EXPECT_EQ(row, 2U * 2U * 2U * 33U);
 }
 
-TEST(WindTunnelCommand, SameBytesAtAnyNumberOfThreads)
+TEST(WindTunnelCommand, SameBytesWithAnyNumberOfThreads)
 {
     const auto on = [](const char* threads) {
         return tunnel({"--volume", "1..30uL:1", "--wind", "0..16m/s:0.02", "-", "-q", "--threads", threads}).output;
@@ -351,7 +351,7 @@ TEST(WindTunnelCommand, SameBytesAtAnyNumberOfThreads)
     EXPECT_TRUE(one == on("4"));
 }
 
-TEST(WindTunnelCommand, FallingAngleIsOfOneVolumeOrOfEvery)
+TEST(WindTunnelCommand, FallingAngleAppliesToOneVolumeOrToAll)
 {
     const auto cases = [](const std::vector<std::string>& arguments) {
         return reportOf(arguments).at("runs").at(0).at("cases");
@@ -367,14 +367,14 @@ TEST(WindTunnelCommand, FallingAngleIsOfOneVolumeOrOfEvery)
     EXPECT_NEAR(held(of_every[0]), 12.0, 1e-9);
     EXPECT_NEAR(held(of_every[1]), 12.0, 1e-9);
     EXPECT_TRUE(of_every[0].at("critical_volume_m3").is_null());
-    // Without wind, 35° under 10° (WIND: g (sin 35° − sin 10°)).
+    // Without wind, at 35° with a falling angle of 10° (WIND: g (sin 35° − sin 10°)).
     for (const Json& one :
          cases({"--volume", "1..100uL:33", "--falling-angle", "10deg", "--falling-volume", "every"})) {
         EXPECT_NEAR(one.at("acceleration_m_per_s2").at(0).get<double>(), -3.92, 0.005);
     }
 }
 
-TEST(WindTunnelCommand, EveryOptionOfTheModelReachesIt)
+TEST(WindTunnelCommand, EveryOptionReachesTheModel)
 {
     const Json run = reportOf({"--volume",
                                "30uL",
@@ -421,9 +421,9 @@ TEST(WindTunnelCommand, EveryOptionOfTheModelReachesIt)
     EXPECT_EQ(run.at("liquid").at("name"), "custom");
 }
 
-// ------------------------------------------------------------------------------------------------ charts and words
+// ------------------------------------------------------------------------------------------------ charts and summary
 
-TEST(WindTunnelCommand, WritesWhatTheNamesAskFor)
+TEST(WindTunnelCommand, ExtensionsSelectTheOutputs)
 {
     const testing::ScratchDirectory scratch;
     const auto path = [&](const char* name) { return (scratch.path() / name).string(); };
@@ -440,7 +440,7 @@ TEST(WindTunnelCommand, WritesWhatTheNamesAskFor)
     EXPECT_THAT(readFile(path("c.svg")), HasSubstr(">30 µL</text>"));
     const Picture picture = readPicture(path("d.png"));
     EXPECT_GT(picture.width, 1000);
-    EXPECT_NO_THROW(readPicture(path("e.svg"))) << "well-formed to a reader of SVG";
+    EXPECT_NO_THROW(readPicture(path("e.svg"))) << "must be well-formed SVG";
 }
 
 TEST(WindTunnelCommand, WithoutOutputItPrintsTheThresholds)
@@ -494,7 +494,7 @@ TEST(WindTunnelCommand, TraceFollowsOneDroplet)
               (static_cast<std::ptrdiff_t>(json.at("events").size()) + 1) / 2);
 }
 
-// WIND's 0.11 m/s of 30 µL held by 10° at 35°, to its end.
+// WIND: 30 µL with a falling angle of 10° reach 0.11 m/s at 35°.
 TEST(WindTunnelCommand, TraceEndsAtTheTerminalSpeed)
 {
     const Table table(

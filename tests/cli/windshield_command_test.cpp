@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `droplet-shape windshield`: what comes out, what is refused, going on after an interruption.
+// `droplet-shape windshield`: outputs, errors, resuming an interrupted run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,12 +40,12 @@ class WindshieldCommand : public ::testing::Test {
 protected:
     [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
-    static CommandResult play(const std::string& output, const std::vector<std::string>& more = {})
+    static CommandResult simulate(const std::string& output, const std::vector<std::string>& more = {})
     {
         return runDroplet(argumentsOf(output, more));
     }
 
-    /// A small glass, a small frame, little time, but for what is asked for.
+    /// Arguments for a small glass, a small frame and a short time, unless `more` sets them.
     static std::vector<std::string> argumentsOf(const std::string& output, const std::vector<std::string>& more)
     {
         std::vector<std::string> arguments{"windshield", output, "--quiet"};
@@ -73,11 +73,11 @@ protected:
         return arguments;
     }
 
-    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& words) const
+    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message) const
     {
-        const CommandResult result = play(path("refused.png"), arguments);
+        const CommandResult result = simulate(path("refused.png"), arguments);
         EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(words)));
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
         EXPECT_FALSE(std::filesystem::exists(path("refused.png")));
     }
 
@@ -99,28 +99,28 @@ protected:
     testing::ScratchDirectory scratch_;
 };
 
-TEST_F(WindshieldCommand, FramesAreTheSameAtAnyNumberOfThreads)
+TEST_F(WindshieldCommand, FramesAreTheSameWithAnyNumberOfThreads)
 {
     for (const char* folder : {"a", "b"}) {
         std::filesystem::create_directory(path(folder));
     }
-    ASSERT_EQ(play(path("a/%d.png"), {"-j", "1"}).exit_code, 0);
-    ASSERT_EQ(play(path("b/%d.png"), {"-j", "2"}).exit_code, 0);
+    ASSERT_EQ(simulate(path("a/%d.png"), {"-j", "1"}).exit_code, 0);
+    ASSERT_EQ(simulate(path("b/%d.png"), {"-j", "2"}).exit_code, 0);
     EXPECT_THAT(frames("a"), SizeIs(6));
     EXPECT_EQ(frames("a"), frames("b"));
-    EXPECT_FALSE(std::filesystem::exists(path("a/checkpoint.state"))) << "the run is whole";
-    // The picture of the last frame alone shows the same.
-    ASSERT_EQ(play(path("last.png")).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(path("a/checkpoint.state"))) << "the run is complete";
+    // The picture of only the last frame is the same.
+    ASSERT_EQ(simulate(path("last.png")).exit_code, 0);
     EXPECT_EQ(readPicture(path("last.png")), readPicture(path("a/6.png")));
 }
 
-TEST_F(WindshieldCommand, EverythingComesOut)
+TEST_F(WindshieldCommand, WritesAllOutputs)
 {
     std::filesystem::create_directory(path("f"));
     const CommandResult run =
-        play(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
-                                path("d.csv"), "--model", path("d.glb"), "--model-animation", "texture", "--json", "-",
-                                "--wiper", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
+        simulate(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
+                                    path("d.csv"), "--model", path("d.glb"), "--model-animation", "texture", "--json",
+                                    "-", "--wiper", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
@@ -141,36 +141,36 @@ TEST_F(WindshieldCommand, EverythingComesOut)
     for (const char* map : {"normal", "thickness", "velocity"}) {
         const std::string png = readFile(path(std::string("f/m6-") + map + ".png"));
         ASSERT_GT(png.size(), 30U);
-        EXPECT_EQ(png[24], 16) << "bits a channel";
+        EXPECT_EQ(png[24], 16) << "bits per channel";
     }
     EXPECT_EQ(readFile(path("f/1.png"))[25], 6) << "with alpha";
     const CommandResult floats =
-        play(path("x.png"), {"--maps", path("f/m%d.exr"), "--map-width", "64", "--time", "0.04s"});
+        simulate(path("x.png"), {"--maps", path("f/m%d.exr"), "--map-width", "64", "--time", "0.04s"});
     ASSERT_EQ(floats.exit_code, 0) << floats.error;
     for (const char* map : {"normal", "thickness", "velocity"}) {
         EXPECT_EQ(readFile(path(std::string("f/m1-") + map + ".exr")).substr(0, 4), "\x76\x2f\x31\x01");
     }
 }
 
-TEST_F(WindshieldCommand, APanoramaIsAllOfTheBackground)
+TEST_F(WindshieldCommand, PanoramaIsTheWholeBackground)
 {
     std::ostringstream bytes;
     writePng(grey(64, 32), bytes);
     const std::string panorama = stored("panorama.png", bytes.str());
-    const CommandResult run = play(path("x.png"), {"--environment", panorama, "--rain", "0mm/h", "--look-at",
-                                                   "1m,1m,0m", "--json", path("r.json")});
+    const CommandResult run = simulate(path("x.png"), {"--environment", panorama, "--rain", "0mm/h", "--look-at",
+                                                       "1m,1m,0m", "--json", path("r.json")});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const Picture seen = readPicture(path("x.png"));
     ASSERT_EQ(seen.width, 96);
-    // Grey, but for what the pane takes.
+    // Grey, except for the light that the pane absorbs.
     for (const std::uint8_t level : seen.rgb) {
         EXPECT_NEAR(level, 127, 1);
     }
     EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("view").at("environment"), panorama);
-    EXPECT_EQ(play(panorama, {"--environment", panorama}).exit_code, 2) << "input and output are one file";
+    EXPECT_EQ(simulate(panorama, {"--environment", panorama}).exit_code, 2) << "input and output are the same file";
 }
 
-TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
+TEST_F(WindshieldCommand, ResumedRunGivesTheSameBytes)
 {
     const auto options = [&](const std::string& time) {
         return std::vector<std::string>{"--time", time, "--fps", "10", "--json", path("r.json")};
@@ -178,7 +178,7 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     for (const char* folder : {"whole", "cut"}) {
         std::filesystem::create_directory(path(folder));
     }
-    // A run that would take long, killed once its thirteenth frame stands.
+    // A long run is killed when its thirteenth frame exists.
     const std::string script =
         R"("$@" & id=$!; while [ ! -e "$0" ]; do sleep 0.005; kill -0 $id || exit 1; done; kill -9 $id)";
     std::vector<std::string> command{"bash", "-c", script, path("cut/13.png"), testing::kCommand};
@@ -189,28 +189,28 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
     ASSERT_TRUE(std::filesystem::exists(path("cut/checkpoint.state")));
     const auto before = frames("cut");
     ASSERT_GE(before.size(), 13U);
-    // How many stand depends on how soon it was killed.
+    // The number of frames depends on the moment of the kill.
     const std::size_t count = before.size() + 27;
     const std::string time = std::to_string(count) + "00ms";
-    ASSERT_EQ(play(path("whole/%d.png"), options(time)).exit_code, 0);
+    ASSERT_EQ(simulate(path("whole/%d.png"), options(time)).exit_code, 0);
     const auto whole = frames("whole");
     ASSERT_THAT(whole, SizeIs(count));
     const auto balance = nlohmann::json::parse(readFile(path("r.json"))).at("balance");
-    EXPECT_TRUE(std::equal(before.begin(), before.end(), whole.begin())) << "what is there is whole";
-    // Frames of other options are no continuation.
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), whole.begin())) << "existing frames are complete";
+    // A run with other options must not resume.
     std::vector<std::string> more = options(time);
     more.emplace_back("--resume");
     std::vector<std::string> other = more;
     other.insert(other.end(), {"--speed", "3m/s"});
-    const CommandResult refused = play(path("cut/%d.png"), other);
+    const CommandResult refused = simulate(path("cut/%d.png"), other);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.errorLines(), ElementsAre(HasSubstr("with other options")));
     std::vector<std::string> shorter = options("0.5s");
     shorter.emplace_back("--resume");
-    const CommandResult beyond = play(path("cut/%d.png"), shorter);
+    const CommandResult beyond = simulate(path("cut/%d.png"), shorter);
     EXPECT_EQ(beyond.exit_code, 2);
-    EXPECT_THAT(beyond.errorLines(), ElementsAre(HasSubstr("frames stand already, and --time asks for 5")));
-    // What is gone is made again, what stands is not.
+    EXPECT_THAT(beyond.errorLines(), ElementsAre(HasSubstr("frames exist already, but --time asks for 5")));
+    // Missing frames are made again, existing ones are not.
     const auto fifth = std::filesystem::last_write_time(path("cut/5.png"));
     for (const bool is_missing : {false, true}) {
         if (is_missing) {
@@ -218,7 +218,7 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
         }
         std::filesystem::copy_file(path("cut/checkpoint.state"), path("kept.state"),
                                    std::filesystem::copy_options::overwrite_existing);
-        ASSERT_EQ(play(path("cut/%d.png"), more).exit_code, 0);
+        ASSERT_EQ(simulate(path("cut/%d.png"), more).exit_code, 0);
         EXPECT_TRUE(std::filesystem::exists(path("cut/3.png")));
         EXPECT_EQ(std::filesystem::last_write_time(path("cut/5.png")), fifth);
         EXPECT_FALSE(std::filesystem::exists(path("cut/checkpoint.state")));
@@ -226,38 +226,38 @@ TEST_F(WindshieldCommand, AnInterruptedRunGoesOnToTheSameBytes)
         std::filesystem::rename(path("kept.state"), path("cut/checkpoint.state"));
     }
     EXPECT_EQ(frames("cut"), whole);
-    // A run that begins anew leaves nothing of this one to go on from.
-    EXPECT_EQ(play(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--no-clobber"}).exit_code, 4);
+    // A new run removes the checkpoint of this one.
+    EXPECT_EQ(simulate(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--no-clobber"}).exit_code, 4);
     EXPECT_TRUE(std::filesystem::exists(path("cut/checkpoint.state")));
-    ASSERT_EQ(play(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--speed", "1m/s"}).exit_code, 0);
+    ASSERT_EQ(simulate(path("cut/%d.png"), {"--time", "0.1s", "--fps", "10", "--speed", "1m/s"}).exit_code, 0);
     EXPECT_FALSE(std::filesystem::exists(path("cut/checkpoint.state")));
 }
 
-TEST_F(WindshieldCommand, FilesThatAreNoneOfItsOwnStay)
+TEST_F(WindshieldCommand, KeepsFilesOfOthers)
 {
     std::filesystem::create_directory(path("f"));
     stored("f/checkpoint.state", "a letter");
-    const CommandResult other = play(path("f/%d.png"));
+    const CommandResult other = simulate(path("f/%d.png"));
     EXPECT_EQ(other.exit_code, 4);
-    EXPECT_THAT(other.errorLines(), ElementsAre(HasSubstr("is none; it will not be replaced")));
+    EXPECT_THAT(other.errorLines(), ElementsAre(HasSubstr("is not a checkpoint, and will not be replaced")));
     EXPECT_EQ(readFile(path("f/checkpoint.state")), "a letter");
     std::filesystem::remove(path("f/checkpoint.state"));
     std::ostringstream bytes;
     writePng(grey(96, 54), bytes);
     const std::string road = stored("f/4.png", bytes.str());
-    const CommandResult behind = play(path("f/%d.png"), {"--background", road});
+    const CommandResult behind = simulate(path("f/%d.png"), {"--background", road});
     EXPECT_EQ(behind.exit_code, 2);
     EXPECT_THAT(behind.errorLines(), ElementsAre(HasSubstr("OUTPUT and --background are the same")));
-    const CommandResult kept = play(path("f/%d.png"), {"--no-clobber"});
+    const CommandResult kept = simulate(path("f/%d.png"), {"--no-clobber"});
     EXPECT_EQ(kept.exit_code, 4);
     EXPECT_THAT(kept.errorLines(), ElementsAre(HasSubstr("4.png")));
     EXPECT_FALSE(std::filesystem::exists(path("f/1.png"))) << "refused before any work is done";
-    EXPECT_EQ(play(path("f/%d.png"), {"--droplets", path("f/2.csv"), "--json", path("f/2.png")}).exit_code, 2);
+    EXPECT_EQ(simulate(path("f/%d.png"), {"--droplets", path("f/2.csv"), "--json", path("f/2.png")}).exit_code, 2);
     EXPECT_EQ(readFile(road), bytes.str());
-    EXPECT_EQ(play(path("f/%d.png"), {"--json", path("f/checkpoint.state")}).exit_code, 2);
+    EXPECT_EQ(simulate(path("f/%d.png"), {"--json", path("f/checkpoint.state")}).exit_code, 2);
 }
 
-TEST_F(WindshieldCommand, FilesBeyondTheirLimitFailAsAnyOther)
+TEST_F(WindshieldCommand, ReportsFilesBeyondTheSizeLimit)
 {
     std::vector<std::string> command{"bash", "-c", "ulimit -f 4; exec \"$@\"", "bash", testing::kCommand};
     for (const std::string& argument : argumentsOf(path("x.png"), {"--size", "320x180"})) {
@@ -269,7 +269,7 @@ TEST_F(WindshieldCommand, FilesBeyondTheirLimitFailAsAnyOther)
     EXPECT_THAT(scratch_.names(), IsEmpty());
 }
 
-TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
+TEST_F(WindshieldCommand, ResumingWithATableIncludesAllFrames)
 {
     std::filesystem::create_directory(path("f"));
     const std::vector<std::string> options{"--fps", "5", "--droplets", path("d.csv"), "--model", path("d.glb")};
@@ -279,13 +279,13 @@ TEST_F(WindshieldCommand, ResumingWithATableTellsOfAllFrames)
         if (resumes) {
             all.emplace_back("--resume");
         }
-        return play(path("f/%d.png"), all).exit_code;
+        return simulate(path("f/%d.png"), all).exit_code;
     };
     ASSERT_EQ(with_time("1.4s", false), 0);
     const std::string table = readFile(path("d.csv"));
     const std::string model = readFile(path("d.glb"));
     std::filesystem::remove(path("d.csv"));
-    ASSERT_EQ(with_time("1.4s", true), 0) << "there is no checkpoint: it begins anew";
+    ASSERT_EQ(with_time("1.4s", true), 0) << "without a checkpoint, it starts from the first frame";
     EXPECT_EQ(readFile(path("d.csv")), table);
     EXPECT_EQ(readFile(path("d.glb")), model);
 }
@@ -297,7 +297,7 @@ TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
          {std::string(), std::string("something else"),
           std::string("droplet-shape windshield checkpoint 1\n\xff\xff\xff\xff\xff\xff\xff\xff")}) {
         stored("f/checkpoint.state", bytes);
-        const CommandResult result = play(path("f/%d.png"), {"--resume"});
+        const CommandResult result = simulate(path("f/%d.png"), {"--resume"});
         EXPECT_EQ(result.exit_code, 3) << result.error;
         EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr("checkpoint")));
     }
@@ -308,31 +308,31 @@ TEST_F(WindshieldCommand, BackgroundsFillTheFrame)
     std::ostringstream bytes;
     writePng(grey(80, 60), bytes);
     const std::string road = stored("road.png", bytes.str());
-    const CommandResult own = play(path("own.png"), {"--background", road});
+    const CommandResult own = simulate(path("own.png"), {"--background", road});
     ASSERT_EQ(own.exit_code, 0) << own.error;
     EXPECT_EQ(readPicture(path("own.png")).width, 80);
     EXPECT_EQ(readPicture(path("own.png")).height, 60);
-    expectRefused({"--background", road, "--size", "96x54"}, 3, "has 80x60 pixels, the frame 96x54");
-    ASSERT_EQ(play(path("fit.png"), {"--background", road, "--size", "96x54", "--fit"}).exit_code, 0);
+    expectRefused({"--background", road, "--size", "96x54"}, 3, "has 80x60 pixels, but the frame has 96x54");
+    ASSERT_EQ(simulate(path("fit.png"), {"--background", road, "--size", "96x54", "--fit"}).exit_code, 0);
     EXPECT_EQ(readPicture(path("fit.png")).width, 96);
 }
 
-TEST_F(WindshieldCommand, VideosComeAndGo)
+TEST_F(WindshieldCommand, ReadsAndWritesVideos)
 {
-    const CommandResult run = play(path("rain.mp4"));
+    const CommandResult run = simulate(path("rain.mp4"));
     ASSERT_EQ(run.exit_code, 0) << run.error;
     EXPECT_EQ(readFile(path("rain.mp4")).substr(4, 4), "ftyp");
-    ASSERT_EQ(play(path("behind.png"), {"--background", path("rain.mp4"), "--time", "0.4s"}).exit_code, 0)
-        << "a video of six frames begins again";
+    ASSERT_EQ(simulate(path("behind.png"), {"--background", path("rain.mp4"), "--time", "0.4s"}).exit_code, 0)
+        << "a video of six frames repeats";
     EXPECT_EQ(readPicture(path("behind.png")).width, 96);
-    const CommandResult odd = play(path("odd.mp4"), {"--size", "97x54"});
+    const CommandResult odd = simulate(path("odd.mp4"), {"--size", "97x54"});
     EXPECT_EQ(odd.exit_code, 2);
     EXPECT_THAT(odd.errorLines(), ElementsAre(HasSubstr("even")));
-    const CommandResult codec = play(path("x.mp4"), {"--codec", "no-such-codec"});
+    const CommandResult codec = simulate(path("x.mp4"), {"--codec", "no-such-codec"});
     EXPECT_EQ(codec.exit_code, 2);
     EXPECT_THAT(codec.errorLines(), ElementsAre(HasSubstr("'no-such-codec' must be a video encoder")));
-    // An encoder there is, but not for such a file: ffmpeg's own words.
-    const CommandResult misfit = play(path("x.webm"), {"--codec", "libx264"});
+    // ffmpeg has the encoder, but not for this container; its message is passed on.
+    const CommandResult misfit = simulate(path("x.webm"), {"--codec", "libx264"});
     EXPECT_EQ(misfit.exit_code, 2);
     EXPECT_THAT(misfit.errorLines(), ElementsAre(HasSubstr("--codec libx264: " + path("x.webm") + ": ffmpeg cannot")));
     EXPECT_THAT(misfit.error, ::testing::Not(HasSubstr("0x")));
@@ -344,9 +344,9 @@ TEST_F(WindshieldCommand, VideosComeAndGo)
     EXPECT_FALSE(std::filesystem::exists(path("x.mp4")) || std::filesystem::exists(path("x.webm")));
 }
 
-TEST_F(WindshieldCommand, BackgroundVideosRunAtTheirOwnSpeed)
+TEST_F(WindshieldCommand, BackgroundVideosPlayAtTheirOwnSpeed)
 {
-    // Ten frames in a second, and the same with the second half of them twice as late.
+    // Ten frames in one second, and the same frames with the second half at half the speed.
     const std::string grow = "color=black:s=64x36:r=10:d=1,format=gbrp,geq=r='24*N':g='24*N':b='24*N'";
     for (const auto& [name, times] : {std::pair("even.mkv", "PTS"), {"late.mkv", "PTS+gte(N\\,5)*(PTS-0.5/TB)"}}) {
         ASSERT_EQ(testing::runProgram({"ffmpeg", "-nostdin", "-v", "error", "-f", "lavfi", "-i", grow, "-vf",
@@ -358,8 +358,8 @@ TEST_F(WindshieldCommand, BackgroundVideosRunAtTheirOwnSpeed)
     const auto shown = [&](const std::string& video, const char* rate) {
         const std::string folder = video + rate;
         std::filesystem::create_directory(path(folder));
-        EXPECT_EQ(play(path(folder + "/%d.png"),
-                       {"--background", path(video), "--fps", rate, "--rain", "0mm/h", "--time", "1.2s"})
+        EXPECT_EQ(simulate(path(folder + "/%d.png"),
+                           {"--background", path(video), "--fps", rate, "--rain", "0mm/h", "--time", "1.2s"})
                       .exit_code,
                   0);
         std::vector<int> numbers;
@@ -396,7 +396,7 @@ TEST_F(WindshieldCommand, VideosKeepTheirColours)
         if (!quality.empty()) {
             options.insert(options.end(), {"--quality", quality});
         }
-        return play(path(output), options).exit_code;
+        return simulate(path(output), options).exit_code;
     };
     ASSERT_EQ(dry("dry.png", ""), 0);
     ASSERT_EQ(dry("dry.mp4", ""), 0);
@@ -417,7 +417,7 @@ TEST_F(WindshieldCommand, VideosKeepTheirColours)
             EXPECT_NEAR(back.rgb[at], sent.rgb[at], 2) << "colour " << x / 32 << ", channel " << c;
         }
     }
-    // Coarser is smaller.
+    // A lower quality gives a smaller file.
     ASSERT_EQ(dry("coarse.mp4", "5"), 0);
     EXPECT_LT(std::filesystem::file_size(path("coarse.mp4")), std::filesystem::file_size(path("dry.mp4")));
     EXPECT_EQ(dry("x.mp4", "101"), 2);
@@ -427,11 +427,11 @@ TEST_F(WindshieldCommand, VideosKeepTheirColours)
 TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
 {
     const std::string cycle = stored("cycle.csv", "time_s,speed_km_per_h\n0,36\n0.5,72\n");
-    const CommandResult run = play(path("x.png"), {"--drive-cycle", cycle, "--json", "-", "--time", "0.5s"});
+    const CommandResult run = simulate(path("x.png"), {"--drive-cycle", cycle, "--json", "-", "--time", "0.5s"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto balance = nlohmann::json::parse(run.output).at("balance");
     EXPECT_NEAR(balance.back().at("speed_m_per_s").get<double>(), 10.0 + 10.0 * 14.0 / 15.0, 1e-6);
-    // It lasts from its first row to its last, whenever that was.
+    // The cycle lasts from its first row to its last, whatever the first time is.
     const std::string late = stored("late.csv", "time_s,speed_m_per_s\n1700000000,1\n1700000000.4,5\n");
     std::vector<std::string> arguments =
         argumentsOf(path("y.png"), {"--drive-cycle", late, "--json", "-", "--time", "x"});
@@ -439,7 +439,7 @@ TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
     const CommandResult own = runDroplet(arguments);
     ASSERT_EQ(own.exit_code, 0) << own.error;
     EXPECT_EQ(nlohmann::json::parse(own.output).at("output").at("frames"), 12);
-    expectRefused({"--drive-cycle", stored("fast.csv", "time_s,speed_m_per_s\n0,1e300\n1,5\n")}, 3, "150 m/s at most");
+    expectRefused({"--drive-cycle", stored("fast.csv", "time_s,speed_m_per_s\n0,1e300\n1,5\n")}, 3, "at most 150 m/s");
     std::vector<std::string> years = argumentsOf(
         path("y.png"), {"--drive-cycle", stored("long.csv", "time_s,speed_m_per_s\n0,1\n1e7,5\n"), "--time", "x"});
     years.erase(years.end() - 2, years.end());
@@ -448,11 +448,11 @@ TEST_F(WindshieldCommand, DriveCyclesSetTheSpeed)
     EXPECT_THAT(endless.errorLines(), ElementsAre(HasSubstr("lasts longer than 24h")));
 }
 
-TEST_F(WindshieldCommand, TheBalanceIsToldEverySecond)
+TEST_F(WindshieldCommand, ReportsTheBalanceEverySecond)
 {
     for (const char* rate : {"30", "29.97", "1.5"}) {
         const CommandResult run =
-            play(path("x.png"), {"--fps", rate, "--warm-up", "2s", "--time", "2.2s", "--json", "-"});
+            simulate(path("x.png"), {"--fps", rate, "--warm-up", "2s", "--time", "2.2s", "--json", "-"});
         ASSERT_EQ(run.exit_code, 0) << run.error;
         const auto balance = nlohmann::json::parse(run.output).at("balance");
         ASSERT_GE(balance.size(), 4U) << rate;
@@ -462,7 +462,7 @@ TEST_F(WindshieldCommand, TheBalanceIsToldEverySecond)
     }
 }
 
-TEST_F(WindshieldCommand, PresetsAreTheFigures)
+TEST_F(WindshieldCommand, PresetsBehaveLikeTheFiguresOfTheThesis)
 {
     const auto moving = [&](const char* preset) {
         const CommandResult run = runDroplet({"windshield", path("x.png"), "--preset", preset, "--json", "-", "--quiet",
@@ -477,7 +477,7 @@ TEST_F(WindshieldCommand, PresetsAreTheFigures)
     EXPECT_GT(moving("figure-3.11"), 10);
 }
 
-/// A pane of 400 mm by 283 mm that leans back by 45°, as a GLB; its normals the right way round or inward.
+/// Pane of 400 mm by 283 mm that leans back by 45°, as a GLB, with normals outward or inward.
 std::string paneGlb(float outward)
 {
     std::string buffer;
@@ -520,26 +520,26 @@ std::string paneGlb(float outward)
     return glb;
 }
 
-TEST_F(WindshieldCommand, AnySurfaceIsAGlass)
+TEST_F(WindshieldCommand, UsesASurfaceAsGlass)
 {
-    const CommandResult run = play(path("x.png"), {"--surface", stored("pane.glb", paneGlb(1.0F)), "--json", "-"});
+    const CommandResult run = simulate(path("x.png"), {"--surface", stored("pane.glb", paneGlb(1.0F)), "--json", "-"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_NEAR(report.at("glass").at("width_m").get<double>(), 0.4, 1e-5);
     EXPECT_NEAR(report.at("glass").at("height_m").get<double>(), 0.2 * std::sqrt(2.0), 1e-5);
     EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
-    expectRefused({"--surface", stored("inward.glb", paneGlb(-1.0F))}, 3, "no rain meets it");
-    // A droplet of the program's own has a hole in the middle, is too small, or is no glass for another reason.
+    expectRefused({"--surface", stored("inward.glb", paneGlb(-1.0F))}, 3, "rain cannot reach it");
+    // A droplet is not a glass: it has a hole, and is too small.
     testing::writeFile(path("dot.pgm"), "P2\n5 5\n1\n1 1 1 1 1\n1 0 0 0 1\n1 0 0 0 1\n1 0 0 0 1\n1 1 1 1 1\n");
     ASSERT_EQ(runDroplet({path("dot.pgm"), path("drop.glb"), "--triangles", "200", "--quiet"}).exit_code, 0);
-    const CommandResult drop = play(path("y.png"), {"--surface", path("drop.glb"), "--eye-distance", "100m"});
+    const CommandResult drop = simulate(path("y.png"), {"--surface", path("drop.glb"), "--eye-distance", "100m"});
     EXPECT_EQ(drop.exit_code, 3) << drop.error;
     EXPECT_THAT(drop.errorLines(), ElementsAre(HasSubstr("drop.glb: ")));
-    const CommandResult far = play(path("y.png"), {"--glass-width", "1mm"});
+    const CommandResult far = simulate(path("y.png"), {"--glass-width", "1mm"});
     EXPECT_EQ(far.exit_code, 2);
 }
 
-TEST_F(WindshieldCommand, BadInputGetsOneLine)
+TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
 {
     expectRefused({"--rain", "-1mm/h"}, 2, "--rain: '-1mm/h' must be from 0mm/h to 1000mm/h");
     expectRefused({"--speed", "50"}, 2, "--speed: '50' has no unit");
@@ -551,8 +551,8 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--surface", path("none.glb")}, 3, "none.glb");
     expectRefused({"--surface", "glass.obj"}, 2, ".glb or .gltf");
     expectRefused({"--preset", "figure-9"}, 2, "figure-3.10");
-    expectRefused({"--codec", "libx264"}, 2, "--codec is of videos");
-    expectRefused({"--resume"}, 2, "--resume is of frames");
+    expectRefused({"--codec", "libx264"}, 2, "--codec needs a video as OUTPUT");
+    expectRefused({"--resume"}, 2, "--resume needs frames as OUTPUT");
     expectRefused({"--maps", "m.png"}, 2, "%d");
     expectRefused({"--droplets", "d.txt"}, 2, ".csv or .json");
     expectRefused({"--moving-only"}, 2, "--moving-only needs --droplets");
@@ -572,10 +572,10 @@ TEST_F(WindshieldCommand, BadInputGetsOneLine)
     expectRefused({"--seed", "-1"}, 2, "whole number");
     expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");
     expectRefused({"--maps", path("m%d.tif")}, 2, "ends in .png or .exr");
-    const CommandResult format = play(path("x.gif"));
+    const CommandResult format = simulate(path("x.gif"));
     EXPECT_EQ(format.exit_code, 2);
     EXPECT_THAT(format.errorLines(), ElementsAre(HasSubstr("out/%05d.png")));
-    const CommandResult folder = play(path("nowhere/%d.png"));
+    const CommandResult folder = simulate(path("nowhere/%d.png"));
     EXPECT_EQ(folder.exit_code, 4);
     EXPECT_THAT(folder.errorLines(), SizeIs(1));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file_places.h"
+#include "canonical_paths.h"
 
 #include <sys/stat.h>
 
@@ -10,7 +10,7 @@ namespace cli {
 
 namespace fs = std::filesystem;
 
-std::string Places::of(const std::string& path)
+std::string CanonicalPaths::of(const std::string& path)
 {
     std::error_code ignored;
     const fs::path absolute = fs::absolute(path, ignored);

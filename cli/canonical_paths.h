@@ -10,19 +10,19 @@
 
 namespace cli {
 
-/// One name for every way to write a path: absolute, and through no links.
-class Places {
+/// Canonical paths: absolute and without symbolic links, so that each file has one.
+class CanonicalPaths {
 public:
     std::string of(const std::string& path);
 
 private:
-    std::unordered_map<std::string, std::string> folders_;  ///< by their names as given: many files share one
+    std::unordered_map<std::string, std::string> folders_;  ///< canonical folders by given folder: many files share one
 };
 
-/// Device and number of a file, which are the same whatever it is called (a hard link).
+/// Device and inode of a file, the same for all its hard links.
 using FileNode = std::pair<dev_t, ino_t>;
 
-/// None if there is no such file.
+/// Inode of a path; nothing if the file does not exist.
 std::optional<FileNode> nodeOf(const std::string& path);
 
 }  // namespace cli
