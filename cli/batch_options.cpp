@@ -54,7 +54,7 @@ std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLi
     static const std::set<std::string> others{
         "--config",    "--help",    "--json",     "--keep-going",    "--manifest",  "--no-clobber",
         "--no-resume", "--output",  "--progress", "--quiet",         "--recursive", "--shard",
-        "--threads",   "--verbose", "--version",  "--contact-sheet", "--one-scale"};
+        "--threads",   "--verbose", "--version",  "--contact-sheet", "--same-scale"};
     std::vector<std::pair<std::string, std::string>> decisive;
     for (const auto& [name, value] : line.given()) {
         if (others.count(name) == 0) {
@@ -75,7 +75,7 @@ void declareBatch(CommandLine& line)
     line.add(kGroup, "--manifest", "FILE",
              "File that lists the result of every item, as JSON [manifest.json in the folder of all outputs]");
     line.add(kGroup, "--contact-sheet", "FILE", "Draw all droplets on one PNG, each with its name");
-    line.addFlag(kGroup, "--one-scale",
+    line.addFlag(kGroup, "--same-scale,--one-scale",
                  "Draw all droplets on the contact sheet at one scale; otherwise each fills its place");
 }
 
@@ -89,15 +89,15 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
     }
     const auto manifest = line.value("--manifest");
     options.manifest = ofShard(manifest ? fs::path(manifest->text) : manifestBeside(output_pattern), options.shard);
-    if (line.flag("--one-scale") && !line.value("--contact-sheet")) {
-        refuse("--one-scale needs --contact-sheet");
+    if (line.flag("--same-scale") && !line.value("--contact-sheet")) {
+        refuse("--same-scale needs --contact-sheet");
     }
     if (const auto sheet = line.value("--contact-sheet")) {
         if (fs::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png");
         }
         options.contact_sheet = ofShard(sheet->text, options.shard);
-        options.one_scale = line.flag("--one-scale");
+        options.one_scale = line.flag("--same-scale");
         const auto format = line.value("--format");
         if (format && fs::path(output_pattern).extension() != "." + format->text) {
             refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);

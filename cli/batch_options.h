@@ -42,7 +42,7 @@ struct BatchOptions {
     ProgressMode progress = ProgressMode::Auto;
 };
 
-/// Declares the options of every batch: --keep-going, --no-resume, --shard, --manifest, --contact-sheet, --one-scale.
+/// Declares the options of every batch: --keep-going, --no-resume, --shard, --manifest, --contact-sheet, --same-scale.
 void declareBatch(CommandLine& line);
 
 /// Reads the options of declareBatch.

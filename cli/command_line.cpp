@@ -40,6 +40,12 @@ std::string wrapped(const std::string& text)
     return lines;
 }
 
+/// The long name of an option; later ones are its former names.
+std::string nameOf(const CLI::Option* option)
+{
+    return "--" + option->get_lnames().front();
+}
+
 class HelpFormatter : public CLI::Formatter {
 public:
     explicit HelpFormatter(const CommandText& text) : usage_("\nUsage: " + text.name + " " + text.usage + "\n")
@@ -64,9 +70,10 @@ public:
 
     std::string make_option_name(const CLI::Option* option, bool is_positional) const override
     {
-        const std::string name = CLI::Formatter::make_option_name(option, is_positional);
-        const auto comma = name.find(',');
-        return comma == std::string::npos ? name : name.substr(0, comma) + ", " + name.substr(comma + 1);
+        if (is_positional || option->get_lnames().empty()) {
+            return CLI::Formatter::make_option_name(option, is_positional);
+        }
+        return (option->get_snames().empty() ? "" : "-" + option->get_snames().front() + ", ") + nameOf(option);
     }
 
     std::string make_option_opts(const CLI::Option* option) const override
@@ -186,7 +193,7 @@ public:
             if (option->get_positional()) {
                 continue;
             }
-            const std::string name = "--" + option->get_lnames().front();
+            const std::string name = nameOf(option);
             if (isFlag(option)) {
                 if (flag(name)) {
                     all.emplace_back(name, "true");
@@ -226,8 +233,8 @@ private:
     {
         std::vector<std::string> names;
         for (const CLI::Option* option : app_.get_options()) {
-            for (const std::string& name : option->get_lnames()) {
-                names.push_back("--" + name);
+            if (!option->get_lnames().empty()) {
+                names.push_back(nameOf(option));
             }
         }
         return nearestName(unknown, names);
@@ -260,7 +267,7 @@ private:
             if (option->count() == 0 || option->get_positional()) {
                 continue;
             }
-            const std::string name = "--" + option->get_lnames().front();
+            const std::string name = nameOf(option);
             if (isFlag(option)) {
                 requireBoolean({option->results().back(), name});
             } else if (option->count() > 1 && !isList(option)) {
@@ -296,9 +303,9 @@ private:
     void addConfig(const std::string& path)
     {
         for (const ConfigEntry& entry : readConfig(path)) {
-            const std::string name = "--" + entry.key;
             const std::string origin = " (" + path + ":" + std::to_string(entry.line) + ")";
-            CLI::Option* const option = entry.key.size() > 1 ? app_.get_option_no_throw(name) : nullptr;
+            CLI::Option* const option = entry.key.size() > 1 ? app_.get_option_no_throw("--" + entry.key) : nullptr;
+            const std::string name = option == nullptr ? "--" + entry.key : nameOf(option);
             if (option == nullptr || name == "--config" || name == "--help" || name == "--version") {
                 const std::string known = option == nullptr ? nearest(name) : "";
                 refuse("--config: " + path + ":" + std::to_string(entry.line) + ": unknown key '" + entry.key + "'" +

@@ -175,7 +175,7 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         refuse(option + " goes with " + with);
     };
     if (is_text) {
-        for (const char* option : {"--keep-going", "--no-resume", "--one-scale"}) {
+        for (const char* option : {"--keep-going", "--no-resume", "--same-scale"}) {
             if (line.flag(option)) {
                 clash(option, "--charset or --all, not with --text");
             }

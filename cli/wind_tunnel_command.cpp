@@ -42,11 +42,11 @@ std::string headOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
                        fmt::format("{:.4g}", run.swept.model.wetting.contact_angle / droplet::kDegree) + "°, slope " +
                        fmt::format("{:.4g}", of.slope / droplet::kDegree) + "°, ";
     if (const auto& angle = run.swept.model.wetting.falling_angle) {
-        line += "falling angle " + fmt::format("{:.4g}", *angle / droplet::kDegree) + "° of every droplet";
+        line += "sliding angle " + fmt::format("{:.4g}", *angle / droplet::kDegree) + "° of every droplet";
     } else {
         line += "hysteresis " + fmt::format("{:.3g}", of.hysteresis);
         if (run.falling_angle) {
-            line += " (falling angle " + fmt::format("{:.4g}", *run.falling_angle / droplet::kDegree) + "° of " +
+            line += " (sliding angle " + fmt::format("{:.4g}", *run.falling_angle / droplet::kDegree) + "° of " +
                     volume(*run.falling_volume) + ")";
         }
     }

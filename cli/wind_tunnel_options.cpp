@@ -60,9 +60,9 @@ void declare(CommandLine& line)
     line.add(kSweep, "--slope", "LIST", "Slopes of the ground, from horizontal [35deg]");
     line.add(kSweep, "--hysteresis", "LIST",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
-    line.add(kSweep, "--falling-angle", "ANGLE", "Hysteresis, by the slope at which a droplet begins to run");
-    line.add(kSweep, "--falling-volume", "V|every",
-             "Volume of the droplet that runs at --falling-angle; every: all of them do [30uL]");
+    line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE", "Hysteresis, by the slope at which a droplet begins to run");
+    line.add(kSweep, "--sliding-volume,--falling-volume", "V|every",
+             "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]");
     declareForces(line);
     constexpr const char* kOut = "Charts and series";
     line.add(kOut, "--chart", "FILE",
@@ -81,7 +81,7 @@ void declare(CommandLine& line)
     line.add(kRun, "--json", "FILE", "Write all results as JSON; - is standard output");
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareCommon(line, kRun, "slope = \"45deg\"");
-    line.exclude({"--hysteresis", "--falling-angle"});
+    line.exclude({"--hysteresis", "--sliding-angle"});
 }
 
 std::string extensionOf(const std::string& path)
@@ -167,7 +167,7 @@ void readTrace(const CommandLine& line, WindTunnelOptions& options)
 bool isAsMeasured(const CommandLine& line)
 {
     for (const char* option :
-         {"--slope", "--hysteresis", "--falling-angle", "--contact-angle", "--drag-coefficient", "--boundary-layer",
+         {"--slope", "--hysteresis", "--sliding-angle", "--contact-angle", "--drag-coefficient", "--boundary-layer",
           "--profile-exponent", "--air-density", "--liquid", "--surface-tension", "--density", "--gravity"}) {
         if (line.value(option)) {
             return false;
@@ -197,10 +197,10 @@ std::optional<droplet::WindBand> measuredBand(const CommandLine& line)
 
 void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
 {
-    const auto volume = line.value("--falling-volume");
-    const auto angle = line.value("--falling-angle");
+    const auto volume = line.value("--sliding-volume");
+    const auto angle = line.value("--sliding-angle");
     if (volume && !angle) {
-        refuse("--falling-volume needs --falling-angle");
+        refuse("--sliding-volume needs --sliding-angle");
     }
     if (!angle) {
         return;
@@ -221,7 +221,7 @@ void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
     model.wetting.hysteresis = droplet::hysteresisOf(model, slope, *run.falling_volume);
     if (model.wetting.hysteresis > 2.0) {
         refuse(*angle,
-               "less steep, or --falling-volume smaller: no contact angles can hold this droplet on this slope");
+               "less steep, or --sliding-volume smaller: no contact angles can hold this droplet on this slope");
     }
 }
 

@@ -76,12 +76,12 @@ void declare(CommandLine& line)
     line.add(kCar, "--wind", "turned|projected",
              "Wind along the glass: turned keeps all of its speed, projected only the part along the glass [turned]");
     line.add(kCar, "--noise", "ACCELERATION", "Root mean square of the car's vibration [0.5m/s2]");
-    line.add(kCar, "--wiper", "DURATION", "Wiper period, at least 1.2s; without it there are no wipers");
+    line.add(kCar, "--wiper-period,--wiper", "DURATION", "At least 1.2s; without it there are no wipers");
     line.add(kCar, "--seed", "N", "Random seed [1]");
     constexpr const char* kGlass = "Glass";
     line.add(kGlass, "--glass-width", "LENGTH", "Width of the glass, along its bend [1.4m]");
     line.add(kGlass, "--glass-height", "LENGTH", "Height of the glass, along its slope [0.8m]");
-    line.add(kGlass, "--radius", "LENGTH", "Radius of the glass's bend across the car [5m]");
+    line.add(kGlass, "--glass-radius,--radius", "LENGTH", "Radius of the glass's bend across the car [5m]");
     line.add(kGlass, "--slope", "ANGLE", "Slope of the glass, from horizontal [45deg]");
     line.add(kGlass, "--surface", "FILE",
              "Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that "
@@ -176,7 +176,7 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
             *wind, {{"turned", droplet::WindAlongGlass::Turned}, {"projected", droplet::WindAlongGlass::Projected}});
     }
     readQuantity(line, "--noise", kNoise, parameters.fluctuation.acceleration);
-    if (const auto wiper = line.value("--wiper")) {
+    if (const auto wiper = line.value("--wiper-period")) {
         options.wiper = quantity(*wiper, kPeriod);
     }
     if (const auto seed = line.value("--seed")) {
@@ -191,7 +191,7 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
 void readGlass(const CommandLine& line, WindshieldOptions& options)
 {
     options.surface = text(line, "--surface");
-    for (const char* option : {"--glass-width", "--glass-height", "--radius", "--slope"}) {
+    for (const char* option : {"--glass-width", "--glass-height", "--glass-radius", "--slope"}) {
         if (options.surface && line.value(option)) {
             refuse(std::string("--surface and ") + option + " exclude each other: the surface has its own");
         }
@@ -204,11 +204,11 @@ void readGlass(const CommandLine& line, WindshieldOptions& options)
     }
     readQuantity(line, "--glass-width", kSide, options.cylinder.width);
     readQuantity(line, "--glass-height", kSide, options.cylinder.height);
-    readQuantity(line, "--radius", kRadius, options.cylinder.radius);
+    readQuantity(line, "--glass-radius", kRadius, options.cylinder.radius);
     readQuantity(line, "--slope", kSlope, options.cylinder.slope);
     if (!options.surface) {
         if (options.cylinder.width > std::numbers::pi * options.cylinder.radius) {
-            refuse("--glass-width must be at most pi times --radius: the glass can bend by half a turn at most");
+            refuse("--glass-width must be at most pi times --glass-radius: the glass can bend by half a turn at most");
         }
         options.parameters.glass = droplet::Glass(options.cylinder);
     }

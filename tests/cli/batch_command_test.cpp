@@ -474,12 +474,12 @@ TEST_F(BatchTest, ContactSheetShowsAllFinishedDroplets)
     EXPECT_GT(picture.width, 2 * 320);
     ASSERT_EQ(batch({"--contact-sheet", "again.png", "-j", "1"}).exit_code, 0);
     EXPECT_TRUE(readFile(directory() / "again.png") == all);
-    const CommandResult one_scale = batch({"--contact-sheet", "again.png", "--one-scale"});
+    const CommandResult one_scale = batch({"--contact-sheet", "again.png", "--same-scale"});
     EXPECT_THAT(one_scale.error, HasSubstr("sheet      again.png: 3 droplets; "));
     EXPECT_FALSE(readFile(directory() / "again.png") == all);
     const CommandResult events = batch({"--contact-sheet", "again.png", "--progress", "json"});
     EXPECT_THAT(events.error, HasSubstr(R"({"drawn":3,"of":3,"elapsed_s":)"));
-    EXPECT_EQ(batch({"--one-scale"}).exit_code, 2);
+    EXPECT_EQ(batch({"--same-scale"}).exit_code, 2);
     ASSERT_EQ(batch({"--contact-sheet", "ink.png", "--material", "ink"}).exit_code, 0);
     EXPECT_FALSE(readFile(directory() / "ink.png") == all);
 

@@ -148,10 +148,10 @@ TEST_F(WindTunnelRefusal, RefusesWrongParameters)
     expectRefused({"--preset", "kaneda"}, {"--preset", "'kaneda'", "thesis, hashimoto"});
     expectRefused({"--preset", "thesis,thesis"}, {"--preset"});
     expectRefused({"--contact-angle", "180deg"}, {"--contact-angle", "from 1deg to 179deg"});
-    expectRefused({"--falling-angle", "95deg"}, {"--falling-angle"});
-    expectRefused({"--falling-volume", "30uL"}, {"--falling-volume needs --falling-angle"});
-    expectRefused({"--falling-angle", "80deg", "--falling-volume", "10mL"}, {"--falling-angle", "no contact angles"});
-    expectRefused({"--falling-angle", "10deg", "--hysteresis", "0.1"}, {"--falling-angle", "--hysteresis"});
+    expectRefused({"--sliding-angle", "95deg"}, {"--sliding-angle"});
+    expectRefused({"--sliding-volume", "30uL"}, {"--sliding-volume needs --sliding-angle"});
+    expectRefused({"--sliding-angle", "80deg", "--sliding-volume", "10mL"}, {"--sliding-angle", "no contact angles"});
+    expectRefused({"--sliding-angle", "10deg", "--hysteresis", "0.1"}, {"--sliding-angle", "--hysteresis"});
     expectRefused({"--drag-coefficient", "-1"}, {"--drag-coefficient", "from 0 to 100"});
     expectRefused({"--boundary-layer", "2m"}, {"--boundary-layer"});
     expectRefused({"--profile-exponent", "0.5mm"}, {"--profile-exponent"});
@@ -166,6 +166,23 @@ TEST_F(WindTunnelRefusal, RefusesWrongParameters)
     expectRefused({"--measured", "11..7m/s"}, {"--measured", "two wind speeds"});
     expectRefused({"--measured", "0..7m/s"}, {"--measured", "two wind speeds"});
     expectRefused({"--threads", "0"}, {"--threads"});
+}
+
+TEST_F(WindTunnelRefusal, NamesOptionsByTheirNewNamesAndAcceptsTheOld)
+{
+    const std::vector<std::string> volume{"--volume", "10uL", "--wind", "5m/s"};
+    const auto cases = [](std::vector<std::string> arguments, const std::string& prefix) {
+        for (const std::string& argument : {"--" + prefix + "-angle", std::string("12deg"), "--" + prefix + "-volume",
+                                            std::string("40uL")}) {
+            arguments.push_back(argument);
+        }
+        return reportOf(arguments).at("runs").at(0).at("cases");
+    };
+    EXPECT_EQ(cases(volume, "falling"), cases(volume, "sliding"));
+    testing::writeFile(directory() / "old.toml", "falling-angle = \"95deg\"\n");
+    expectRefused({"--config", "old.toml"}, {"--sliding-angle (old.toml:1)"});
+    expectRefused({"--falling-angle", "1deg", "--sliding-angle", "1deg"}, {"--sliding-angle: given 2 times"});
+    EXPECT_THAT(runDroplet({"wind-tunnel", "--help"}).output, Not(HasSubstr("--falling")));
 }
 
 TEST_F(WindTunnelRefusal, RefusesWrongOutputs)
@@ -359,17 +376,17 @@ TEST(WindTunnelCommand, FallingAngleAppliesToOneVolumeOrToAll)
     const auto held = [](const Json& one) {
         return std::asin(one.at("retention_n").get<double>() / (9.81 * one.at("mass_kg").get<double>())) / kDegree;
     };
-    const Json of_one = cases({"--volume", "10,40uL", "--falling-angle", "12deg", "--falling-volume", "40uL"});
+    const Json of_one = cases({"--volume", "10,40uL", "--sliding-angle", "12deg", "--sliding-volume", "40uL"});
     EXPECT_NEAR(held(of_one[1]), 12.0, 1e-9);
     EXPECT_GT(held(of_one[0]), 20.0);
     EXPECT_EQ(of_one[0].at("hysteresis"), of_one[1].at("hysteresis"));
-    const Json of_every = cases({"--volume", "10,40uL", "--falling-angle", "12deg", "--falling-volume", "every"});
+    const Json of_every = cases({"--volume", "10,40uL", "--sliding-angle", "12deg", "--sliding-volume", "every"});
     EXPECT_NEAR(held(of_every[0]), 12.0, 1e-9);
     EXPECT_NEAR(held(of_every[1]), 12.0, 1e-9);
     EXPECT_TRUE(of_every[0].at("critical_volume_m3").is_null());
     // Without wind, at 35° with a falling angle of 10° (WIND: g (sin 35° − sin 10°)).
     for (const Json& one :
-         cases({"--volume", "1..100uL:33", "--falling-angle", "10deg", "--falling-volume", "every"})) {
+         cases({"--volume", "1..100uL:33", "--sliding-angle", "10deg", "--sliding-volume", "every"})) {
         EXPECT_NEAR(one.at("acceleration_m_per_s2").at(0).get<double>(), -3.92, 0.005);
     }
 }

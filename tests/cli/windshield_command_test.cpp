@@ -120,7 +120,7 @@ TEST_F(WindshieldCommand, WritesAllOutputs)
     const CommandResult run =
         simulate(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
                                     path("d.csv"), "--model", path("d.glb"), "--model-animation", "texture", "--json",
-                                    "-", "--wiper", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
+                                    "-", "--wiper-period", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
@@ -568,7 +568,7 @@ TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
     expectRefused({"--fit"}, 2, "--background");
     expectRefused({"--samples", "5"}, 2, "from 1 to 4");
     expectRefused({"--size", "10x10"}, 2, "WIDTHxHEIGHT");
-    expectRefused({"--wiper", "1s"}, 2, "from 1.2s to 60s");
+    expectRefused({"--wiper-period", "1s"}, 2, "from 1.2s to 60s");
     expectRefused({"--seed", "-1"}, 2, "whole number");
     expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");
     expectRefused({"--maps", path("m%d.tif")}, 2, "ends in .png or .exr");
