@@ -445,8 +445,8 @@ TEST_F(Object, HandsOverNothingThatIsNotChecked)
     EXPECT_EQ(read(changed("\"mesh\":0", "\"mesh\":0.0")).triangles, kTwo);
     expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is no index");
     expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is no index");
-    expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is no list");
-    expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is no index or count");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is not a list");
+    expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is not a valid index or count");
     expectRefused(changed("\"buffers\":[{\"byteLength\":", "\"buffers\":[{\"byteLength\":0,\"was\":"), "bytes of 0");
     expectRefused(changed("\"buffers\"", "\"buffer\""), "buffers[0] does not exist");
     const std::string nested = std::string(100000, '[') + std::string(100000, ']');

@@ -184,8 +184,8 @@ TEST_F(ReadSurfaceTest, FilesCutAnywhereAreRefused)
 
 TEST_F(ReadSurfaceTest, DamageIsNamed)
 {
-    expectRefused("quad.obj", kTetrahedron + "f 1 2 3 4\n", "more than three corners; only triangles are read");
-    expectRefused("two.obj", kTetrahedron + "f 1 2\n", "line 5 has a face of less than three corners");
+    expectRefused("quad.obj", kTetrahedron + "f 1 2 3 4\n", "more than three corners; only triangles are supported");
+    expectRefused("two.obj", kTetrahedron + "f 1 2\n", "line 5 has a face with fewer than three corners");
     expectRefused("index.obj", kTetrahedron + "f 1 2 5\n", "names \"5\" of 4");
     expectRefused("zero.obj", kTetrahedron + "f 0 1 2\n", "names \"0\" of 4");
     expectRefused("back.obj", kTetrahedron + "f -5 1 2\n", "names \"-5\" of 4");
@@ -212,7 +212,8 @@ TEST_F(ReadSurfaceTest, DamageIsNamed)
     std::string stl = written(roundDroplet(), Format::Stl);
     stl.replace(84 + 12, 4, std::string("\0\0\xc0\x7f", 4));
     expectRefused("nan.stl", stl, "not finite");
-    expectRefused("more.stl", written(roundDroplet(), Format::Stl) + "x", "bytes, not those of as many triangles");
+    expectRefused("more.stl", written(roundDroplet(), Format::Stl) + "x",
+                  "bytes, which do not match its number of triangles");
     expectRefused("text.glb", "text", "");
     std::filesystem::create_directory(path("folder.obj"));
     EXPECT_THROW((void)readSurface(path("folder.obj")), Error);
@@ -233,7 +234,7 @@ TEST_F(ReadSurfaceTest, WhatMovesIsTakenAtRest)
     gltf.insert(gltf.find(mark), "\"targets\":[{\"POSITION\":0}],");
     writeFile(path("moves.gltf"), gltf);
     const ReadSurface found = readSurface(path("moves.gltf"));
-    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("taken at rest")));
+    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("the rest pose is read")));
     EXPECT_LT(compare(roundDroplet(), found.surface).symmetric.upper, 1e-9);
 }
 
