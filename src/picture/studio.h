@@ -56,7 +56,7 @@ public:
     [[nodiscard]] Vec3f diffuse(Vec3f normal) const;
     [[nodiscard]] const std::vector<Light>& lights() const { return lights_; }
     [[nodiscard]] bool uniform() const { return uniform_; }
-    /// Light on open level ground, as diffuse() has it.
+    /// Irradiance of open level ground.
     [[nodiscard]] Vec3f level() const;
 
 private:
