@@ -70,7 +70,7 @@ TEST_F(ReadSurfaceTest, EveryFormatHoldsTheSurfaceThatWasWritten)
         for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl}) {
             const Surface found = read(std::string("droplet.") + name(format), written(surface, format));
             const Comparison between = compare(surface, found);
-            // Floats, and nine digits of millimetres: half a unit in the last place of 5 mm.
+            // Tolerance: floats, or nine digits in millimetres: half a unit in the last place of 5 mm.
             EXPECT_LT(between.symmetric.upper, 1e-9) << name(format);
             EXPECT_TRUE(between.same_topology) << name(format);
             EXPECT_EQ(found.triangles.size(), surface.triangles.size());
@@ -100,7 +100,7 @@ TEST_F(ReadSurfaceTest, NormalsOfStlAreTheFacets)
     }
 }
 
-TEST_F(ReadSurfaceTest, ContactAnglesAreReadWhereFilesHaveThem)
+TEST_F(ReadSurfaceTest, ReadsContactAnglesIfPresent)
 {
     const Surface surface = testing::withContactAngles(roundDroplet());
     for (const Format format : {Format::Glb, Format::Ply}) {
@@ -123,9 +123,9 @@ TEST_F(ReadSurfaceTest, ObjInEveryNotation)
     EXPECT_EQ(plain.positions.size(), 4U);
     EXPECT_TRUE(topology(plain).closed);
     EXPECT_NEAR(enclosedVolume(plain), 1e-9 / 6.0, 1e-22);
-    // y up: the third vertex is the one that is on top.
+    // The file is y up: the third vertex is on top.
     EXPECT_EQ(plain.positions[1], (Vec3{0.0, 0.0, 1e-3}));
-    // From behind, with textures and normals, comments, groups, blanks, carriage returns, plus signs.
+    // Negative indices, with textures and normals, comments, groups, blanks, carriage returns, plus signs.
     const std::string other =
         "# a tetrahedron\r\no t\r\n" + kTetrahedron +
         "vt 0 0\nvn 0 0 +1\ng a\n\n  f -4/1/1  -2/1/1 -3/1/1 # one\nf 1//1 2//1 4//1\r\nf 1/1 4/1 "
@@ -227,7 +227,7 @@ TEST_F(ReadSurfaceTest, DamageIsNamed)
     }
 }
 
-TEST_F(ReadSurfaceTest, WhatMovesIsTakenAtRest)
+TEST_F(ReadSurfaceTest, ReadsTheRestPoseOfAnimatedFiles)
 {
     std::string gltf = written(roundDroplet(), Format::Gltf);
     const std::string mark = "\"attributes\"";
