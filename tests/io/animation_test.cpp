@@ -383,13 +383,13 @@ TEST(Animation, RefusesInvalidFrames)
                     Animation animation(AnimationOptions{});
                     animation.add(roundDroplet(), true);
                 }),
-                HasSubstr("frame 1 has not the triangles"));
+                HasSubstr("frame 1 must have the same triangles"));
     EXPECT_THAT(refusal([] {
                     Animation animation(AnimationOptions{});
                     animation.add(roundDroplet(), false);
                     animation.add(roundDroplet({.segments = 13}), true);
                 }),
-                HasSubstr("frame 2 has not the triangles"));
+                HasSubstr("frame 2 must have the same triangles"));
 }
 
 TEST(Animation, RefusesATooLargeFileAtItsFirstFrame)

@@ -256,7 +256,7 @@ TEST_F(Object, BuffersMayLieBesideTheFile)
     expectFileRefused(path("object.gltf"), "bytes of");
     for (const char* const elsewhere : {"/etc/passwd", "https://example.org/a.bin"}) {
         writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), elsewhere));
-        expectFileRefused(path("object.gltf"), "not beside the file");
+        expectFileRefused(path("object.gltf"), "must be a file beside");
     }
     writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "data:text/plain,abc"));
     expectFileRefused(path("object.gltf"), "base64");
@@ -403,11 +403,11 @@ TEST_F(Object, RefusesDamagedFiles)
 {
     expectFileRefused(path("missing.glb"), "No such file");
     expectFileRefused(path(""), "directory");
-    expectFileRefused(std::filesystem::path("/dev/zero"), "no glTF");
-    expectRefused("", "no glTF");
-    expectRefused("solid teapot\n", "no glTF");
-    expectRefused("{\"nodes\":", "no glTF");
-    expectRefused("[]", "no glTF");
+    expectFileRefused(std::filesystem::path("/dev/zero"), "not glTF");
+    expectRefused("", "not glTF");
+    expectRefused("solid teapot\n", "not glTF");
+    expectRefused("{\"nodes\":", "not glTF");
+    expectRefused("[]", "not glTF");
     expectRefused("glTF", "cut short");
     const std::string whole = indexedSquare().file(scene(kSquare + kIndices));
     expectRefused(whole.substr(0, whole.size() - 4), "cut short");
@@ -443,8 +443,8 @@ TEST_F(Object, ChecksTheFileBeforeTinygltfReadsIt)
         return glb(json, indexedSquare().buffer());
     };
     EXPECT_EQ(read(changed("\"mesh\":0", "\"mesh\":0.0")).triangles, kTwo);
-    expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is no index");
-    expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is no index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is not a valid index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is not a valid index");
     expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is not a list");
     expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is not a valid index or count");
     expectRefused(changed("\"buffers\":[{\"byteLength\":", "\"buffers\":[{\"byteLength\":0,\"was\":"), "bytes of 0");

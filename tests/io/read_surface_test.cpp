@@ -157,9 +157,9 @@ TEST_F(ReadSurfaceTest, PlyAndStlAsText)
         return text.replace(text.find("1e3"), 3, number);
     };
     EXPECT_EQ(read("exact.stl", with("0.1234567890123456")).positions[1].x, kMillimetre * 0.1234567890123456);
-    expectRefused("nan.stl", with("nan"), "no STL");
-    expectRefused("word.stl", with("one"), "no STL");
-    expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "no STL");
+    expectRefused("nan.stl", with("nan"), "not STL");
+    expectRefused("word.stl", with("one"), "not STL");
+    expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "not STL");
     expectRefused("cut.stl", "solid one\n" + facet, "cut short");
     expectRefused("empty.stl", "solid one\nendsolid one\n", "no triangles");
     for (std::size_t length = 0; length + 8 < ply.size(); ++length) {
