@@ -16,7 +16,7 @@ int main(int argc, char** argv)
     }
     try {
         droplet::TextOptions type;
-        type.glyph.em = 30e-3;
+        type.glyph.em = 30e-3;  // type size: 3 cm
         droplet::SetText text = droplet::setText(droplet::readFont(argv[1]), argv[2], type);
         if (!text.missing.empty()) {
             std::cerr << text.missing.size() << " characters are not in the font\n";

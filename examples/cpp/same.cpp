@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tells whether two surfaces are the same to a hundredth of a millimetre: same A.glb B.glb
+// Checks whether two surfaces agree to a hundredth of a millimetre: same A.glb B.glb
+// Exit code: 0 they agree, 1 they differ, 2 error
 #include <droplet/compare/compare.h>
 #include <droplet/error.h>
 #include <droplet/io/read_surface.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints height, pressure and contact angle of a droplet over its volume, as CSV: sweep IN.png
-// The stages are called one by one, so that the picture is traced and triangulated once.
+// It calls the stages one by one, so the picture is traced and triangulated only once.
 #include <droplet/error.h>
 #include <droplet/footprint/domain.h>
 #include <droplet/footprint/mask.h>
@@ -22,9 +22,9 @@ int main(int argc, char** argv)
         const std::vector<droplet::PlanarMesh> meshes = droplet::triangulate(domain, {.triangles = 5000});
         droplet::SolveOptions options;
         options.fill.by = droplet::FillBy::Volume;
-        options.fill.sharing = droplet::FillSharing::Total;
+        options.fill.sharing = droplet::FillSharing::Total;  // one volume for all droplets together
         std::cout << "volume_ul,height_mm,pressure_pa,contact_angle_deg\n";
-        for (double volume = 10e-9; volume < 55e-9; volume += 10e-9) {
+        for (double volume = 10e-9; volume < 55e-9; volume += 10e-9) {  // 10 to 50 uL, in cubic metres
             options.fill.amount = volume;
             const droplet::Solution solution = droplet::solve(meshes, options);
             std::vector<droplet::ShapeFigures> each;

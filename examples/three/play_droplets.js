@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays droplets of `windshield --model` in three.js: in either form, a texture in one draw call.
+// Plays the droplets of `windshield --model` in three.js, from node animations or from a texture (one draw call).
 import { AnimationMixer, InstancedBufferGeometry, NoColorSpace, PropertyBinding, Sphere, Vector3 } from 'three';
 
 const kVertex = /* glsl */ `
@@ -28,7 +28,7 @@ Droplet dropletAt(int frame) {
 Droplet dropletNow() {
     Droplet now = dropletAt(int(moment));
     Droplet next = dropletAt(min(int(moment) + 1, frames - 1));
-    if (now.size.x > 0.0 && next.size.x > 0.0) {  // otherwise it stays as it is to the frame's end
+    if (now.size.x > 0.0 && next.size.x > 0.0) {  // otherwise the droplet does not change until the next frame
         float share = fract(moment);
         now.place = mix(now.place, next.place, share);
         now.turn = normalize(mix(now.turn, dot(now.turn, next.turn) < 0.0 ? -next.turn : next.turn, share));
@@ -43,7 +43,7 @@ vec3 turned(vec4 turn, vec3 v) {
 }
 `;
 
-/** three.js looks through the whole scene for each track's joint, which takes seconds; here a map knows them. */
+/** Plays node animations. three.js searches the whole scene for every track, which takes seconds; a map is faster. */
 function playJoints({ scene, animations: [clip] }) {
     const objects = new Map();
     scene.traverse((object) => objects.set(object.uuid, object).set(object.name, object));
@@ -58,7 +58,7 @@ function playJoints({ scene, animations: [clip] }) {
 /**
  * Makes the droplets of a loaded model visible.
  * @param gltf  what GLTFLoader returns; its scene is changed
- * @return      a function that shows them as they are at a time [s] from the film's start, and the film's duration [s]
+ * @return      `show`, a function of the time [s], and `duration` [s]
  */
 export async function playDroplets(gltf) {
     if (gltf.animations.length > 0) {
@@ -67,7 +67,7 @@ export async function playDroplets(gltf) {
     const mesh = gltf.scene.getObjectByName('droplets');
     const about = mesh.userData;
     if (about.texture === undefined) {
-        return { show: () => {}, duration: 0 };  // nothing moves
+        return { show: () => {}, duration: 0 };  // no animation
     }
     const texture = await gltf.parser.getDependency('texture', about.texture);
     texture.colorSpace = NoColorSpace;

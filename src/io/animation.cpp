@@ -25,20 +25,20 @@
 namespace droplet {
 namespace {
 
-/// Viewers hold morph targets in layers of a texture, of which 256 are guaranteed, and their weights in uniforms, of
-/// which a quarter of that many are always left.
+/// Viewers keep morph targets in layers of a texture; 256 layers are guaranteed. They keep the weights in uniforms; a
+/// quarter of that number is always free.
 constexpr std::size_t kMaxTargets = 64;
 
 using Floats = std::vector<float>;
 
-/// What a file holds of one vector per vertex.
+/// File data of one vector per vertex.
 struct Array {
     Floats numbers;
     std::array<double, 3> low{};
     std::array<double, 3> high{};
 };
 
-/// @param from  floats to which they will be added; empty: none
+/// @param from  base values to which the array is a difference; empty: none
 Array arrayOf(const std::vector<Vec3>& vectors, const Floats& from)
 {
     Array array;
@@ -63,14 +63,14 @@ struct Shape {
     Array normals;
 };
 
-/// Frames that share their triangles.
+/// Frames with the same triangles.
 struct Run {
-    std::size_t first = 0;                ///< frame
-    std::optional<std::size_t> end = {};  ///< the frame from which on another is shown, or none; empty: to the end
+    std::size_t first = 0;                ///< index of the first frame
+    std::optional<std::size_t> end = {};  ///< index of the first frame after the run; empty: to the end
     Shape base;
     Floats uvs;
     std::vector<Triangle> triangles;
-    std::vector<Shape> targets;  ///< of the frames that follow, as differences
+    std::vector<Shape> targets;  ///< later frames, as differences from the base
 
     [[nodiscard]] std::size_t vertices() const { return base.positions.numbers.size() / 3; }
 };
@@ -94,7 +94,7 @@ std::uint64_t bytesOf(const Run& run)
                                                 " bytes; it must stay below 2 GiB: ask for fewer triangles or frames");
 }
 
-/// Numbers of an animation.
+/// Keyframes of an animation channel.
 struct Track {
     Floats times;
     Floats values;
@@ -117,8 +117,8 @@ struct Animation::Content {
     AnimationOptions options;
     std::vector<Run> runs;
     std::size_t frames = 0;
-    std::size_t surfaces = 0;  ///< frames that have one
-    double thickness = 0.0;    ///< of all frames together [m]
+    std::size_t surfaces = 0;  ///< number of frames with a surface
+    double thickness = 0.0;    ///< sum over all frames [m]
 
     [[nodiscard]] bool shownToTheEnd(const Run& run) const { return run.end.value_or(frames) == frames; }
     [[nodiscard]] float timeOf(std::size_t frame) const
@@ -126,7 +126,7 @@ struct Animation::Content {
         return toFloat(static_cast<double>(frame) / options.frames_per_second);
     }
 
-    /// When the k-th run is shown.
+    /// Keyframes that show and hide the k-th run.
     [[nodiscard]] Track visibility(std::size_t k) const
     {
         Track track;
@@ -147,7 +147,7 @@ struct Animation::Content {
         return track;
     }
 
-    /// Which of the k-th run's frames is shown.
+    /// Keyframes that select a frame of the k-th run.
     [[nodiscard]] Track weights(std::size_t k) const
     {
         const std::size_t targets = runs[k].targets.size();
@@ -176,7 +176,7 @@ struct Animation::Content {
         if (bytes >= kGltfFileLimit) {
             refuseSize(frames, "more than ", bytes);
         }
-        // The first frame tells how large the others will be, to a tenth or so.
+        // The first frame predicts the size of the others to about a tenth.
         constexpr double kSurely = 0.8;
         if (surfaces == 1 && options.frames) {
             const std::uint64_t expected = bytes + bytesOfTarget(runs[0].vertices()) * (*options.frames - frames);
@@ -282,7 +282,7 @@ struct Animation::Content {
         return model;
     }
 
-    /// Calls take(run, path, track) for everything that is animated.
+    /// Calls take(run, path, track) for every animated property.
     template <typename Take>
     void forTracks(const Take& take) const
     {
@@ -296,7 +296,7 @@ struct Animation::Content {
         }
     }
 
-    /// In the order of the model's arrays.
+    /// Writes data in the order of the model's arrays.
     void writeBuffer(ByteStream& bytes) const
     {
         const auto put = [&](const Floats& numbers) {
@@ -314,7 +314,7 @@ struct Animation::Content {
             }
             writeIndices(run.triangles, run.vertices(), bytes);
             if (run.vertices() < kVerticesBeyond16Bit && run.triangles.size() % 2 != 0) {
-                bytes.u16(0);  // to the next word
+                bytes.u16(0);  // padding to the next word
             }
         }
         if (frames > 1) {
@@ -351,8 +351,8 @@ void Animation::add(const Surface& surface, bool continues)
     if (continues && (content.runs.empty() || content.runs.back().end ||
                       content.runs.back().vertices() != surface.positions.size() ||
                       content.runs.back().triangles != surface.triangles)) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "frame " + std::to_string(content.frames + 1) + " has not the triangles of the frame before");
+        throw Error(ErrorCode::InvalidArgument, "frame " + std::to_string(content.frames + 1) +
+                                                    " must have the same triangles as the frame before");
     }
     if (continues) {
         Run& run = content.runs.back();

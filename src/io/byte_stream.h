@@ -20,10 +20,11 @@ namespace droplet {
 
 [[noreturn]] inline void refuseFloat(double value)
 {
-    throw Error(ErrorCode::InvalidArgument, "surface holds " + numberText(value) + ", which a 32-bit float cannot");
+    throw Error(ErrorCode::InvalidArgument,
+                "surface holds " + numberText(value) + ", which must fit into a 32-bit float");
 }
 
-/// The nearest float. @throws Error InvalidArgument beyond float's range
+/// Nearest float. @throws Error InvalidArgument beyond float's range
 inline float toFloat(double value)
 {
     if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max()))) {
@@ -32,8 +33,8 @@ inline float toFloat(double value)
     return static_cast<float>(value);
 }
 
-/// Hands bytes to a stream through one fixed buffer, so that no file is ever held whole. Numbers go little-endian
-/// whatever the machine's own order. After finish() the stream knows whether it took everything.
+/// Writer of bytes to a stream through one fixed buffer, so that no whole file is in memory. Numbers are little-endian
+/// on every machine. After finish() the stream's state says whether it took everything.
 class ByteStream {
 public:
     explicit ByteStream(std::ostream& out) : out_(out), buffer_(kCapacity) {}
@@ -74,7 +75,7 @@ public:
         }
     }
 
-    /// An integer, or a number of that many significant digits, as text in any locale.
+    /// Writes a number as text in any locale; `format` is as in std::to_chars.
     template <class Number, class... Format>
     void digits(Number value, Format... format)
     {
@@ -85,13 +86,13 @@ public:
     /// @return bytes handed over in all
     std::uint64_t finish()
     {
-        handOver();
+        writeOut();
         out_.flush();
         return count_;
     }
 
 private:
-    // Beyond 64 KiB nothing is gained, and as much stays in the processor's second cache.
+    // A larger buffer is not faster; 64 KiB fit into the processor's second cache.
     static constexpr std::size_t kCapacity = std::size_t{1} << 16;
     static constexpr std::size_t kLongestNumber = 32;  // sign, digits, point, exponent of three digits
 
@@ -100,7 +101,7 @@ private:
     {
         char* at = room(Bytes * sizeof...(values));
         const auto store = [&](std::uint32_t value) {
-            for (std::size_t i = 0; i < Bytes; ++i) {  // compilers make one store of it
+            for (std::size_t i = 0; i < Bytes; ++i) {  // compilers merge this into one store
                 at[i] = static_cast<char>(value >> (8 * i));
             }
             at += Bytes;
@@ -109,16 +110,16 @@ private:
         used_ += Bytes * sizeof...(values);
     }
 
-    /// Where that many bytes, at most kCapacity, may be put; used_ is still to be raised.
+    /// Place for some bytes, at most kCapacity. The caller increases used_.
     char* room(std::size_t bytes)
     {
         if (bytes > kCapacity - used_) {
-            handOver();
+            writeOut();
         }
         return buffer_.data() + used_;
     }
 
-    void handOver()
+    void writeOut()
     {
         out_.write(buffer_.data(), static_cast<std::streamsize>(used_));
         count_ += used_;

@@ -5,13 +5,13 @@
 
 namespace droplet {
 
-/// Whether a surface holds nothing at all, as that of a frame without liquid.
+/// Whether a surface is empty, as in a frame without liquid.
 inline bool isDry(const Surface& surface)
 {
     return surface.triangles.empty() && surface.positions.empty();
 }
 
-/// Guarantees: returns only when a surface is valid, or holds nothing at all.
+/// Guarantees: returns only if a surface is valid or empty.
 /// @throws Error InvalidArgument
 inline void validateUnlessDry(const Surface& surface)
 {

@@ -20,11 +20,11 @@
 namespace droplet {
 namespace {
 
-/// Energies are integrals over the volume, turned into such over the surface by the divergence theorem: ρgz into the
-/// flux of (0, 0, ½z²), which a body's density is, and what pulls along the plane into that of (0, 0, −(s·x)z). Under a
-/// curved ground lies a constant part of both and of the volume.
+/// Physics in Evolver's units. The divergence theorem turns volume integrals of energy into surface integrals: ρgz
+/// becomes the flux of (0, 0, ½z²), Evolver's density of a body, and the pull along the plane the flux of
+/// (0, 0, −(s·x)z). Between curved ground and z = 0 lies a constant part of both energies and of the volume.
 struct Physics {
-    double unit = 1.0;     ///< of length [m]
+    double unit = 1.0;     ///< unit of length [m]
     double weight = 0.0;   ///< ρg⊥/σ [1/unit²]
     Vec2 pull;             ///< s = ρg∥/σ [1/unit²]
     double tension = 1.0;  ///< σ [N/m]
@@ -32,22 +32,22 @@ struct Physics {
     [[nodiscard]] bool tilted() const { return pull.x != 0.0 || pull.y != 0.0; }
 };
 
-/// ∫½wz² − (s·x)z and ∫z of a function linear on every triangle.
+/// ∫½wz² − (s·x)z and ∫z of a function z that is linear on every triangle.
 struct Column {
     double energy = 0.0;
     double volume = 0.0;
 };
 
-/// One droplet in the file's units.
+/// Droplet in the file's units.
 struct Drop {
     const PlanarMesh* mesh = nullptr;
     std::vector<Vec3> vertices;
-    std::vector<double> ground;  ///< at every vertex; empty where flat
+    std::vector<double> ground;  ///< height of the ground at every vertex; empty if flat
     const std::vector<std::uint8_t>* dry = nullptr;
     double pressure = 0.0;
     double area = 0.0;
     Column liquid;
-    Column under;  ///< between the ground and z = 0
+    Column under;  ///< space between the ground and z = 0
 };
 
 [[noreturn]] void refuse(const std::string& message)
@@ -82,7 +82,7 @@ void checkFits(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFi
     }
 }
 
-/// The power of ten nearest to the radius of a disc as large as the mean footprint.
+/// Power of ten nearest to the radius of a disc with the area of the mean footprint.
 double unitOfLength(const std::vector<PlanarMesh>& meshes)
 {
     double total = 0.0;
@@ -156,7 +156,7 @@ Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& p
 
 using Ends = std::array<std::uint32_t, 2>;
 
-/// Ends of every edge, the lesser first, in ascending order.
+/// Both vertices of every edge, smaller index first, in ascending order.
 std::vector<Ends> edgesOf(const PlanarMesh& mesh)
 {
     std::vector<Ends> edges;
@@ -171,7 +171,7 @@ std::vector<Ends> edgesOf(const PlanarMesh& mesh)
     return edges;
 }
 
-/// Words and numbers, each with a space or the line's end behind.
+/// Writer of words and numbers, separated by spaces and line ends.
 class Lines {
 public:
     explicit Lines(std::ostream& out) : bytes_(out) {}
@@ -207,9 +207,9 @@ private:
     ByteStream bytes_;
 };
 
-/// What Evolver does and says. A step of no length finds the pressures that Newton's method starts from. hessian_seek
-/// looks along Newton's direction for the least energy: safe, but no better than energies can be told apart; from there
-/// hessian, the full step, squares what is left.
+/// Commands of the datafile. A step of length 0 finds the pressures at which Newton's method starts. hessian_seek
+/// searches the minimum of energy along Newton's direction: it is safe, but only as accurate as energies can be
+/// distinguished. Then hessian, the full step, converges quadratically.
 constexpr const char* kCommands = R"(
 read
 hessian_normal on
@@ -230,7 +230,7 @@ report := {
 vertically
 )";
 
-/// Which droplets are one body, by their numbers: [first, last).
+/// Bodies as ranges [begin, end) of droplets.
 std::vector<std::array<std::size_t, 2>> bodiesOf(std::size_t droplets, const SolveOptions& options)
 {
     if (options.fill.sharing == FillSharing::Total) {
@@ -243,7 +243,7 @@ std::vector<std::array<std::size_t, 2>> bodiesOf(std::size_t droplets, const Sol
     return bodies;
 }
 
-/// Sum of volumes above z = 0 and of those below the ground.
+/// Total volume above z = 0, and total volume between the ground and z = 0.
 std::array<double, 2> volumesOf(const std::vector<Drop>& drops, const std::array<std::size_t, 2>& body)
 {
     std::array<double, 2> volumes{};
@@ -265,7 +265,7 @@ double heightOf(const std::vector<Drop>& drops)
     return height;
 }
 
-/// Writes a datafile of droplets in its units.
+/// Writer of a datafile from droplets in its units.
 class Datafile {
 public:
     Datafile(std::ostream& out, const std::vector<Drop>& drops, const Physics& physics, const SolveOptions& options)

@@ -24,7 +24,7 @@
 namespace droplet {
 namespace {
 
-// Above the JSON's length beside an embedded buffer: fewer than 60 numbers and names, each shorter than 60 characters.
+// Upper bound of the JSON's length without the buffer: fewer than 60 numbers and names of fewer than 60 characters.
 constexpr std::uint64_t kJsonBound = 4096;
 
 // Position 3, normal 3, uv 2, contact angle 1, changes of position and normal 6.
@@ -51,7 +51,7 @@ void checkFileSize(const Surface& surface, bool binary)
     }
 }
 
-// Before the first byte is written; of positions the bounds tell, and normals are unit.
+// Checks the range of floats before the first byte is written. Bounds cover positions; normals are unit vectors.
 void checkFloats(const Surface& surface)
 {
     if (surface.refill) {
@@ -67,7 +67,7 @@ void checkFloats(const Surface& surface)
     }
 }
 
-// targetNames is a convention that viewers share (section 3.7.2.2, implementation note).
+// targetNames is a common convention of viewers (section 3.7.2.2, implementation note).
 tinygltf::Value refillExtras(const Refill& refill)
 {
     using tinygltf::Value;
@@ -123,14 +123,14 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     return model;
 }
 
-// Positions within half an ulp of float: of a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest mesh
-// that fits a file. What little closer vertices would merge to stays closed, as faces go by index and welded copies
-// round alike; normals are stored, so no flat triangle asks for one.
+// Positions are rounded to half an ulp of float: for a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest
+// mesh that fits into a file. If rounding merges vertices the mesh stays closed, since faces use indices and welded
+// copies round alike. Normals are stored, so degenerate triangles need none.
 void writeBuffer(const Surface& surface, ByteStream& bytes)
 {
     writeVectors(surface.positions, bytes);
     writeVectors(surface.normals, bytes);
-    for (const Vec2& uv : surface.uvs) {  // glTF's texture origin is the upper left, as the mask's
+    for (const Vec2& uv : surface.uvs) {  // both glTF and masks have their origin at the upper left
         bytes.f32(uv.x, uv.y);
     }
     for (const float angle : surface.contact_angle) {
@@ -143,7 +143,7 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
     writeIndices(surface.triangles, surface.positions.size(), bytes);
 }
 
-// Encodes what it is given: S. Josefsson, RFC 4648 (2006), section 4.
+// Base64 encoder: S. Josefsson, RFC 4648 (2006), section 4.
 class Base64Buffer : public std::streambuf {
 public:
     explicit Base64Buffer(ByteStream& text) : text_(text) {}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Khronos Group, "glTF 2.0 Specification" (2021), sections 3.5, 3.6 and 4.
 //
-// tinygltf (2.7) loads the file. In front of it stands what it does not check: of a GLB whose last chunk is cut it
-// reads eight bytes past the end; it fetches every image that a file names; it takes values of a wrong type for missing
-// ones and cuts numbers to 32 bits; it follows extras however deep they nest; it looks for buffers in the working
-// directory.
+// tinygltf (2.7) loads the file, after checks that it does not make itself. Without them it reads eight bytes past the
+// end of a GLB whose last chunk is cut short; it loads every image that a file names; it treats values of a wrong type
+// as missing and truncates numbers to 32 bits; it follows nested extras to any depth; it looks for buffers in the
+// working directory.
 #include "io/gltf_file.h"
 
 #include <algorithm>
@@ -39,10 +39,10 @@ std::string_view textOf(std::span<const std::byte> bytes)
 
 struct Container {
     std::string_view json;
-    std::span<const std::byte> chunk;  ///< of a GLB
+    std::span<const std::byte> chunk;  ///< binary chunk of a GLB
 };
 
-/// Section 4.4, of a GLB.
+/// Splits a GLB into chunks (section 4.4).
 Container containerOf(std::span<const std::byte> bytes)
 {
     constexpr std::uint32_t kJson = 0x4E4F534A;
@@ -60,7 +60,7 @@ Container containerOf(std::span<const std::byte> bytes)
         return value;
     };
     if (bytes.size() < kHeader || word(bytes, 4) != 2 || word(bytes, 8) > bytes.size() || word(bytes, 8) < kHeader) {
-        throw Damage("it is cut short, or no GLB of version 2");
+        throw Damage("it is cut short or not a GLB of version 2");
     }
     std::span<const std::byte> rest = bytes.subspan(kHeader, word(bytes, 8) - kHeader);
     const auto next = [&](std::uint32_t kind) {
@@ -77,10 +77,10 @@ Container containerOf(std::span<const std::byte> bytes)
 
 // ------------------------------------------------------------------------------------------------ the checks
 
-/// Without extras and extensions.
+/// Parses JSON without extras and extensions.
 Json parsed(std::string_view text)
 {
-    constexpr int kDeepest = 64;  // glTF needs 7, its extras are free
+    constexpr int kDeepest = 64;  // glTF needs 7; extras have no limit
     const auto keep = [](int depth, Json::parse_event_t event, const Json& value) {
         if (depth > kDeepest) {
             throw Damage("its JSON is nested more than " + std::to_string(kDeepest) + " deep");
@@ -90,26 +90,26 @@ Json parsed(std::string_view text)
     constexpr bool kThrow = false;
     Json root = Json::parse(text, keep, kThrow);
     if (!root.is_object()) {
-        throw Damage("it is no glTF: its JSON is damaged or cut short");
+        throw Damage("it is not glTF: its JSON is damaged or cut short");
     }
     return root;
 }
 
 enum class Number { Index, Indices, Size };
 
-/// Makes sure that a number, if there, is a whole one that tinygltf takes as it is; 1.0 becomes 1.
+/// Checks that a number, if present, is an integer that tinygltf reads unchanged; 1.0 becomes 1.
 void checkWhole(Json& object, const char* key, Number kind)
 {
     const auto found = object.find(key);
     if (found == object.end()) {
         return;
     }
-    constexpr double kExact = 9007199254740992.0;  // 2⁵³: whole doubles up to there are exact
+    constexpr double kExact = 9007199254740992.0;  // 2⁵³: integers up to it are exact doubles
     const double max = kind == Number::Size ? kExact : std::numeric_limits<int>::max();
     const auto check = [&](Json& value) {
         const double number = value.is_number() ? value.get<double>() : -1.0;
         if (!(number >= 0.0 && number <= max && std::floor(number) == number)) {
-            throw Damage(std::string("\"") + key + "\" is no index or count");
+            throw Damage(std::string("\"") + key + "\" is not a valid index or count");
         }
         value = static_cast<std::uint64_t>(number);
     };
@@ -118,7 +118,7 @@ void checkWhole(Json& object, const char* key, Number kind)
     } else if (found->is_array()) {
         std::for_each(found->begin(), found->end(), check);
     } else {
-        throw Damage(std::string("\"") + key + "\" is no list");
+        throw Damage(std::string("\"") + key + "\" is not a list");
     }
 }
 
@@ -128,11 +128,11 @@ void checkNumbers(const Json& object, const char* key, std::size_t count)
     if (found != object.end() &&
         !(found->is_array() && found->size() == count &&
           std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); }))) {
-        throw Damage(std::string("\"") + key + "\" is not " + std::to_string(count) + " numbers");
+        throw Damage(std::string("\"") + key + "\" must be a list of " + std::to_string(count) + " numbers");
     }
 }
 
-/// Calls check for every object of a list, if there is one.
+/// Calls `check` for every object of a list, if the list exists.
 template <typename Check>
 void forObjects(Json& parent, const char* list, const Check& check)
 {
@@ -142,13 +142,13 @@ void forObjects(Json& parent, const char* list, const Check& check)
     }
     for (Json& object : *found) {
         if (!found->is_array() || !object.is_object()) {
-            throw Damage(std::string("\"") + list + "\" is no list of objects");
+            throw Damage(std::string("\"") + list + "\" is not a list of objects");
         }
         check(object);
     }
 }
 
-/// Types and ranges of all that is read, where tinygltf would overlook a wrong one.
+/// Checks types and ranges of the values that tinygltf does not check.
 void checkValues(Json& root)
 {
     struct Rule {
@@ -195,17 +195,17 @@ void checkValues(Json& root)
 
 // ----------------------------------------------------------------------------------------------- the buffers
 
-/// A buffer that is not embedded.
+/// Buffer that is not embedded.
 struct Source {
     std::string name;
     std::size_t length = 0;
-    std::span<const std::byte> chunk;  ///< empty for a file
+    std::span<const std::byte> chunk;  ///< empty: the buffer is a file
 };
 
-/// In the order in which tinygltf asks for them.
+/// Buffers in the order in which tinygltf loads them.
 using Sources = std::deque<Source>;
 
-/// Brings buffers to what tinygltf takes: base64 of its media type and of exactly the length asked for.
+/// Converts buffers to the form that tinygltf accepts: base64 with its media type and exactly the stated length.
 Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
 {
     Sources sources;
@@ -230,7 +230,7 @@ Sources sourcesOf(Json& root, std::span<const std::byte> chunk)
             buffer["uri"] = "chunk";
             sources.push_back({name, length, chunk.first(length)});
         } else if (uri.starts_with('/') || uri.find("://") != std::string::npos) {
-            throw Damage(name + " is not beside the file: " + uri);
+            throw Damage(name + " must be a file beside the glTF file, not " + uri);
         } else {
             sources.push_back({name + ", " + uri, length, {}});
         }
@@ -250,7 +250,7 @@ bool readSource(std::vector<unsigned char>* to, std::string* /*error*/, const st
         try {
             std::error_code none;
             if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
-                throw Damage("no regular file");
+                throw Damage("it is not a regular file");
             }
             bytes = readBytes(path, source.length, [](std::byte) { return true; });
         } catch (const Damage& damage) {
@@ -272,7 +272,7 @@ bool readSource(std::vector<unsigned char>* to, std::string* /*error*/, const st
 GltfFile readGltfFile(const std::filesystem::path& path)
 {
     const Bytes bytes =
-        readBytes(path, std::numeric_limits<std::uint32_t>::max(),  // as many as a GLB can say it has
+        readBytes(path, std::numeric_limits<std::uint32_t>::max(),  // largest size that a GLB can state
                   [](std::byte first) {
                       return std::string_view("g{ \t\r\n\xef").find(static_cast<char>(first)) != std::string_view::npos;
                   });
@@ -281,7 +281,7 @@ GltfFile readGltfFile(const std::filesystem::path& path)
     for (const char* const required : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
         const auto list = root.find("extensionsRequired");
         if (list != root.end() && std::find(list->begin(), list->end(), required) != list->end()) {
-            throw Damage(std::string("its meshes are compressed, which is not read: ") + required);
+            throw Damage(std::string("its meshes are compressed, which is not supported: ") + required);
         }
     }
     checkValues(root);
@@ -307,9 +307,9 @@ GltfFile readGltfFile(const std::filesystem::path& path)
     const bool loaded = loader.LoadASCIIFromString(&file.model, &error, &warning, text.data(),
                                                    static_cast<unsigned>(text.size()), folder, tinygltf::NO_REQUIRE);
     if (!loaded || !error.empty()) {
-        // Of a buffer that it cannot decode it repeats the whole text.
+        // If it cannot decode a buffer, its message contains the whole text.
         constexpr std::size_t kLongest = 100;
-        throw Damage("it is no glTF 2.0: " + error.substr(0, std::min(error.find('\n'), kLongest)));
+        throw Damage("it is not glTF 2.0: " + error.substr(0, std::min(error.find('\n'), kLongest)));
     }
     return file;
 }

@@ -35,7 +35,7 @@ tinygltf::Material makeMaterial(Material wanted, double thickness, bool closed)
     material.name = look.name;
     material.pbrMetallicRoughness.metallicFactor = look.metallic;
     material.pbrMetallicRoughness.roughnessFactor = look.roughness;
-    // A thickness of 0 means thin-walled, and the distance of attenuation must be positive.
+    // A thickness of 0 means thin-walled; attenuationDistance must be positive.
     const bool has_volume = look.transmission > 0.0 && closed && thickness > 0.0;
     if (!has_volume || !look.tinted) {
         material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, 1.0};
@@ -98,7 +98,7 @@ int addVertexArray(tinygltf::Model& model, int type, std::size_t count)
     return addArray(model, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);
 }
 
-// Bounds of the floats, exactly: rounding keeps the order of numbers.
+// These are exact bounds of the floats, since rounding keeps the order of numbers.
 void addBounds(tinygltf::Accessor& accessor, const std::vector<Vec3>& vectors)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -121,8 +121,8 @@ int addIndices(tinygltf::Model& model, std::size_t triangles, std::size_t vertic
                     TINYGLTF_TYPE_SCALAR, 3 * triangles);
 }
 
-// tinygltf makes the JSON, but of a model without a buffer: it would hold the buffer's bytes three times before the
-// first one is written. Only their number, and where the bytes themselves stand in text, is added.
+// tinygltf writes the JSON of a model without a buffer; with one it would hold the bytes three times in memory. The
+// buffer's length, and its place in the text, are added here.
 nlohmann::json jsonOf(const tinygltf::Model& model)
 {
     constexpr bool kPretty = false;
@@ -156,7 +156,7 @@ void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, 
     }
 }
 
-// GLB file format: a header of three words, then chunks of whole words, JSON filled up with spaces, the buffer with 0.
+// GLB file format: a header of three words, then chunks padded to whole words, JSON with spaces, the buffer with 0.
 std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
                           const std::function<void(ByteStream&)>& write_buffer)
 {

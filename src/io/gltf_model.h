@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What all glTF files of ours are made of.
+// Common parts of the glTF writers.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -17,35 +17,35 @@
 
 namespace droplet {
 
-// The writer keeps offsets in int; viewers' limits are of the same order.
+// The writer stores offsets as int; viewers have similar limits.
 inline constexpr std::uint64_t kGltfFileLimit = std::uint64_t{1} << 31;
 
-// 65535 restarts primitives; with fewer vertices it can be no index.
+// Index 65535 restarts primitives; with fewer vertices it does not occur.
 inline constexpr std::size_t kVerticesBeyond16Bit = 65535;
 
-/// @param thickness  of a closed surface's liquid, where no thickness is known to viewers [m]
+/// @param thickness  of the liquid under a closed surface, for viewers that do not measure it [m]
 /// @throws Error     InvalidArgument if there is no such material
 tinygltf::Material makeMaterial(Material material, double thickness, bool closed);
 
-/// A model of one material, with the extensions it uses.
+/// Model with one material and the extensions it uses.
 tinygltf::Model makeBareModel(Material material, double thickness, bool closed);
 
 std::size_t bufferBytes(const tinygltf::Model& model);
 
-/// Puts an array behind the last one in the buffer, at the next word; returns the accessor on it.
-/// @param target  of the view; 0: none
+/// Appends an array to the buffer, aligned to a word; returns the index of its accessor.
+/// @param target  target of the buffer view; 0: none
 int addArray(tinygltf::Model& model, int target, int component_type, int type, std::size_t count);
-/// An array of floats for each vertex.
+/// Appends an array of floats per vertex.
 int addVertexArray(tinygltf::Model& model, int type, std::size_t count);
-/// Indices of that many triangles, as wide as that many vertices need.
+/// Appends indices of triangles, 16-bit or 32-bit depending on the number of vertices.
 int addIndices(tinygltf::Model& model, std::size_t triangles, std::size_t vertices);
-/// Bounds of vectors, as the floats they become, y up.
+/// Adds the bounds of vectors, rounded to floats, y up.
 void addBounds(tinygltf::Accessor& accessor, const std::vector<Vec3>& vectors);
 
-/// The model as JSON, with its buffer's length, but not its bytes.
+/// The model as JSON, with the length of its buffer but without the bytes.
 nlohmann::json jsonOf(const tinygltf::Model& model);
 
-/// Vectors turned to y up, as floats.
+/// Writes vectors as floats, turned to y up.
 void writeVectors(const std::vector<Vec3>& vectors, ByteStream& bytes);
 void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, ByteStream& bytes);
 

@@ -26,7 +26,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // a small file can show one mesh any number of times
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // a small file can repeat one mesh many times
 
 template <typename T>
 const T& entry(const std::vector<T>& list, int index, const char* name)
@@ -37,16 +37,16 @@ const T& entry(const std::vector<T>& list, int index, const char* name)
     return list[static_cast<std::size_t>(index)];
 }
 
-/// Numbers in a buffer, bounds checked when made.
+/// Numbers in a buffer. The constructor checks the bounds.
 class Column {
 public:
-    /// @param type  as tinygltf numbers them
+    /// @param type  tinygltf's constant
     Column(const tinygltf::Model& model, int accessor_index, int type)
     {
         const std::string name = "accessors[" + std::to_string(accessor_index) + "]";
         const tinygltf::Accessor& accessor = entry(model.accessors, accessor_index, "accessors");
         if (accessor.sparse.isSparse) {
-            throw Damage(name + " is sparse, which is not read");
+            throw Damage(name + " is sparse, which is not supported");
         }
         if (accessor.type != type) {
             throw Damage(name + " should hold " +
@@ -55,13 +55,13 @@ public:
                                                        : "VEC3"));
         }
         if (accessor.bufferView < 0) {
-            throw Damage(name + " has no data, or compressed data");
+            throw Damage(name + " has no data or compressed data");
         }
         kind_ = accessor.componentType;
         count_ = accessor.count;
         normalised_ = accessor.normalized;
         if (kind_ == TINYGLTF_COMPONENT_TYPE_INT || kind_ == TINYGLTF_COMPONENT_TYPE_DOUBLE) {
-            throw Damage(name + " has components of no known type");
+            throw Damage(name + " has components of unknown type");
         }
         component_bytes_ =
             static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(kind_)));
@@ -84,7 +84,7 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const { return count_; }
-    /// Whether these are unsigned integers that stand for themselves.
+    /// Whether the numbers are unsigned integers that are not normalised.
     [[nodiscard]] bool counts() const
     {
         return !normalised_ &&
@@ -92,7 +92,7 @@ public:
                 kind_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
     }
 
-    /// Section 3.11 of the specification says what normalised integers stand for.
+    /// Value of a component; normalised integers as in section 3.11 of the specification.
     [[nodiscard]] double number(std::size_t i, std::size_t k = 0) const
     {
         const unsigned char* const at = bytes_.data() + i * stride_ + k * component_bytes_;
@@ -135,7 +135,7 @@ private:
     bool normalised_ = false;
 };
 
-/// An affine map: images of the unit vectors, and of the origin.
+/// Affine map: images of the unit vectors and of the origin.
 struct Placement {
     Vec3 x{1.0, 0.0, 0.0};
     Vec3 y{0.0, 1.0, 0.0};
@@ -149,14 +149,14 @@ struct Placement {
         return {direction(inner.x), direction(inner.y), direction(inner.z), place(inner.origin)};
     }
     [[nodiscard]] bool mirrors() const { return dot(cross(x, y), z) < 0.0; }
-    /// Normals turn by the cofactors.
+    /// Normals transform by the cofactor matrix.
     [[nodiscard]] Vec3 normal(Vec3 a) const
     {
         return (mirrors() ? -1.0 : 1.0) * (a.x * cross(y, z) + a.y * cross(z, x) + a.z * cross(x, y));
     }
 };
 
-/// Section 3.5.3: a matrix by columns, or scale, then rotation, then translation.
+/// Transform of a node (section 3.5.3): a matrix by columns; or scale, then rotation, then translation.
 Placement placementOf(const tinygltf::Node& node)
 {
     if (const std::vector<double>& m = node.matrix; !m.empty()) {
@@ -171,7 +171,7 @@ Placement placementOf(const tinygltf::Node& node)
     const std::vector<double> q = or_else(node.rotation, {0.0, 0.0, 0.0, 1.0});
     const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(size > 0.0)) {
-        throw Damage("a node's rotation is no quaternion");
+        throw Damage("a node's rotation is not a quaternion");
     }
     const auto [x, y, z, w] = std::array{q[0] / size, q[1] / size, q[2] / size, q[3] / size};
     return {s[0] * Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
@@ -201,7 +201,7 @@ std::vector<int> rootsOf(const tinygltf::Model& model)
     return roots;
 }
 
-/// Section 3.7.2.1: triangles, strips and fans, by the mode of a primitive; none for points and lines.
+/// Triangles of a primitive by its mode (section 3.7.2.1): triangles, strips and fans; none for points and lines.
 std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& index)
 {
     std::vector<Triangle> triangles;
@@ -233,7 +233,7 @@ public:
         };
         std::vector<Visit> open;
         const auto visit_later = [&open](std::vector<int> nodes, const Placement& parent) {
-            std::reverse(nodes.begin(), nodes.end());  // a stack: the first comes first
+            std::reverse(nodes.begin(), nodes.end());  // this is a stack: the first node is visited first
             for (const int node : nodes) {
                 open.push_back({node, parent});
             }
@@ -296,7 +296,7 @@ private:
         const Column& positions = *found;
         const std::optional<Column> uvs = column("TEXCOORD_0", TINYGLTF_TYPE_VEC2);
         if (!uvs && options_.needs_uv) {
-            throw Damage(name + " has no texture coordinates (uv) to lay droplets by; unwrap it first");
+            throw Damage(name + " has no texture coordinates (uv), which place the droplets; unwrap it first");
         }
         const std::optional<Column> normals = column("NORMAL", TINYGLTF_TYPE_VEC3);
         const std::optional<Column> angles = column("_CONTACT_ANGLE", TINYGLTF_TYPE_SCALAR);
@@ -343,7 +343,7 @@ private:
         }
         const Column column(model_, primitive.indices, TINYGLTF_TYPE_SCALAR);
         if (!column.counts()) {
-            throw Damage(name + " has indices that are no unsigned integers");
+            throw Damage(name + " has indices that are not unsigned integers");
         }
         std::vector<std::uint32_t> indices(column.size());
         for (std::size_t i = 0; i < indices.size(); ++i) {

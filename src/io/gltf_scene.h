@@ -10,19 +10,19 @@
 
 namespace droplet {
 
-/// All triangles of a glTF scene, at rest, z up, in metres.
+/// All triangles of a glTF scene in the rest pose, z up, in metres.
 struct SceneMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;          ///< unit
-    std::vector<Vec2> uvs;              ///< as they stand; 0 where a mesh has none
-    std::vector<float> contact_angles;  ///< [rad]; 0 where a mesh has none
-    std::vector<Triangle> triangles;    ///< none whose vertices repeat; at least one
-    std::vector<std::uint32_t> weld;    ///< the first vertex at the same place
-    bool moves = false;                 ///< it has animations, skins or morph targets, which were passed over
+    std::vector<Vec2> uvs;              ///< as in the file; 0 for meshes without uv
+    std::vector<float> contact_angles;  ///< [rad]; 0 for meshes without contact angles
+    std::vector<Triangle> triangles;    ///< at least one; three different vertices each
+    std::vector<std::uint32_t> weld;    ///< index of the first vertex at the same place
+    bool moves = false;                 ///< the file has animations, skins or morph targets, which are ignored
 };
 
 struct SceneOptions {
-    bool needs_uv = false;  ///< a mesh of triangles without uv is damage
+    bool needs_uv = false;  ///< reject triangles without uv as damage
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.

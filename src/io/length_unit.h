@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// How a unit is called in our files' comments, by which they are read again.
+/// Name of a unit in comments of our files; the readers look for it.
 struct NamedUnit {
     LengthUnit unit;
     std::string_view name;

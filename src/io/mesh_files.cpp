@@ -2,8 +2,8 @@
 // Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; G. Turk, "The PLY Polygon File Format"
 // (1994); 3D Systems, "StereoLithography Interface Specification" (1989).
 //
-// OpenMesh's writers would not do: OBJ knows no normal indices of its own, PLY names texture coordinates u, v and keeps
-// its options in a global, STL prints on stderr; all drop triangles its half-edges cannot hold.
+// OpenMesh's writers are not used: its OBJ has no separate normal indices, its PLY names texture coordinates u, v and
+// has global options, its STL prints on stderr, and all drop triangles that half-edges cannot represent.
 #include "droplet/io/mesh_files.h"
 
 #include <fmt/core.h>
@@ -27,10 +27,10 @@
 namespace droplet {
 namespace {
 
-constexpr int kSignificantDigits = 9;  // as many as tell any two floats apart
+constexpr int kSignificantDigits = 9;  // enough to distinguish any two floats
 constexpr std::size_t kStlHeaderBytes = 80;
 
-// Texture origin from the upper to the lower left.
+// Moves the texture origin from the upper left to the lower left.
 Vec2 fromBelow(Vec2 uv)
 {
     return {uv.x, 1.0 - uv.y};
@@ -53,10 +53,10 @@ void writeVec3(ByteStream& bytes, Vec3 a)
     bytes.f32(a.x, a.y, a.z);
 }
 
-// Number of every welded vertex in order of first appearance, for each vertex of the surface.
+// Welded vertices, numbered in order of first appearance.
 struct Welded {
-    std::vector<std::uint32_t> first;   // vertex of the surface that stands for a welded one
-    std::vector<std::uint32_t> number;  // welded vertex for each vertex of the surface
+    std::vector<std::uint32_t> first;   // for each welded vertex, a vertex of the surface
+    std::vector<std::uint32_t> number;  // for each vertex of the surface, its welded vertex
 };
 
 Welded weldVertices(const Surface& surface)
@@ -74,7 +74,7 @@ Welded weldVertices(const Surface& surface)
     return welded;
 }
 
-// Half the area vector of a triangle's winding; zero, which readers replace by their own, where there is no area.
+// Unit normal by a triangle's winding; zero without an area, which readers replace.
 Vec3 facetNormal(Vec3 a, Vec3 b, Vec3 c)
 {
     const Vec3 normal = cross(b - a, c - a);
@@ -130,7 +130,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
 
 std::uint64_t writeMtl(Material material, std::ostream& out)
 {
-    // Of programs that know no refraction, liquid gets what light it lets pass by its opacity.
+    // Programs without refraction show the liquid's transparency by its opacity.
     constexpr double kOpacity = 0.35;
     constexpr double kGloss = 1000.0;
     const Look look = lookOf(material);
@@ -159,7 +159,7 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
     const Welded welded = weldVertices(surface);
     if (welded.first.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw Error(ErrorCode::InvalidArgument,
-                    "surface has " + std::to_string(welded.first.size()) + " places; PLY indices reach 2147483647");
+                    "surface has " + std::to_string(welded.first.size()) + " vertices; PLY allows at most 2147483647");
     }
     ByteStream bytes(out);
     bytes.text("ply\nformat binary_little_endian 1.0\ncomment " + signature() +
@@ -192,13 +192,13 @@ std::uint64_t writeStl(const Surface& surface, std::ostream& out, LengthUnit uni
     validateUnlessDry(surface);
     if (surface.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
-                                                    " triangles; STL counts up to 4294967295");
+                                                    " triangles; STL allows at most 4294967295");
     }
     ByteStream bytes(out);
     const NamedUnit& named = namedUnit(unit);
     const auto scaled = [&](std::uint32_t vertex) { return (1.0 / named.metres) * surface.positions[vertex]; };
     std::string header =
-        signature() + ", " + std::string(named.name) + "s, z up";  // must not begin with "solid", the mark of text
+        signature() + ", " + std::string(named.name) + "s, z up";  // must not begin with "solid", which marks text
     header.resize(kStlHeaderBytes, ' ');
     bytes.text(header);
     bytes.u32(surface.triangles.size());

@@ -40,14 +40,14 @@ constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
     {Format::Stl, "stl"},
 }};
 
-constexpr int kMaxLinks = 40;          // as many as Linux itself follows
-constexpr int kMaxLeftovers = 10'000;  // temporary names tried; only processes killed mid-way leave one behind
-constexpr mode_t kNewFile = 0666;      // less the umask
-constexpr mode_t kPermissions = 0777;  // what is kept of a replaced file's mode: no set-id bits
+constexpr int kMaxLinks = 40;          // Linux's own limit
+constexpr int kMaxLeftovers = 10'000;  // maximum number of temporary names tried; killed processes leave files behind
+constexpr mode_t kNewFile = 0666;      // before the umask
+constexpr mode_t kPermissions = 0777;  // mode bits kept from a replaced file: no set-id bits
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 
-// As often the file system is asked to begin with what it has, while more is made: of a file of 28 MB the wait for the
-// disk at the end then takes 4 ms, not 11. A wish only; pipes and devices refuse it, at no loss.
+// After this many bytes the file system is asked to begin writing to the disk. For a file of 28 MB the wait at the end
+// falls from 11 ms to 4 ms. It is only a hint; pipes and devices refuse it without harm.
 constexpr std::uint64_t kWriteBack = std::uint64_t{1} << 22;
 
 constexpr const char* kMustNotBeReplaced = "exists and must not be replaced";
@@ -90,7 +90,7 @@ public:
     [[nodiscard]] int number() const { return number_; }
     [[nodiscard]] bool valid() const { return number_ >= 0; }
 
-    /// Error number, or 0. An interrupted close has closed, on Linux.
+    /// Closes the descriptor; returns the error number, or 0. On Linux an interrupted close has closed.
     int close()
     {
         const int number = std::exchange(number_, -1);
@@ -101,7 +101,7 @@ private:
     int number_;
 };
 
-// Writes to a descriptor and remembers why it could not; std::filebuf would forget.
+// Stream buffer on a descriptor that remembers the error number; std::filebuf does not.
 class DescriptorBuffer : public std::streambuf {
 public:
     explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { setp(buffer_.begin(), buffer_.end()); }
@@ -149,7 +149,7 @@ private:
                     ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
                 }
             } else if (errno == EAGAIN) {
-                pollfd wait{descriptor_, POLLOUT, 0};  // a pipe some other process made non-blocking
+                pollfd wait{descriptor_, POLLOUT, 0};  // another process made the pipe non-blocking
                 ::poll(&wait, 1, -1);
             } else if (errno != EINTR) {
                 error_ = errno;
@@ -174,17 +174,17 @@ std::uint64_t fill(const fs::path& path, const Descriptor& file, const std::func
         fail(path, textOf(buffer.error()));
     }
     if (!out) {
-        fail(path, "the stream failed before all was written");
+        fail(path, "the stream failed before all data was written");
     }
     return buffer.written();
 }
 
-// What stands where a path leads, links followed.
+// File at the end of a path, with links followed.
 struct Target {
     fs::path path;
-    std::optional<struct stat> status;   // none: nothing there yet
+    std::optional<struct stat> status;   // empty: no file yet
     std::optional<int> open_descriptor;  // the path is a name of this process's own descriptor, like /dev/stdout
-    bool behind_proc = false;            // reached through /proc/…/fd: an open file, to be written, not replaced
+    bool behind_proc = false;            // path through /proc/…/fd: an open file, which is written to, not replaced
 
     [[nodiscard]] bool replaceable() const { return !behind_proc && (!status || S_ISREG(status->st_mode)); }
     [[nodiscard]] fs::path folder() const { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
@@ -271,52 +271,52 @@ Target findWritable(const fs::path& path, const OutputOptions& options)
     return target;
 }
 
-/// Names of temporary files, where a handler of signals finds them: it reaches nothing but globals.
+/// Names of temporary files for the signal handler, which can use only globals.
 struct UnfinishedName {
     std::atomic<bool> taken{false};
-    std::atomic<bool> told{false};
+    std::atomic<bool> registered{false};
     std::array<char, 4096> path{};
 };
 static_assert(std::atomic<bool>::is_always_lock_free);
 std::array<UnfinishedName, 256> unfinished_names;
 std::atomic<bool> is_ending{false};
 
-/// Tells the handler of a name that is about to be made.
-/// @return none if there is no room
-UnfinishedName* tell(const fs::path& path)
+/// Registers the name of a temporary file for the signal handler, before the file is made.
+/// @return null if the list is full
+UnfinishedName* registerUnfinished(const fs::path& path)
 {
     const std::string& text = path.native();
-    UnfinishedName* told = nullptr;
+    UnfinishedName* registered = nullptr;
     for (UnfinishedName& name : unfinished_names) {
         if (text.size() < name.path.size() && !name.taken.exchange(true)) {
             *std::copy(text.begin(), text.end(), name.path.begin()) = '\0';
-            name.told = true;
-            told = &name;
+            name.registered = true;
+            registered = &name;
             break;
         }
     }
     while (is_ending) {
         ::pause();
     }
-    return told;
+    return registered;
 }
 
-void forget(UnfinishedName* told)
+void forget(UnfinishedName* registered)
 {
-    if (told != nullptr) {
-        told->told = false;
-        told->taken = false;
+    if (registered != nullptr) {
+        registered->registered = false;
+        registered->taken = false;
     }
 }
 
-// A file that becomes visible at its place only by commit(); until then it has no name if the file system allows that,
-// else a temporary one, removed at the end.
+// File that appears at its path only on commit(). Until then it has no name if the file system allows that, otherwise a
+// temporary name that the destructor removes.
 class Draft {
 public:
     explicit Draft(fs::path folder) : folder_(std::move(folder))
     {
         file_ = Descriptor(::open(folder_.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, kNewFile));
-        // Naming it later goes through /proc, which not every root folder has.
+        // commit() needs /proc to name the file; a chroot may have none.
         if (file_.valid() && ::access(procName().c_str(), F_OK) != 0) {
             file_.close();
         }
@@ -334,14 +334,14 @@ public:
         if (name_) {
             ::unlink(name_->c_str());
         }
-        forget(told_);
+        forget(registered_);
     }
 
     [[nodiscard]] int error() const { return error_; }
     [[nodiscard]] const Descriptor& file() const { return file_; }
 
-    // As far as we may: a file of another owner becomes ours, and where its group cannot be kept, what that group was
-    // allowed is not for ours.
+    // Permissions are kept as far as possible: a file of another owner becomes ours; if its group cannot be kept, the
+    // group's permissions are dropped.
     void takePermissions(const struct stat& replaced)
     {
         const int file = file_.number();
@@ -353,8 +353,8 @@ public:
         ::fchmod(file, mode);
     }
 
-    // On the disk before it has the name: else a power cut could leave the name with nothing behind it. Also the one
-    // place where errors of delayed writing are certain to show.
+    // The data must be on the disk before the file has its name; otherwise a power cut could leave an empty file. This
+    // is also the only place where all errors of delayed writing appear.
     int sync() const { return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno; }
 
     int commit(const fs::path& place, bool no_clobber)
@@ -390,7 +390,7 @@ private:
         return ::linkat(AT_FDCWD, procName().c_str(), AT_FDCWD, place, AT_SYMLINK_FOLLOW) == 0;
     }
 
-    // Not every file system knows RENAME_NOREPLACE, and not every one knows links.
+    // Some file systems lack RENAME_NOREPLACE, others lack links.
     int moveToFree(const fs::path& place)
     {
         if (::renameat2(AT_FDCWD, name_->c_str(), AT_FDCWD, place.c_str(), RENAME_NOREPLACE) == 0) {
@@ -403,20 +403,20 @@ private:
         return errorOf(::link(name_->c_str(), place.c_str()) == 0);
     }
 
-    // Tries names until `create` makes a file of one that was free.
+    // Tries names until `create` makes a file with a free name.
     template <class Create>
     int takeName(const Create& create)
     {
         for (int i = 0; i < kMaxLeftovers; ++i) {
             const fs::path name =
                 folder_ / (".droplet-shape-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp");
-            told_ = tell(name);
+            registered_ = registerUnfinished(name);
             if (create(name.c_str())) {
                 name_ = name;
                 return 0;
             }
             const int error = errno;
-            forget(std::exchange(told_, nullptr));
+            forget(std::exchange(registered_, nullptr));
             if (error != EEXIST) {
                 return error;
             }
@@ -427,7 +427,7 @@ private:
     fs::path folder_;
     Descriptor file_;
     std::optional<fs::path> name_;
-    UnfinishedName* told_ = nullptr;
+    UnfinishedName* registered_ = nullptr;
     int error_ = 0;
 };
 
@@ -530,10 +530,10 @@ std::uint64_t writeWhole(const fs::path& path, const std::function<void(std::ost
 void removeUnfinished() noexcept
 {
     is_ending = true;
-    // Twice: a thread may be about to make a file whose name it has told.
+    // The second pass catches a file that another thread was about to make when its name was registered.
     for (int k = 0; k < 2; ++k) {
         for (const UnfinishedName& name : unfinished_names) {
-            if (name.told) {
+            if (name.registered) {
                 ::unlink(name.path.data());
             }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WHATWG, "HTML Living Standard", sections 13.1.2 (what ends raw text and title elements) and 4.12.1.3 (script
+// WHATWG, "HTML Living Standard", sections 13.1.2 (the end of raw text and title elements) and 4.12.1.3 (script
 // elements that hold data); RFC 4648, section 4 (base64).
 #include "droplet/io/page.h"
 
@@ -19,10 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Browsers hold the base64 of it in one string; theirs end at some 512 MiB.
+// Browsers hold its base64 in one string; strings are limited to about 512 MiB.
 constexpr std::size_t kLargestModel = std::size_t{256} << 20;
 
-// What differs from run to run of the same job.
+// Report keys that differ between runs of the same job.
 constexpr std::array kNotOfTheDroplet = {"time_s", "peak_memory_bytes"};
 
 [[noreturn]] void refuse(const std::string& what)
@@ -58,7 +58,7 @@ std::string dump(const Json& json)
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// JSON as it may stand in a script element. The characters can only be in strings, where escapes mean the same.
+/// Escapes JSON for a script element. The escaped characters occur only in strings, where escapes mean the same.
 std::string forScript(const std::string& json)
 {
     std::string safe;
@@ -80,7 +80,7 @@ std::string forScript(const std::string& json)
     return safe;
 }
 
-/// Text as it may stand in a title element; control characters mean nothing there, and a NUL is an error.
+/// Escapes text for a title element; control characters, which have no meaning there, are dropped.
 std::string forTitle(const std::string& text)
 {
     std::string safe;
@@ -119,13 +119,13 @@ bool pageIsBuiltIn() noexcept
 std::uint64_t writePage(std::ostream& out, const PageContent& content)
 {
     if (!pageIsBuiltIn()) {
-        refuse("this library was built without it (DROPLET_PAGE=OFF)");
+        refuse("this library was built without the page (DROPLET_PAGE=OFF)");
     }
     check(content.glb);
     Json data;
     data["title"] = content.title;
     data["report"] = parsed(content.report);
-    // Through JSON, for there what is not UTF-8 is replaced.
+    // JSON replaces bytes that are not UTF-8.
     const std::string title = Json::parse(dump(content.title)).get<std::string>();
 
     ByteStream page(out);

@@ -6,7 +6,7 @@
 
 namespace droplet {
 
-/// The page around what each droplet puts into it: title, content and model come between these. Made at build time.
+/// Parts of the page; title, content and model of a droplet come between them. Made at build time.
 extern const std::array<std::string_view, 4> kPageParts;
 
 }  // namespace droplet

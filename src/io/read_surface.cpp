@@ -2,11 +2,11 @@
 // Wavefront, "Object Files (.obj)", Advanced Visualizer Manual, appendix B1; G. Turk, "The PLY Polygon File Format"
 // (1994); 3D Systems, "StereoLithography Interface Specification" (1989).
 //
-// CGAL reads STL. OBJ and PLY are read here, for what is lost or let through elsewhere: CGAL (5.5) drops the normals of
-// both, and with them crisp rims and, of PLY, contact angles; it takes an OBJ's index one too large, and spends 4 GB on
-// a PLY of 200 bytes that claims a face of 10⁹ corners. OpenMesh (9.0) takes files of all three kinds that are cut
-// short, leaves out broken vertices, so that later ones have their numbers, drops triangles that its half-edges cannot
-// hold, opens material files that an OBJ names, and prints.
+// CGAL reads STL. OBJ and PLY are read here, because other readers lose data or accept damaged files. CGAL (5.5) drops
+// the normals of both, hence crisp rims, and the contact angles of PLY; it accepts an OBJ index that is one too large,
+// and allocates 4 GB for a PLY of 200 bytes that claims a face of 10⁹ corners. OpenMesh (9.0) accepts truncated files
+// of all three formats, skips broken vertices and so renumbers later ones, drops triangles that its half-edges cannot
+// represent, opens material files that an OBJ names, and prints.
 #include "droplet/io/read_surface.h"
 
 #include <CGAL/IO/STL.h>
@@ -40,7 +40,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // as of glTF
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // same limit as glTF
 constexpr std::size_t kMaxBytes = std::size_t{1} << 34;
 
 // ------------------------------------------------------------------------------------------------------- text
@@ -75,7 +75,7 @@ std::optional<long long> wholeNumber(std::string_view word)
     return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
 }
 
-/// The lines of a text, counted.
+/// Lines of a text, with their numbers.
 class Lines {
 public:
     explicit Lines(std::string_view text) : rest_(text) {}
@@ -101,13 +101,13 @@ private:
 
 // -------------------------------------------------------------------------------------------------------- all
 
-/// What a file holds, in its own frame; normals and contact angles are missing or as many as positions.
+/// Content of a file in its own axes and unit. Normals and contact angles are empty or one per position.
 struct Content {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<float> contact_angles;  ///< [rad]
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> weld;  ///< of a Surface, where it is known
+    std::vector<std::uint32_t> weld;  ///< as in Surface; empty if unknown
 
     void addTriangle(std::uint64_t a, std::uint64_t b, std::uint64_t c)
     {
@@ -127,7 +127,7 @@ struct Content {
 
 // -------------------------------------------------------------------------------------------------------- OBJ
 
-/// Vertices are pairs of position and normal, as faces name them.
+/// Reader of OBJ. Every distinct pair of position and normal in a face becomes a vertex.
 class ObjReader {
 public:
     Content read(std::string_view text)
@@ -155,17 +155,17 @@ private:
         std::size_t count = 0;
         for (std::string_view word = nextWord(line); !word.empty() && !word.starts_with('#'); word = nextWord(line)) {
             if (count == 3) {
-                throw Damage(where + " has a face of more than three corners; only triangles are read");
+                throw Damage(where + " has a face with more than three corners; only triangles are supported");
             }
             corners[count++] = cornerOf(word, where);
         }
         if (count < 3) {
-            throw Damage(where + " has a face of less than three corners");
+            throw Damage(where + " has a face with fewer than three corners");
         }
         content_.addTriangle(corners[0], corners[1], corners[2]);
     }
 
-    /// Of `place`, `place/texture`, `place//normal` or `place/texture/normal`.
+    /// Parses `place`, `place/texture`, `place//normal` or `place/texture/normal`.
     std::uint32_t cornerOf(std::string_view word, const std::string& where)
     {
         const std::size_t first = std::min(word.find('/'), word.size());
@@ -184,7 +184,7 @@ private:
         return found->second;
     }
 
-    /// From 1 on, or from −1 back.
+    /// Resolves an index: 1 is the first, −1 the last.
     static std::uint32_t indexOf(std::string_view word, std::size_t count, const std::string& where)
     {
         const std::optional<long long> value = wholeNumber(word);
@@ -229,7 +229,7 @@ Scalar scalarNamed(std::string_view name)
             return scalar;
         }
     }
-    throw Damage("its header names no type: " + std::string(name.substr(0, 40)));
+    throw Damage("its header has an unknown type: " + std::string(name.substr(0, 40)));
 }
 
 template <typename T>
@@ -241,7 +241,7 @@ double littleEndian(std::string_view bytes)
     return static_cast<double>(value);
 }
 
-/// Numbers one by one, from words or bytes.
+/// Reader of single numbers from text or binary data.
 class PlyNumbers {
 public:
     PlyNumbers(std::string_view rest, bool text) : rest_(rest), text_(text) {}
@@ -289,7 +289,7 @@ public:
     {
         const double value = next(scalar);
         if (!(value >= 0.0 && value < 4294967296.0 && std::floor(value) == value)) {
-            throw Damage("it has a count or index that is none");
+            throw Damage("it has a count or index that is not valid");
         }
         return static_cast<std::uint64_t>(value);
     }
@@ -302,7 +302,7 @@ private:
 struct PlyProperty {
     std::string name;
     Scalar scalar = Scalar::F32;
-    std::optional<Scalar> count = {};  ///< of a list
+    std::optional<Scalar> count = {};  ///< type of a list's count; empty: not a list
 };
 
 struct PlyElement {
@@ -314,7 +314,7 @@ struct PlyElement {
 void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, Content& content)
 {
     if (!content.positions.empty()) {
-        throw Damage("it has two elements of vertices");
+        throw Damage("it has two vertex elements");
     }
     const auto has = [&](const char* name) {
         return std::any_of(element.properties.begin(), element.properties.end(),
@@ -370,7 +370,7 @@ void readPlyFaces(const PlyElement& element, PlyNumbers& numbers, Content& conte
             if (property.name == "vertex_indices" || property.name == "vertex_index") {
                 if (corners != 3) {
                     throw Damage("face " + std::to_string(i) + " has " + std::to_string(corners) +
-                                 " corners; only triangles are read");
+                                 " corners; only triangles are supported");
                 }
                 const std::uint64_t a = numbers.nextWhole(property.scalar);
                 const std::uint64_t b = numbers.nextWhole(property.scalar);
@@ -410,7 +410,7 @@ Content readPly(std::string_view text)
             elements.push_back(element);
         } else if (key == "property") {
             if (elements.empty()) {
-                throw Damage(lines.where() + " has a property of no element");
+                throw Damage(lines.where() + " has a property before any element");
             }
             PlyProperty property;
             std::string_view type = nextWord(line);
@@ -428,7 +428,7 @@ Content readPly(std::string_view text)
         throw Damage("its header is cut short");
     }
     if (format != "ascii" && format != "binary_little_endian") {
-        throw Damage("its format is \"" + format.substr(0, 40) + "\"; ascii and binary_little_endian are read");
+        throw Damage("its format is \"" + format.substr(0, 40) + "\"; supported are ascii and binary_little_endian");
     }
     PlyNumbers numbers(lines.rest(), format == "ascii");
     Content content;
@@ -456,8 +456,8 @@ Content readPly(std::string_view text)
 
 // -------------------------------------------------------------------------------------------------------- STL
 
-/// Normals are the facets', whatever the file says of them. CGAL does not mind what follows the last facet, and takes a
-/// file that ends in the first for an empty one.
+/// Reads STL. Normals are computed from the facets; those in the file are ignored. The checks are needed, since CGAL
+/// ignores data after the last facet and treats a file that ends within the first as empty.
 Content readStl(std::string_view text)
 {
     constexpr std::size_t kHeader = 84;
@@ -470,14 +470,14 @@ Content readStl(std::string_view text)
         throw Damage("it is cut short");
     }
     if (!whole && !as_text) {
-        throw Damage("it has " + std::to_string(text.size()) + " bytes, not those of as many triangles as it says");
+        throw Damage("it has " + std::to_string(text.size()) + " bytes, which do not match its number of triangles");
     }
     std::istringstream in{std::string(text)};
     in.imbue(std::locale::classic());
     std::vector<CGAL::Simple_cartesian<double>::Point_3> places;
     std::vector<std::array<std::size_t, 3>> facets;
     if (!CGAL::IO::read_STL(in, places, facets)) {
-        throw Damage("its text is no STL");
+        throw Damage("its text is not STL");
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> first(places.size(), kNone);
@@ -536,7 +536,7 @@ Surface surfaceOf(Content content, double unit)
     return surface;
 }
 
-/// The unit that a file of ours states, in the comment it begins with; others' are taken to be in millimetres.
+/// Unit that this library states in a comment at the beginning of its files; millimetre for other files.
 double unitIn(std::string_view text)
 {
     constexpr std::size_t kComment = 160;
@@ -555,7 +555,8 @@ Surface readGltf(const std::filesystem::path& path, std::vector<std::string>& wa
 {
     SceneMesh scene = readScene(path);
     if (scene.moves) {
-        warnings.push_back(path.string() + " moves, by animation, skin or morph targets; it is taken at rest");
+        warnings.push_back(path.string() +
+                           " has animations, skins or morph targets; they are ignored, and the rest pose is read");
     }
     Content content;
     content.positions = std::move(scene.positions);
@@ -582,7 +583,7 @@ ReadSurface readSurface(const std::filesystem::path& path)
         }
         std::error_code none;
         if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
-            throw Damage("it is no regular file");
+            throw Damage("it is not a regular file");
         }
         const Bytes bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The names are the contract of the schema droplet-shape.report/1: keys may be added, none renamed or left out.
+// The keys are the contract of the schema droplet-shape.report/1: keys may be added, but not renamed or removed.
 #include "droplet/io/report.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ const char* nameOf(FillBy by)
         case FillBy::ContactAngle:
             return "contact_angle_deg";
     }
-    throw Error(ErrorCode::InvalidArgument, "report: fill.by is no way to fill");
+    throw Error(ErrorCode::InvalidArgument, "report: fill.by has an unknown value");
 }
 
 const char* nameOf(GroundKind kind)
@@ -57,7 +57,7 @@ const char* nameOf(GroundKind kind)
         case GroundKind::HeightMap:
             return "height map";
     }
-    throw Error(ErrorCode::InvalidArgument, "report: ground.kind is no kind of ground");
+    throw Error(ErrorCode::InvalidArgument, "report: ground.kind has an unknown value");
 }
 
 double degrees(double radians)
@@ -112,7 +112,7 @@ Json typeSection(const TypeReport& type)
             {"em_m", type.em}};
 }
 
-/// What there is of a picture alone is null of a font.
+/// Keys that describe a picture; all are null for a font.
 Json inputSection(const InputReport& input)
 {
     if (input.type) {
@@ -188,7 +188,7 @@ const char* nameOf(Model model)
         case Model::Exact:
             return "exact";
     }
-    throw Error(ErrorCode::InvalidArgument, "report: model is none");
+    throw Error(ErrorCode::InvalidArgument, "report: model has an unknown value");
 }
 
 Json fillSection(const Fill& fill, const std::optional<FillRange>& range)

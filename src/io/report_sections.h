@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reports have in common.
+// Sections that several reports have.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,16 +17,16 @@ ReportJson liquidSection(const SolveOptions& physics, const std::optional<Hyster
 ReportJson groundSection(const GroundReport& ground);
 ReportJson fillSection(const Fill& fill, const std::optional<FillRange>& range);
 
-/// What all droplets together and every one of them have in common.
+/// Figures of one droplet or of all droplets together.
 ReportJson shapeSection(const ShapeFigures& figures, const ReportJson& pressure,
                         const std::optional<Retention>& retention, bool would_slide);
 
-/// Footprint and shape.
+/// Row of one droplet: footprint and shape.
 ReportJson dropletRow(const DropletReport& droplet);
 
 /// Writes a report, indented.
 /// @throws Error NoSuchDroplet, naming the key, if a number is not finite: JSON has no NaN and no infinity; the library
-///               would write null, which a script would take for "not there"
+///               would write null, which scripts understand as "missing"
 void writeReportJson(std::ostream& out, const ReportJson& report);
 
 }  // namespace droplet

@@ -54,7 +54,7 @@ void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>
             towards(sums[place[v]]);
         }
         if (n == Vec3{}) {
-            n = {0.0, 1.0, 0.0};  // of no triangle with an area
+            n = {0.0, 1.0, 0.0};  // no triangle with an area
         }
     }
 }

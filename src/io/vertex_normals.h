@@ -9,13 +9,13 @@
 
 namespace droplet {
 
-/// The first of all vertices at the same place, for each vertex.
+/// For each vertex, the index of the first vertex at the same place.
 std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& positions);
 
-/// Brings normals to length 1; those of no length become those of the triangles around their place, weighted by their
-/// angles there, copies of a place counted as one.
+/// Normalises normals. A zero normal is replaced by the mean over the triangles around its place, weighted by their
+/// angles there; copies of a vertex share one mean.
 /// @param place    firstAtPlace(positions)
-/// @param normals  as many as positions
+/// @param normals  one per position
 void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
                  const std::vector<std::uint32_t>& place, std::vector<Vec3>& normals);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes one page out of the sources beside this file and three.js, as C++: node bundle.mjs SOURCES OUTPUT.cpp
-// Run where `npm ci` was.
+// Bundles the sources beside this file and three.js into one page, as C++: node bundle.mjs SOURCES OUTPUT.cpp
+// Run it in the folder of `npm ci`.
 import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -19,7 +19,7 @@ const bundle = await esbuild.build({
     minify: true,
     format: 'iife',
     charset: 'ascii',
-    legalComments: 'none',  // three's licence stands whole at the page's top
+    legalComments: 'none',  // the page's top has three's whole licence
     logLevel: 'warning',
     target,
     write: false,
@@ -29,11 +29,11 @@ const style = (await esbuild.transform(readFileSync(join(sources, 'page.css'), '
     .code.trim();
 for (const [name, text] of Object.entries({ script, style })) {
     if (/<\/(script|style)|<!--|[^\x09\x0a\x20-\x7e]/i.test(text)) {
-        throw new Error(`the page's ${name} holds what would end it in HTML, or is not ASCII`);
+        throw new Error(`the page's ${name} must be ASCII without HTML end tags or comments`);
     }
 }
 
-// Nothing runs but these very bytes, and nothing is asked of any network.
+// The policy allows only exactly these bytes to run, and no network requests.
 const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
 const policy = [
     "default-src 'none'",
@@ -50,7 +50,7 @@ const filled = {
     policy,
     three_licence: readFileSync(join(here, 'node_modules/three/LICENSE'), 'utf8').trim(),
 };
-// Every {{slot}} but those that each page fills for itself, in this order.
+// Fills every {{slot}} except those of the single page, which follow in this order.
 const slots = ['title', 'content', 'model'];
 const html = readFileSync(join(sources, 'page.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (slot, name) =>
     slots.includes(name) ? slot : filled[name] ?? (() => { throw new Error(`nothing for ${slot}`); })());
@@ -66,7 +66,7 @@ for (const slot of slots) {
 }
 parts.push(rest);
 
-// String literals, for compilers take far longer over lists of numbers.
+// Uses string literals, because compilers are far slower with lists of numbers.
 const literal = (text) => {
     const escaped = [...Buffer.from(text)].map((byte) =>
         byte === 0x0a ? '\\n'

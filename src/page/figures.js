@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report's numbers in units for people.
+// Formats the report's numbers in readable units.
 
 const kScales = {
     volume: [[1e-15, 'pL'], [1e-12, 'nL'], [1e-9, 'µL'], [1e-6, 'mL'], [1e-3, 'L'], [1, 'm³']],
@@ -10,7 +10,7 @@ const kScales = {
 };
 const kSpace = '\u00a0';
 
-/** Three significant digits without an exponent where that is short. */
+/** Three significant digits, without an exponent if that is short. */
 export function digits(value, count = 3) {
     if (value === 0) {
         return '0';
@@ -23,7 +23,7 @@ export function digits(value, count = 3) {
     return value.toFixed(places).replace('-', '−');
 }
 
-/** The largest unit in which the number is one or more; the smallest if there is none. */
+/** The largest unit in which the number is at least one, else the smallest unit. */
 function inUnit(kind, value) {
     const scales = kScales[kind];
     // 0.9995 would be printed as 1.00.
@@ -37,7 +37,7 @@ export function quantity(kind, value) {
 }
 
 export const volume = (value) => quantity('volume', value);
-/** Lengths stay in millimetres up to ten of these: so are droplets measured. */
+/** Lengths up to ten centimetres stay in millimetres, the usual unit for droplets. */
 export function length(value) {
     return Math.abs(value) >= 9.995e-3 && Math.abs(value) < 99.95e-3 ? digits(value / 1e-3) + kSpace + 'mm' :
         quantity('length', value);
@@ -47,13 +47,13 @@ const area = (value) => (Math.abs(value) >= 99.95e-6 && Math.abs(value) < 999.5e
 const degrees = (value) => digits(value, value >= 10 ? 2 : 1) + '°';
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** The picture's sides [m]; undefined where the report does not say, as of type. */
+/** The picture's sides [m]; undefined if the report has none, as for type. */
 export function extent(report) {
     const { width_px, height_px, pixel_size_m } = report.input ?? {};
     return width_px && height_px && pixel_size_m ? [width_px * pixel_size_m, height_px * pixel_size_m] : undefined;
 }
 
-/** Both in the unit of the longer. */
+/** Formats both lengths in the unit of the longer one. */
 export function sides([width, height]) {
     const [, unit] = length(Math.max(width, height)).split(kSpace);
     const [size] = kScales.length.find(([, name]) => name === unit);
@@ -68,9 +68,9 @@ function groundText(ground) {
 }
 
 /**
- * The report of the droplet at another fill, in times of its volume. What neither follows from the report nor is
- * measured on the mesh is null.
- * @param measured  of the mesh at that fill: height_m, area_m2, contact_angle_deg; null where it cannot be told
+ * The report of the droplet at another fill, in multiples of its volume. A value is null if it neither follows from
+ * the report nor is measured on the mesh.
+ * @param measured  of the mesh at that fill: height_m, area_m2, contact_angle_deg; null if unknown
  */
 export function refilled(report, fill, measured) {
     if (!report.shape || fill === 1) {
@@ -78,7 +78,7 @@ export function refilled(report, fill, measured) {
     }
     const { shape, liquid, ground } = report;
     const times = (value) => (value === null || value === undefined ? null : fill * value);
-    // Without a pull along the ground all of a droplet on flat ground is proportional to its volume.
+    // On flat ground without a pull along it, all values are proportional to the volume.
     const proportional = (ground?.kind ?? 'flat') === 'flat' && !liquid?.tilt_deg;
     const driving = times(shape.driving_force_n);
     return {
@@ -95,7 +95,7 @@ export function refilled(report, fill, measured) {
     };
 }
 
-/** Rows of the table: a name, and its value in words. What the report does not hold is not in it. */
+/** Rows of the table: name and formatted value. Values that the report lacks are left out. */
 export function rows(report) {
     const { input, shape, liquid, mesh, ground, model, onto } = report;
     const found = [];

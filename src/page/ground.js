@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the droplet stands on, and what is behind it: opaque, because only that is seen through the liquid.
+// Ground and backdrop. They are opaque, because only opaque objects are seen through the liquid.
 import { BackSide, CircleGeometry, Color, Group, LinearMipmapLinearFilter, Mesh, ShaderMaterial, SphereGeometry,
     SRGBColorSpace, Texture, Vector2 } from 'three';
 
@@ -13,7 +13,7 @@ const studio = {
 };
 const plain = (name, colour, far, mark) => ({ name, colour, far, mark, sky: 0.42, sun: 0.55, swatch: colour });
 
-/** What can be chosen, in the order it is shown in. */
+/** Grounds to choose from, in the order shown. */
 export const kGrounds = {
     paper,
     studio,
@@ -51,7 +51,7 @@ uniform vec2 picture_half;
 uniform float pictured;
 varying vec3 place;
 
-// 1 on lines of a grid, a pixel wide and more, 0 where the grid is finer than the pixels.
+// 1 on the lines of a grid, which are at least a pixel wide; 0 where the grid is finer than the pixels.
 float grid(vec2 at, float width) {
     vec2 pixel = fwidth(at);
     vec2 away = abs(fract(at - 0.5) - 0.5);
@@ -77,7 +77,7 @@ void main() {
     vec2 inside = step(abs(lamp), vec2(1.0));
     vec3 reached = vec3(1.0) + lit * inside.x * inside.y *
         texture2D(light, vec2(0.5, 0.5) + vec2(0.5, -0.5) * lamp).rgb;
-    // Of the sky's light some is missing, too, where the sun's is.
+    // In the sun's shadow, some of the sky's light is missing, too.
     vec3 shade = mix(vec3(1.0), clamp(reached, 0.0, 1.0), 0.3);
     float away = length(place.xz);
     float spot = mix(1.0, exp(-0.16 * away * away), pool);
@@ -103,7 +103,7 @@ export class Ground extends Group {
     /**
      * @param height       of the ground, in the scene's units
      * @param step         of the grid, in the scene's units
-     * @param picture_half half the sides of the mask, in the scene's units: a picture of its shape lies where it lay
+     * @param picture_half half the sides of the mask, in the scene's units; a picture of its shape gets its place
      */
     constructor({ height, step, light, picture_half }) {
         super();
@@ -138,12 +138,12 @@ export class Ground extends Group {
         return look;
     }
 
-    /** One of kGrounds, by its key. */
+    /** Selects a ground by its key in kGrounds. */
     choose(key) {
         return this.#wear(kGrounds[key]);
     }
 
-    /** A picture as a print under the droplet; one of the mask's shape lies where the mask lay, others around it. */
+    /** Puts a picture under the droplet: in the mask's place if it has the mask's shape, otherwise around it. */
     show(image, anisotropy) {
         const look = this.#wear(kPicture);
         const { uniforms, picture_half } = this;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light on the ground, through the liquid: the mesh itself is drawn where its rays land, after E. Wallace, "Rendering
-// realtime caustics in WebGL" (2016), brighter by as much as the area of a bundle of rays shrinks. Where these rays
-// would have gone without the liquid, the same light is missing. Several points of the window make the shadow soft.
+// Light on the ground, through the liquid, after E. Wallace, "Rendering realtime caustics in WebGL" (2016): the mesh is
+// drawn where its rays land, brighter by the ratio in which a bundle of rays shrinks. The same light is subtracted
+// where the rays would land without the liquid. Several points of the window make the shadow soft.
 import { AddEquation, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
     OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
 import { kAcross, kSun, kUpward } from './studio.js';
@@ -34,7 +34,7 @@ void main() {
     depth = lift / max(-ray.y, 0.05);
     facing = dot(normal, sun);
     vec2 landing = refracted ? bent : straight;
-    // Not the base.
+    // The base is skipped.
     gl_Position = normal.y < -0.5 ? vec4(2.0, 2.0, 2.0, 1.0) :
         projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0) + vec4(shift, 0.0, 0.0);
 }`;
@@ -69,12 +69,12 @@ void main() {
     gl_FragColor = vec4(share * bundle * (1.0 - mirrored) * through, 1.0);
 }`;
 
-/** Light that reaches the ground, as a texture over a square around the droplet: 1 where nothing is in its way, less 1. */
+/** Light on the ground, minus its value without the droplet, as a texture over a square around the droplet. */
 export class GroundLight {
     /**
      * @param box     around the droplet at its fullest, in the scene's units
      * @param ground  height of the ground
-     * @param look    ior; tint, and the depth at which it is so [scene], none for the same tint at every depth; or opaque
+     * @param look    ior; tint and its depth [scene] (no depth: the same tint everywhere); or opaque
      */
     constructor(box, ground, look, triangles) {
         this.look = look;
@@ -117,7 +117,7 @@ export class GroundLight {
         });
     }
 
-    /** Draws it anew, with the droplet as it is now; `coarse` from fewer points of the window. */
+    /** Draws the texture for the current droplet; `coarse`: from fewer points of the window. */
     update(renderer, object, meshes, coarse) {
         const { scene, material, camera, target, look } = this;
         const { sun, refracted, share, shift } = material.uniforms;
@@ -130,19 +130,19 @@ export class GroundLight {
         const auto = renderer.autoClear;
 
         scene.add(object);
-        // As the scene's override it would not do: three.js asks the mesh's own material whether it is transparent.
+        // scene.overrideMaterial does not work: three.js still asks the mesh's own material whether it is transparent.
         meshes.forEach((mesh) => { mesh.material = material; });
         renderer.setRenderTarget(target);
         renderer.setClearColor(0x000000, 0);
         renderer.clear();
         renderer.autoClear = false;
         for (let i = 0; i < count; ++i) {
-            // Points of a sunflower, evenly over a disc.
+            // Sunflower points are spread evenly over a disc.
             const radius = 0.075 * Math.sqrt((i + 0.5) / count);
             const angle = i * 2.399963;
             sun.value.copy(kSun).addScaledVector(kAcross, radius * Math.cos(angle))
                 .addScaledVector(kUpward, radius * Math.sin(angle)).normalize();
-            // Each by another part of a texel: their mean has smooth edges.
+            // Each pass is shifted by another part of a texel, so the mean has smooth edges.
             shift.value.set((0.754878 * i) % 1 - 0.5, (0.569840 * i) % 1 - 0.5).multiplyScalar(3 / kTexels);
             for (const bends of look.opaque ? [false] : [false, true]) {
                 refracted.value = bends;

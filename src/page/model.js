@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The droplet out of the page: its bytes, its mesh, and how full it is.
+// The droplet in the page: its bytes, its mesh and its fill.
 import { AnimationMixer, Box3, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
@@ -20,7 +20,7 @@ export async function loadDroplet(bytes) {
     return new Droplet(gltf.scene, gltf.animations[0]);
 }
 
-/** The triangles of the liquid's surface, which look up, and the edges that only one of them has: its rim. */
+/** Triangles of the liquid's surface, which face up, and its rim: the edges of only one such triangle. */
 function sheetOf({ index, attributes: { position } }, place) {
     const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
     const triangles = [];
@@ -49,11 +49,11 @@ class Droplet {
         this.scene = scene;
         this.meshes = [];
         if (clip) {
-            scene.traverse((object) => object.isMesh && object.scale.setScalar(1));  // as each is when it is shown
+            scene.traverse((object) => object.isMesh && object.scale.setScalar(1));  // hidden meshes have scale 0
         }
         scene.updateMatrixWorld(true);
         scene.traverse((object) => object.isMesh && this.meshes.push(object));
-        this.places = this.meshes.map((mesh) => mesh.matrixWorld.clone());  // in the file's metres, however it is shown
+        this.places = this.meshes.map((mesh) => mesh.matrixWorld.clone());  // in the file's metres
         this.range = this.#fillRange();
         if (clip) {
             this.duration = clip.duration;
@@ -63,15 +63,15 @@ class Droplet {
         }
     }
 
-    /** [s], from 0 to the duration of an animation. */
+    /** Sets the time of an animation [s], from 0 to its duration. */
     set time(seconds) {
-        this.mixer.setTime(Math.min(seconds, 0.9999 * this.duration));  // at its end it would begin again
+        this.mixer.setTime(Math.min(seconds, 0.9999 * this.duration));  // at the end it would restart
         for (const mesh of this.meshes) {
             mesh.visible = mesh.scale.x > 0;
         }
     }
 
-    /** How empty and how full it can be, in times of its volume; undefined when it cannot change. */
+    /** Minimum and maximum fill, in multiples of the volume; undefined if the fill cannot change. */
     #fillRange() {
         const target = (mesh) => mesh.morphTargetDictionary?.volume;
         if (!this.meshes.length || !this.meshes.every((mesh) => target(mesh) !== undefined)) {
@@ -88,13 +88,12 @@ class Droplet {
             if (this.range) {
                 mesh.morphTargetInfluences[mesh.morphTargetDictionary.volume] = amount - 1;
             }
-            mesh.visible = amount > 0.002;  // of nothing there is nothing to reflect in
+            mesh.visible = amount > 0.002;  // an empty droplet is not drawn
         }
     }
 
     /**
-     * What the mesh is at that fill: the liquid's area [m²], and along its rim the angles to flat ground [°]. On
-     * curved ground there are no angles.
+     * Measures the mesh at a fill: the liquid's area [m²] and, on flat ground, contact angles along the rim [°].
      */
     measure(fill, flat) {
         let area = 0;
@@ -121,7 +120,7 @@ class Droplet {
                 const length = along.length();
                 const ends = [edges[i], edges[i + 1]].map((vertex) => {
                     const { x, y, z } = at('normal', vertex, c);
-                    // The liquid lies left of the edge, and its surface looks out unless it sinks into the ground.
+                    // The liquid lies left of the edge; its normal points outward unless it sinks into the ground.
                     return Math.sign(z * along.x - x * along.z) * Math.atan2(Math.hypot(x, z), y);
                 });
                 weighted += length * (ends[0] + ends[1]) / 2;
@@ -137,8 +136,7 @@ class Droplet {
         };
     }
 
-    /** The box around it at any of these fills [m]. */
-    /** The box around it at any of these fills, and at all times [m]. */
+    /** Box around the droplet at all of these fills and at all times [m]. */
     box(fills) {
         const box = new Box3();
         const point = new Vector3();

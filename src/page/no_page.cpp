@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In place of the page, in libraries built without it.
+// Replaces the page in libraries built without it.
 #include "io/page_parts.h"
 
 namespace droplet {

@@ -11,7 +11,7 @@ const root = document.documentElement;
 const { title, report } = JSON.parse(find('content').textContent);
 const bytes = decodeBase64(find('model').textContent.trim());
 
-/** The droplet as the report has it, or at another fill. */
+/** Shows the figures of the report, or those at another fill. */
 function showFigures(shown = report) {
     find('subtitle').textContent = [shown.liquid?.name, shown.shape && volume(shown.shape.volume_m3),
         extent(shown) && sides(extent(shown))].filter(Boolean).join(' · ');
@@ -88,7 +88,7 @@ function offerFilm(stage, droplet, still) {
     const slider = find('time');
     const rate = report.output?.frames_per_second ?? 24;
     const frames = report.frames ?? [];
-    let last;  // when a frame was shown while it plays [ms]
+    let last;  // time of the last frame while playing [ms]
     let time = 0;
     slider.max = droplet.duration;
     const show = (seconds) => {
@@ -202,7 +202,7 @@ function complain(text) {
     find('trouble').hidden = false;
 }
 
-/** A bar of 1, 2 or 5 times a power of ten, as long as such a one fits into a fifth of the view. */
+/** Scale bar: the longest of 1, 2 or 5 times a power of ten that fits into a fifth of the view. */
 function drawScale(stage) {
     const scale = find('scale');
     const metres = roundLength(stage.metresPerPixel * Math.min(180, 0.3 * stage.canvas.clientWidth));
@@ -221,10 +221,10 @@ async function main() {
         const stage = new Stage({
             canvas: find('view'), droplet, flat, extent: report.onto ? undefined : extent(report),
             still,
-            drawn: (rests) => {
+            drawn: (is_last) => {
                 drawScale(stage);
                 root.dataset.frames = ++frames;
-                root.dataset.state = rests ? 'resting' : 'moving';
+                root.dataset.state = is_last ? 'resting' : 'moving';
             },
         });
         stage.controls.addEventListener('start', () => { stage.touched = true; });

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The scene, the camera and the hand on it. Frames are drawn when something changed, and only then.
+// Scene, camera and controls. A frame is drawn only if something changed.
 import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { GroundLight } from './light.js';
 import { putIntoRoom } from './studio.js';
 
-const kRatioLimit = 2;  // beyond, phones draw pixels that nobody sees
+const kRatioLimit = 2;  // more pixels would not be visible
 const kFieldOfView = 26;
 
-/** 1, 2 or 5 times a power of ten: the largest up to the number. */
+/** Largest number up to a given one that is 1, 2 or 5 times a power of ten. */
 export function roundLength(most) {
     const power = 10 ** Math.floor(Math.log10(most));
     return power * ([5, 2, 1].find((digit) => digit * power <= most * 1.000001) ?? 1);
@@ -18,11 +18,11 @@ export function roundLength(most) {
 export class Stage {
     /**
      * @param canvas   to draw on
-     * @param droplet  of model.js
-     * @param flat     whether the ground is, at height 0
+     * @param droplet  from model.js
+     * @param flat     whether the ground is flat, at height 0
      * @param extent   the mask's sides [m], or undefined
-     * @param still    no motion but by hand
-     * @param drawn    called after every frame, and told whether it was the last for now
+     * @param still    no motion except by the user
+     * @param drawn    called after every frame; its argument says whether the scene is at rest
      */
     constructor({ canvas, droplet, flat, extent, still, drawn }) {
         this.canvas = canvas;
@@ -96,7 +96,7 @@ export class Stage {
             known.add(material);
             this.thickness ??= material.thickness;
             if (Number.isFinite(material.attenuationDistance)) {
-                material.attenuationDistance *= this.scale;  // of the world, while thickness is the mesh's
+                material.attenuationDistance *= this.scale;  // in world units, while thickness is in the mesh's
             }
             putIntoRoom(material, this.room, flat && material.transmission > 0 && material.thickness > 0);
         }
@@ -121,13 +121,13 @@ export class Stage {
         this.#changed();
     }
 
-    /** Of an animation [s]. */
+    /** Sets the time of an animation [s]. */
     set time(seconds) {
         this.droplet.time = seconds;
         this.#changed();
     }
 
-    /** The droplet is another; its light is coarse while it goes on changing. */
+    /** Reports a change of the droplet; its light is coarse during further changes. */
     #changed() {
         this.light_is_old = true;
         clearTimeout(this.refining);
@@ -140,7 +140,7 @@ export class Stage {
         this.request();
     }
 
-    /** The ground, and the room's light that suits it. */
+    /** Selects the ground and the room light for it. */
     wear(choose) {
         const look = choose(this.ground);
         this.room.walls.value = look.walls ?? 1;
@@ -152,7 +152,7 @@ export class Stage {
         return this.droplet.box([fill]).max.y;
     }
 
-    /** What covers the canvas at its right [CSS px]; the droplet is shown in the middle of the rest. */
+    /** Sets the covered width at the canvas's right [CSS px]; the droplet is centred in the rest. */
     set covered(width) {
         this.cover = width;
         this.resize();
@@ -176,7 +176,7 @@ export class Stage {
         this.request();
     }
 
-    /** Lets the controls do that at once, and ends what still moves. */
+    /** Lets the controls act at once, without inertia. */
     #atOnce(act) {
         const { controls } = this;
         const damping = controls.enableDamping;
@@ -188,7 +188,7 @@ export class Stage {
         this.request();
     }
 
-    /** Shows the droplet whole, from in front and above. */
+    /** Shows the whole droplet from the front and above. */
     frame() {
         const { camera } = this;
         const free = this.canvas.clientWidth - (this.cover ?? 0);
@@ -204,7 +204,7 @@ export class Stage {
         const corners = [box.min.x, box.max.x].flatMap((x) => [this.level, box.max.y].flatMap((y) =>
             [box.min.z, box.max.z].map((z) => new Vector3(x, y, z))));
         let distance = 0;
-        // As near as all fits, then to the middle of what is seen; perspective puts it elsewhere than the box's.
+        // The camera moves as near as possible, then centres the visible part, which perspective shifts off the box.
         for (let pass = 0; pass < 4; ++pass) {
             const seen = corners.map((corner) => corner.clone().sub(target))
                 .map((way) => ({ x: way.dot(right), y: way.dot(up), nearer: -way.dot(forward) }));
@@ -266,7 +266,7 @@ export class Stage {
 
     #draw() {
         this.frame_id = undefined;
-        this.controls.update();  // asks for another frame while the hand's motion fades
+        this.controls.update();  // requests another frame while the motion fades
         if (this.light_is_old && this.ground_light) {
             this.ground_light.update(this.renderer, this.holder, this.droplet.meshes, this.light_is_coarse);
             this.light_is_old = false;

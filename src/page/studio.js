@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the liquid mirrors: a room of soft light with one tall window, as a formula. So it is sharp at every size and
-// ready at once; a texture would have to be made, which takes long where the processor draws.
+// The room that the liquid reflects: soft light and one tall window, as a formula. It is sharp at every size and ready
+// at once; drawing a texture first takes long without a graphics card.
 import { ShaderChunk, Vector3 } from 'three';
 
-/** Toward the window: behind, to the left, so that its rays fall toward the viewer through the liquid. */
+/** Direction of the window: behind on the left, so that its rays come through the liquid toward the viewer. */
 export const kSun = new Vector3(-0.6, 0.62, -0.5).normalize();
-/** The window's sides. */
+/** Axes of the window. */
 export const kAcross = new Vector3(0, 1, 0).cross(kSun).normalize();
 export const kUpward = new Vector3().copy(kSun).cross(kAcross);
 
@@ -15,7 +15,7 @@ const kRoom = `
 uniform float room_walls;
 uniform float room_lamps;
 
-// 1 inside of a rectangle, with edges as soft as that.
+// 1 inside a rectangle with soft edges.
 float pane(vec2 at, vec2 middle, vec2 half_size, float soft) {
     vec2 inside = smoothstep(half_size + soft, half_size - soft, abs(at - middle));
     return inside.x * inside.y;
@@ -62,15 +62,15 @@ const kRoomLight = `
 #endif
 `;
 
-// On flat ground the way of a ray through the liquid is known, at every pixel and every fill; the file's thickness is
-// a mean. Only the way's length is replaced.
+// On flat ground the path length of a ray through the liquid is known at every pixel and fill; the file's thickness is
+// only a mean. Only this length is replaced.
 const kRay = 'return normalize( refractionVector ) * thickness * modelScale;';
 const kRayToGround = 'return refractionVector * ( max( vWorldPosition.y, 0.0 ) / max( - refractionVector.y, 0.1 ) );';
 
 /**
  * Puts a material into the room.
- * @param light  {walls, lamps}: how bright, as uniforms
- * @param exact  whether its liquid reaches down to flat ground at height 0
+ * @param light  {walls, lamps}: brightness, as uniforms
+ * @param exact  whether the liquid stands on flat ground at height 0
  */
 export function putIntoRoom(material, light, exact) {
     material.onBeforeCompile = (shader) => {

@@ -9,7 +9,7 @@ namespace droplet {
 namespace {
 
 struct Place {
-    double azimuth;    // of the eye, counter-clockwise from +x [rad]
+    double azimuth;    // direction of the eye, counter-clockwise from +x [rad]
     double elevation;  // [rad]
 };
 
@@ -26,10 +26,10 @@ Place placeOf(View view)
     return {-79.0 * kDegree, 48.0 * kDegree};
 }
 
-constexpr float kHalfHeight = 0.20F;  // tangent of half the picture's angle upward: little distortion
-constexpr float kFilled = 0.86F;      // of the picture's width or height
+constexpr float kHalfHeight = 0.20F;  // tangent of half the vertical field of view; small for little distortion
+constexpr float kFilled = 0.86F;      // share of the picture's width or height that is filled
 
-// Around the vertical axis of all points: what is seen at one azimuth or another.
+// Bounding circles of all points about the vertical axis, for views at every azimuth.
 std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const CameraTurn& turn)
 {
     float radius = 0.0F;
@@ -61,7 +61,7 @@ CameraTurn turnedBack(double azimuth)
 Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside)
     : width_(static_cast<float>(options.width)), height_(static_cast<float>(options.height))
 {
-    // A narrow picture keeps the angle across.
+    // A narrow picture keeps the horizontal field of view.
     focal_ = std::max(0.5F * height_, 0.375F * width_) / kHalfHeight;
     const Place place =
         options.camera ? Place{options.camera->azimuth, options.camera->elevation} : placeOf(options.view);
@@ -79,7 +79,7 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
     Vec3f target;
     float distance = 12.0F;
     const float room = width_ - static_cast<float>(aside);
-    constexpr int kRounds = 12;  // each leaves a tenth of the error
+    constexpr int kRounds = 12;  // each round reduces the error to a tenth
     for (int round = 0; round < kRounds; ++round) {
         eye_ = target + distance * back_;
         double low_x = 1e30;
@@ -97,7 +97,7 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
         target = target + static_cast<float>(0.5 * (low_x + high_x - room)) * step * right_ -
                  static_cast<float>(0.5 * (low_y + high_y - height_)) * step * up_;
         const double filled = std::max((high_x - low_x) / room, (high_y - low_y) / height_);
-        // Never so near that a point comes to lie behind the eye.
+        // The camera stays so far away that no point is behind the eye.
         distance = std::max(distance * static_cast<float>(filled) / kFilled, 1.5F);
     }
     eye_ = target + distance * back_;

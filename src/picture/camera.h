@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// A turn about the vertical axis.
+/// Rotation about the vertical axis.
 struct CameraTurn {
     float cosine = 1.0F;
     float sine = 0.0F;
@@ -20,22 +20,22 @@ struct CameraTurn {
     }
 };
 
-/// The turn that keeps camera and lights beside a droplet that stays where it is while it is seen turned by an azimuth.
+/// Rotation of camera and lights that shows a fixed droplet as if it were turned by an azimuth.
 CameraTurn turnedBack(double azimuth);
 
-/// A camera with a long lens, framed so that the points fill the picture up to a margin.
+/// Camera with a long lens, placed so that given points fill the picture except for a margin.
 class Camera {
 public:
-    /// @param points   what to frame, not empty
+    /// @param points   points to frame, not empty
     /// @param options  size, view, azimuth
-    /// @param aside    width at the right that is kept free [px]
+    /// @param aside    width kept free at the right [px]
     Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside = 0);
 
-    /// The ray through a point of the picture [px], y down.
+    /// Ray through a point of the picture [px], y down.
     [[nodiscard]] RayF ray(float x, float y) const;
-    /// Where a point is seen [px].
+    /// Position of a point in the picture [px].
     [[nodiscard]] Vec2 seen(Vec3f point) const;
-    /// How wide a pixel is at distance 1.
+    /// Width of a pixel at distance 1.
     [[nodiscard]] float pixel() const { return 1.0F / focal_; }
 
 private:

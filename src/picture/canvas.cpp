@@ -14,7 +14,7 @@ int within(double value, int last)
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(last)));
 }
 
-/// Calls copy(level of the picture, level of the surface) for the three of every pixel.
+/// Calls copy(level of the picture, level of the surface) for the three channels of every pixel.
 template <typename Copy>
 void forEachLevel(Picture& picture, int left, int top, cairo_surface_t* surface, const Copy& copy)
 {

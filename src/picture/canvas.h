@@ -11,15 +11,15 @@
 
 namespace droplet {
 
-/// Cairo's images have no longer side [px].
+/// Maximum width and height of Cairo's images [px].
 inline constexpr int kLongestCanvas = 32767;
 
-/// Part of a picture for Cairo to draw on, in the picture's pixels, y down. What was drawn is in the picture when the
-/// canvas goes.
+/// Cairo canvas on a part of a picture, in the picture's pixels, y down. The destructor copies the drawing into the
+/// picture.
 class Canvas {
 public:
-    /// @param low   corner of the part; what lies beyond the picture is left out
-    /// @param high  corner opposite
+    /// @param low   corner of the part, which is clipped to the picture
+    /// @param high  opposite corner
     Canvas(Picture& picture, Vec2 low, Vec2 high);
     ~Canvas();
     Canvas(const Canvas&) = delete;
@@ -27,11 +27,11 @@ public:
 
     [[nodiscard]] cairo_t* cairo() const { return cairo_.get(); }
 
-    /// Lets the path begin anew at the first point and run through the others.
+    /// Begins a new path through points.
     void trace(const std::vector<Vec2>& points) const;
-    /// Fills the path and forgets it.
+    /// Fills the path and clears it.
     void fill(const Colour& colour, double opacity) const;
-    /// Draws the path, round at ends and bends, and forgets it. A line thinner than a pixel is a paler one.
+    /// Draws the path with round ends and bends and clears it. A line thinner than a pixel is drawn paler.
     /// @param width  in the units of the path
     void stroke(const Colour& colour, double width) const;
 

@@ -24,7 +24,7 @@ struct Grid {
     int tile_width = 0;
     int tile_height = 0;
     int gap = 0;
-    int caption = 0;  // height of a line of words, with its gap
+    int caption = 0;  // height of a caption, with its gap
 
     [[nodiscard]] int width() const { return columns * (tile_width + gap) + gap; }
     [[nodiscard]] int height() const { return rows * (tile_height + caption + gap) + gap; }
@@ -43,7 +43,7 @@ Grid gridOf(std::size_t tiles, const ContactSheetOptions& options)
         grid.caption = grid.tile_width < 64 ? 0 : std::max(12, grid.tile_width / 12);
         return grid;
     };
-    // More columns than these, and the sheet is wider than 4 : 3.
+    // With more columns the sheet would be wider than 4 : 3.
     int columns = 1;
     const int max = static_cast<int>(std::min<std::size_t>(tiles, 4096));
     while (!options.columns && columns < max &&
@@ -65,7 +65,7 @@ Grid gridOf(std::size_t tiles, const ContactSheetOptions& options)
     return grid;
 }
 
-/// A picture shrunk to a size by the means of what falls on every pixel, in linear light.
+/// Shrinks a picture: every new pixel is the mean of the area it covers, in linear light.
 Picture shrunk(const Picture& picture, int width, int height)
 {
     if (width == picture.width && height == picture.height) {

@@ -14,12 +14,12 @@
 namespace droplet {
 namespace {
 
-/// Of a font's size, what capitals of common sans-serif fonts are high.
+/// Height of capitals over font size in common sans-serif fonts.
 constexpr double kCapitals = 0.72;
 
 // --------------------------------------------------------------------------------------------------------- SVG
 
-/// A hundredth of a unit is finer than a screen shows.
+/// Formats a coordinate; a hundredth of a unit is finer than a screen shows.
 std::string number(double value)
 {
     return fmt::format("{}", std::round(100.0 * value) / 100.0 + 0.0);
@@ -160,7 +160,7 @@ Picture pictureOf(const Drawing& drawing, double scale)
     if (!(width >= 1.0 && height >= 1.0 && std::max(width, height) <= kLongestCanvas &&
           width * height <= static_cast<double>(kMaxPicturePixels))) {
         throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("a drawing of {} x {} pixels must have from 1 to {}, and up to {} a side",
+                    fmt::format("a drawing of {} x {} pixels must have 1 to {} pixels, at most {} a side",
                                 numberText(width), numberText(height), kMaxPicturePixels, kLongestCanvas));
     }
     Picture picture{static_cast<int>(width), static_cast<int>(height), {}};

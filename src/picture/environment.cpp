@@ -44,7 +44,7 @@ Environment readEnvironment(const std::filesystem::path& path, std::size_t max_p
                 environment = {floats->width, floats->height, std::move(floats->colour)};
                 for (std::array<float, 3>& pixel : environment.radiance) {
                     for (float& light : pixel) {
-                        light = std::max(light, 0.0F);  // what resampling leaves beside the sun
+                        light = std::max(light, 0.0F);  // resampling can undershoot beside the sun
                     }
                 }
             } else {

@@ -17,7 +17,7 @@ std::array<float, 256> linearLevels()
     return levels;
 }
 
-// Back and forth between 0 and 1.
+// Mirrors a coordinate repeatedly into 0 … 1.
 double folded(double a)
 {
     const double phase = std::abs(a - 2.0 * std::floor(0.5 * a));
@@ -93,7 +93,7 @@ Table::Table(float span, float area, Vec3f light) : span_(span), light_(light)
 
 Vec3f Table::at(Vec3f place, float width) const
 {
-    // Cool, warmer toward the key light.
+    // The table is cool, and warmer toward the key light.
     const float warm = smoothstep(-1.1F, 0.8F, dot(light_, place) / span_);
     const Vec3f base = mix({0.055F, 0.118F, 0.168F}, {0.150F, 0.272F, 0.325F}, warm);
     float ruling = 0.0F;

@@ -9,17 +9,17 @@
 
 namespace droplet {
 
-/// Linear light of an sRGB level 0 … 1, and back.
+/// Conversions between an sRGB level 0 … 1 and linear light.
 float toLinear(float level);
 float toDisplay(float light);
 
-/// A picture as paint on ground: linear, halved again and again for looking at it from afar.
+/// Picture on the ground: linear colours in a pyramid of halved sizes, for views from afar.
 class GroundPicture {
 public:
     explicit GroundPicture(const Picture& picture);
 
-    /// @param uv     (0,0) its top left, (1,1) its bottom right; beyond it is mirrored again and again
-    /// @param width  of what is looked at, in uv
+    /// @param uv     (0,0) is the top left, (1,1) the bottom right; beyond, the picture is mirrored repeatedly
+    /// @param width  width of the area to average, in uv
     [[nodiscard]] Vec3f at(Vec2 uv, double width) const;
 
 private:
@@ -32,16 +32,16 @@ private:
     std::vector<Level> levels_;
 };
 
-/// A table with a fine ruling, whose bends show refraction.
+/// Table with a fine ruling, which makes refraction visible.
 class Table {
 public:
-    /// @param span   larger side of what stands on it, around the origin
-    /// @param area   of the box around that
-    /// @param light  toward the key light, on the table
+    /// @param span   larger side of the box around the liquid, which is centred at the origin
+    /// @param area   area of that box
+    /// @param light  direction toward the key light, on the table
     Table(float span, float area, Vec3f light);
 
-    /// Share of red, green and blue light that it scatters.
-    /// @param width  of what is looked at
+    /// Share of red, green and blue light that the table scatters.
+    /// @param width  width of the area to average
     [[nodiscard]] Vec3f at(Vec3f place, float width) const;
 
 private:

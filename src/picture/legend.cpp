@@ -14,7 +14,7 @@
 namespace droplet {
 namespace {
 
-constexpr Vec3f kPlain = {0.62F, 0.62F, 0.60F};  // linear; where paint has no share
+constexpr Vec3f kPlain = {0.62F, 0.62F, 0.60F};  // linear; colour where the paint's share is 0
 
 Vec3 colourOf(const Paint& paint, double value)
 {
@@ -31,7 +31,7 @@ Vec3f linear(Vec3 colour)
     return {toLinear(c.x), toLinear(c.y), toLinear(c.z)};
 }
 
-// As few digits behind the point as a multiple of the step needs.
+// Formats a number with the fewest decimals that multiples of the step need.
 std::string number(double value, double step)
 {
     const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
@@ -39,19 +39,19 @@ std::string number(double value, double step)
     return fmt::format("{:.{}f}", std::round(value * scale) / scale + 0.0, digits);
 }
 
-constexpr double kBar = 1.6;   // width of the colours, in letters' size
-constexpr double kTick = 0.9;  // from there to the numbers
+constexpr double kBar = 1.6;   // width of the colour bar, in letter sizes
+constexpr double kTick = 0.9;  // from the bar to the numbers, in letter sizes
 
 double letterSize(int picture_height)
 {
     return std::max(7.0, 0.0135 * picture_height);
 }
 
-/// The numbers beside the colours.
+/// Numbers beside the colour bar.
 struct Legend {
     double step = 1.0;
     std::vector<double> ticks;
-    double inside = 0.0;  // width of all [px]
+    double inside = 0.0;  // total width [px]
 
     Legend(const Paint& paint, int picture_height)
     {
@@ -95,10 +95,10 @@ Vec3f paintAt(const Paint& paint, const Triangle& triangle, const PaintPoint& po
     const double here = value(paint.values);
     Vec3f colour = linear(colourOf(paint, here));
     if (paint.line_spacing && point.slope > 0.0) {
-        // As wide as said on the picture however steep the values are.
+        // Lines have the same width in the picture for every slope of the values.
         const double phase = here / *paint.line_spacing;
         const double apart = std::abs(phase - std::round(phase)) * *paint.line_spacing / point.slope;
-        const bool ends = here < 0.5 * *paint.line_spacing;  // the rim needs no line
+        const bool ends = here < 0.5 * *paint.line_spacing;  // value 0, at the rim, needs no line
         colour = (apart < 0.5 && !ends ? 0.45F : 1.0F) * colour;
     }
     if (paint.share.empty()) {

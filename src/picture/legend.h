@@ -8,20 +8,20 @@
 
 namespace droplet {
 
-/// A place in a triangle.
+/// Point in a triangle.
 struct PaintPoint {
     float u = 0.0F;      ///< weight of the second vertex
     float v = 0.0F;      ///< weight of the third vertex
-    double slope = 0.0;  ///< how much values change there along a line's width on the picture
+    double slope = 0.0;  ///< change of the values across a line's width in the picture
 };
 
-/// The colour of paint, linear, within a triangle.
+/// Linear colour of paint in a triangle.
 Vec3f paintAt(const Paint& paint, const Triangle& triangle, const PaintPoint& point);
 
-/// How much of a picture of that size a legend takes at its right edge; 0 in one smaller than 320 by 240 [px].
+/// Width of the legend at the right edge of a picture; 0 in pictures smaller than 320 by 240 [px].
 int legendWidth(const Paint& paint, int width, int height);
 
-/// Draws the colours with their numbers at the right edge, where there is room for them.
+/// Draws the legend, colours with numbers, at the right edge if the picture is large enough.
 void drawLegend(Picture& picture, const Paint& paint);
 
 }  // namespace droplet

@@ -14,8 +14,8 @@
 namespace droplet {
 namespace {
 
-/// A letter's strokes: points as two digits, x and y, on a grid where letters stand on y = 2 and capitals reach 8.
-/// Strokes with a tilde are quadratic B-splines between their ends, their inner points being the control points.
+/// Strokes of a letter. A point is two digits, x and y, on a grid with the baseline at y = 2 and capitals up to y = 8.
+/// Strokes with a tilde are quadratic B-splines between their ends; the inner points are control points.
 struct Letter {
     char32_t code;
     const char* strokes;
@@ -168,7 +168,7 @@ Shape shapeOf(char32_t code)
     return shape;
 }
 
-/// Lets the path go on along a quadratic B-spline.
+/// Continues the path along a quadratic B-spline.
 void curve(const Canvas& canvas, const std::vector<Vec2>& control)
 {
     Vec2 from = control.front();
@@ -182,7 +182,7 @@ void curve(const Canvas& canvas, const std::vector<Vec2>& control)
     }
 }
 
-/// The characters of UTF-8; of what is none, every byte.
+/// Splits UTF-8 into characters; bytes that are not UTF-8 count as one character each.
 std::u32string characters(std::string_view text)
 {
     try {
@@ -211,7 +211,7 @@ std::string fitted(std::string_view text, double size, double width)
     }
     std::string kept;
     while (kept.size() < text.size()) {
-        // No character of several bytes is cut.
+        // A character of several bytes is removed whole.
         std::size_t end = kept.size() + 1;
         while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) {
             ++end;

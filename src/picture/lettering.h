@@ -13,24 +13,23 @@ namespace droplet {
 
 class Canvas;
 
-// Letters are strokes of our own: a picture is the same whatever fonts are installed, or none.
+// Letters are built-in strokes, so pictures do not depend on installed fonts.
 
-/// How words are drawn.
+/// Style of text.
 struct Pen {
     double size = 12.0;                              ///< height of capitals [px]
-    double width = 1.6;                              ///< of strokes [px]
+    double width = 1.6;                              ///< width of strokes [px]
     std::array<std::uint8_t, 3> colour{30, 34, 40};  ///< sRGB
 };
 
-/// How long a line of text is [px]. UTF-8; what is neither printable ASCII nor one of ° µ ² · − – Δ
-/// counts, and shows, as `?`.
+/// Length of a line of UTF-8 text [px]. Characters other than printable ASCII and ° µ ² · − – Δ are shown as `?`.
 double textWidth(std::string_view text, double size);
 
-/// The text, or as much of it as fits into a width with an ellipsis [px].
+/// Shortens a text with an ellipsis, if needed, to a width [px].
 std::string fitted(std::string_view text, double size, double width);
 
-/// Draws a line of text; what lies beyond the picture is left out.
-/// @param at  left end of the line the letters stand on [px], y down
+/// Draws a line of text, clipped to the picture.
+/// @param at  left end of the baseline [px], y down
 void drawText(Picture& picture, std::string_view text, Vec2 at, const Pen& pen);
 void drawText(const Canvas& canvas, std::string_view text, Vec2 at, const Pen& pen);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light is followed from the lamps: J. Arvo, "Backward Ray Tracing" (1986). Rays lie on a regular grid, so that there
-// is no noise, and sums are of integers, so that their order does not matter.
+// Rays start at the lamps: J. Arvo, "Backward Ray Tracing" (1986). They form a regular grid, so there is no noise; sums
+// are integers, so their order does not matter.
 #include "picture/light_map.h"
 
 #include <tbb/parallel_for.h>
@@ -12,7 +12,8 @@
 namespace droplet {
 namespace {
 
-constexpr float kOne = static_cast<float>(1 << 24);  // of the sums: 1e-7 of a cell's light, and 2³⁹ times that fit
+constexpr float kOne =
+    static_cast<float>(1 << 24);  // value 1 in the sums: resolution 1e-7 of a cell's light, range 2³⁹ times 1
 
 class Gatherer {
 public:
@@ -21,7 +22,7 @@ public:
     {
     }
 
-    // A ray that would arrive at `place`.
+    // Follows a ray that would arrive at `place` without liquid.
     void send(Vec3f place, const Beam& beam)
     {
         const float reach = (scene_.high().z + 0.01F) / beam.toward.z;
@@ -34,7 +35,7 @@ public:
         bend(ray, meeting, beam.share);
     }
 
-    // What becomes of a ray that meets liquid.
+    // Follows a ray that meets liquid.
     void bend(const RayF& ray, const Meeting& meeting, float light)
     {
         if (medium_.clear) {
@@ -42,7 +43,7 @@ public:
         }
     }
 
-    // Where in the map a place on the ground is.
+    // Position in the map of a place on the ground.
     [[nodiscard]] Vec3f spot(const Meeting& meeting) const
     {
         return scene_.onPlane() ? meeting.place
@@ -87,18 +88,18 @@ public:
 
 private:
     static constexpr int kMaxMeetings = 6;
-    static constexpr float kMin = 1e-3F;  // of a ray's light that is still followed, times its share
+    static constexpr float kMin = 1e-3F;  // minimum light of a ray that is followed, times its share
 
     struct Way {
         Vec3f light;
-        float min;  // less is not followed
+        float min;  // a ray with less light is not followed
         bool inside;
         int meetings;
     };
 
     void follow(const RayF& ray, Way way)
     {
-        // Light that goes up again through the air is lost.
+        // Light that goes up into the air again is lost.
         if (way.meetings > kMaxMeetings || largest(way.light) < way.min ||
             (!way.inside && scene_.onPlane() && ray.direction.z >= 0.0F)) {
             return;
@@ -222,7 +223,7 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
     Gatherer gatherer(scene, medium, map);
     for (std::size_t b = 0; b < light.beams.size(); ++b) {
         const Beam& beam = light.beams[b];
-        // Rays that can meet the box around the liquid, slid along the beam onto the plane.
+        // The box around the liquid, projected along the beam onto the plane, holds all rays that can meet it.
         const Vec3f far = -(scene.high().z / beam.toward.z) * beam.toward;
         const Vec3f near = -(scene.low().z / beam.toward.z) * beam.toward;
         const auto cells_from = [&](float a, float from) {
@@ -232,7 +233,7 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
         const int last_column = cells_from(scene.high().x + std::max(far.x, near.x), map.low.x);
         const int first_row = cells_from(scene.low().y + std::min(far.y, near.y), map.low.y);
         const int last_row = cells_from(scene.high().y + std::max(far.y, near.y), map.low.y);
-        // Every beam's grid lies elsewhere within the cells, so that together they are denser than one.
+        // Every beam's grid has another offset within the cells, so that together they are denser than one.
         const float offset_x = std::fmod(0.5F + 0.7548777F * static_cast<float>(b), 1.0F);
         const float offset_y = std::fmod(0.5F + 0.5698403F * static_cast<float>(b), 1.0F);
         tbb::parallel_for(first_row, last_row + 1, [&](int row) {
@@ -254,7 +255,7 @@ LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vecto
 {
     constexpr int kCoarser = 4;
     constexpr float kGrain = 1.3F;    // [cells]
-    constexpr float kMargin = 0.08F;  // of the map, in which it turns into open light
+    constexpr float kMargin = 0.08F;  // share of the map in which it blends into open light
     LightMap sum;
     for (const Light& light : lights) {
         const LightMap gain = lightGain(scene, medium, light, light.soft ? cells / kCoarser : cells, kGrain);
@@ -291,7 +292,7 @@ LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vecto
 LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells)
 {
     constexpr float kGrain = 2.0F;         // [cells]
-    constexpr float kRaysForACell = 0.7F;  // along a side
+    constexpr float kRaysForACell = 0.7F;  // rays per cell along a side
     LightMap map;
     map.columns = map.rows = cells;
     map.cell = 1.0F / static_cast<float>(cells);
@@ -337,7 +338,7 @@ LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light&
         max = std::max(max, value.x);
     }
     for (std::size_t i = 0; i < map.values.size(); ++i) {
-        // Where light hardly falls its share is noise.
+        // Where little light falls the share is noise.
         const float there = dry.values[i].x + 0.02F * max;
         const Vec3f gain = grey(1.0F) + (1.0F / std::max(there, 1e-12F)) * map.values[i];
         map.values[i] = {std::clamp(gain.x, 0.0F, 4.0F), std::clamp(gain.y, 0.0F, 4.0F),

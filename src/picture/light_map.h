@@ -10,50 +10,49 @@
 
 namespace droplet {
 
-/// What liquid does to light, in a scene's units of length.
+/// Optical properties of the liquid, in a scene's units of length.
 struct Medium {
-    bool clear = true;  ///< light goes through; otherwise none does
+    bool clear = true;  ///< false: opaque
     float ior = 1.0F;
-    Vec3f absorption;  ///< per length
+    Vec3f absorption;  ///< coefficient, per length
 };
 
-/// Share of light left after a way through it (Beer and Lambert).
+/// Share of light left after a path through the liquid (Beer and Lambert).
 inline Vec3f passed(const Medium& medium, float distance)
 {
     const Vec3f depth = distance * medium.absorption;
     return largest(depth) <= 0.0F ? grey(1.0F) : Vec3f{std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)};
 }
 
-/// How much of a light reaches the plane around and below a droplet, 1 being as much as without it; or light itself.
+/// Map of light on the plane around and below a droplet: its share of the light without liquid, or the light itself.
 struct LightMap {
     int columns = 0;
     int rows = 0;
     float cell = 0.0F;
     Vec3f low;                        ///< corner of the first cell
     std::vector<Vec3f> values;        ///< row by row
-    Vec3f open = {1.0F, 1.0F, 1.0F};  ///< beyond the map, and reached within a margin of it
+    Vec3f open = {1.0F, 1.0F, 1.0F};  ///< value beyond the map; a margin of the map blends into it
 
-    /// Between the cells' centres linearly.
+    /// Value at a place, linear between the centres of cells.
     [[nodiscard]] Vec3f at(Vec3f place) const;
 };
 
-/// Sends a light's beams through the liquid onto the plane: of every ray on a regular grid what arrives there is added,
-/// and what would have arrived without liquid taken away.
+/// Sends a light's beams through the liquid onto the plane. For every ray of a regular grid, the light that arrives is
+/// added, and the light that would arrive without liquid is subtracted.
 ///
-/// Guarantees: the same result at any number of threads.
-/// @param scene   on the plane
-/// @param medium  the liquid
+/// Guarantees: the same result with any number of threads.
+/// @param scene   liquid on the plane
+/// @param medium  liquid
 /// @param light   beams
-/// @param cells   along the map's longer side; ≥ 8
-/// @param blur    standard deviation of a Gaussian that takes away the grain [cells]; 0 for none
+/// @param cells   number along the map's longer side; ≥ 8
+/// @param blur    standard deviation of a Gaussian that removes grain [cells]; 0 for none
 LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur);
 
-/// All the lights' irradiance on the plane, divided by π: soft lights on a coarse map, others on one as fine as
-/// `cells` says.
+/// Irradiance of all lights on the plane, divided by π: soft lights on a coarse map, others on a map of `cells` cells.
 LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells);
 
-/// How much of a light's direct share reaches a stand around and below droplets, by uv from (0,0) to (1,1): rays
-/// through the liquid against those that would have arrived without it.
+/// Share of a light's direct rays that reach a stand around and below droplets, over uv from (0,0) to (1,1): rays
+/// through the liquid divided by rays without it.
 LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells);
 
 }  // namespace droplet

@@ -9,7 +9,7 @@
 
 namespace droplet {
 
-/// Vectors of rays are floats, as Embree's are; also red, green and blue.
+/// Vector of floats, as in Embree; also red, green and blue.
 struct Vec3f {
     float x = 0.0F;
     float y = 0.0F;
@@ -72,17 +72,17 @@ inline Vec3f mirrored(Vec3f direction, Vec3f normal)
     return direction - 2.0F * dot(direction, normal) * normal;
 }
 
-/// A smooth normal that faces a ray: at a silhouette it may turn away by a little, and is bent back to grazing.
+/// Smooth normal that faces a ray. At a silhouette it may point slightly away; then it is bent to graze the ray.
 inline Vec3f facing(Vec3f direction, Vec3f normal)
 {
     const float away = dot(direction, normal) + 1e-3F;
     return away > 0.0F ? unit(normal - away * direction) : normal;
 }
 
-/// What becomes of a ray at a surface between two media.
+/// Split of a ray at a surface between two media.
 struct Interface {
     float reflected = 1.0F;  ///< share of unpolarised light
-    Vec3f transmitted;       ///< direction, where less than all is reflected
+    Vec3f transmitted;       ///< direction; valid if reflected < 1
 };
 
 /// @param direction  unit, toward the surface
@@ -101,7 +101,7 @@ inline Interface atInterface(Vec3f direction, Vec3f normal, float ratio)
     return {0.5F * (across * across + along * along), unit(ratio * direction + (ratio * cosine - far_cosine) * normal)};
 }
 
-/// Share of diffuse light that a surface of refractive index n ≥ 1 reflects, coming from the thinner side (S. Q.
+/// Share of diffuse light that a surface of refractive index n ≥ 1 reflects, from the optically thinner side (S. Q.
 /// Duntley, "The optical properties of diffusing materials", 1942).
 inline double diffuseReflectance(double n)
 {

@@ -19,7 +19,7 @@ namespace {
     throw Error(ErrorCode::InvalidArgument, "paint." + text);
 }
 
-// Of the field of the picture a length is seen in.
+// Diagonal of the surface's bounding box, about the picture's field of view.
 double diameter(const Surface& surface)
 {
     Vec3 low = surface.positions.front();
@@ -31,13 +31,13 @@ double diameter(const Surface& surface)
     return length(high - low);
 }
 
-/// A rim vertex's place and value.
+/// Position and value of a rim vertex.
 struct RimPoint {
     Vec3 place;
     double angle = 0.0;
 };
 
-/// Points in cells of a plane grid, to find the nearest one within a cell's width.
+/// Plane grid of points, to find the nearest one within a cell's width.
 class NearestPoint {
 public:
     NearestPoint(std::vector<RimPoint> points, double reach) : points_(std::move(points)), reach_(reach)
@@ -47,7 +47,7 @@ public:
         });
     }
 
-    /// The nearest point, and how far it is; none beyond the reach.
+    /// Nearest point and its distance; empty beyond the reach.
     [[nodiscard]] std::pair<const RimPoint*, double> to(Vec3 place) const
     {
         std::pair<const RimPoint*, double> nearest{nullptr, reach_};
@@ -80,7 +80,7 @@ private:
 
 ColourScale sequentialScale()
 {
-    // Lightness rises evenly (CIELAB L* 20, 35, 50, 65, 80, 92); hues chosen by eye.
+    // Lightness rises evenly (CIELAB L* 20, 35, 50, 65, 80, 92); hues are chosen by eye.
     return {{0.14, 0.17, 0.40}, {0.10, 0.33, 0.55}, {0.08, 0.50, 0.57},
             {0.25, 0.66, 0.47}, {0.62, 0.80, 0.36}, {0.97, 0.91, 0.55}};
 }
@@ -111,7 +111,7 @@ void Paint::validate(std::size_t vertices) const
     }
     for (const Vec3& c : scale) {
         if (!(std::min({c.x, c.y, c.z}) >= 0.0 && std::max({c.x, c.y, c.z}) <= 1.0)) {
-            refuse("scale must be of colours from 0 to 1");
+            refuse("scale must have colours from 0 to 1");
         }
     }
     if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
@@ -127,7 +127,7 @@ double roundStep(double span, double parts)
     const double rough = span / parts;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     for (const double step : {1.0, 2.0, 5.0}) {
-        // Between two steps their geometric mean decides.
+        // The limit between two steps is their geometric mean.
         if (rough < step * power * (step == 2.0 ? std::sqrt(2.5) : std::sqrt(2.0))) {
             return step * power;
         }
@@ -181,7 +181,7 @@ Paint contactAnglePaint(const Surface& surface)
         high = std::max(high, point.angle);
     }
     const double mean = sum / static_cast<double>(rim.size());
-    // The band is seen, and leaves the middle free.
+    // The band is wide enough to be seen and leaves the middle free.
     const double width = 0.022 * diameter(surface);
     const NearestPoint nearest(std::move(rim), 3.0 * width);
     Paint paint;
@@ -193,7 +193,7 @@ Paint contactAnglePaint(const Surface& surface)
     const double reach = std::max({high - mean, mean - low, 0.5 * kDegree});
     const double step = roundStep(reach / kDegree, 3.0) * kDegree;
     paint.scale = divergingScale();
-    // Round numbers at both ends and in the middle.
+    // The scale has round numbers at both ends and in the middle.
     const double middle = step * std::round(mean / step);
     const double half = step * std::ceil(std::max(high - middle, middle - low) / step - 1e-9);
     paint.low = middle - std::max(half, step);
@@ -207,7 +207,7 @@ Paint differencePaint(const Surface& surface, const Surface& other)
 {
     Paint paint;
     paint.values = signedDistances(surface, other);
-    constexpr double kMin = 1e-9;  // what a picture shows of surfaces that are the same
+    constexpr double kMin = 1e-9;  // range of the scale for identical surfaces
     double largest = kMin;
     for (const double value : paint.values) {
         largest = std::max(largest, std::abs(value));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An environment looked up by direction: x to its right, y to its middle, z up.
+// Look-up of an environment by direction: x toward its right, y toward its middle, z up.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace droplet {
 
-/// A place on an environment's picture, both from 0 to 1: longitude from its left edge, latitude from its top.
+/// Place in an environment's picture, from 0 to 1: longitude from the left edge, latitude from the top.
 struct PanoramaPlace {
     double across = 0.0;
     double down = 0.0;
 };
 
-/// Where a direction is seen.
+/// Place of a direction.
 /// @param direction  unit
 inline PanoramaPlace placeOnPanorama(Vec3f direction)
 {
@@ -27,7 +27,7 @@ inline PanoramaPlace placeOnPanorama(Vec3f direction)
             0.5 - std::asin(std::clamp(static_cast<double>(direction.z), -1.0, 1.0)) / kPi};
 }
 
-/// The direction of a place.
+/// Direction of a place.
 inline Vec3f directionOf(PanoramaPlace place)
 {
     constexpr double kPi = std::numbers::pi;
@@ -45,7 +45,7 @@ inline Vec3f radianceAt(const Environment& environment, int column, int row)
     return {x, y, z};
 }
 
-/// What comes from a direction, linear between pixels.
+/// Radiance from a direction, linear between pixels.
 /// @param direction  unit
 inline Vec3f radianceFrom(const Environment& environment, Vec3f direction)
 {

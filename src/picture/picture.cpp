@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Portable Network Graphics, through libpng: one filter and one level of compression, so that bytes do not depend on
+// Portable Network Graphics, by libpng: filter and compression level are fixed, so that bytes do not depend on
 // defaults.
 #include "droplet/picture/picture.h"
 
@@ -26,7 +26,7 @@
 namespace droplet {
 namespace {
 
-/// libpng's state. Its errors leave by longjmp: nothing with a destructor may live between it and its calls.
+/// libpng's state. Errors use longjmp: no object with a destructor may live between setjmp and libpng's calls.
 struct PngWriter {
     std::ostream& out;
     std::uint64_t bytes = 0;
@@ -58,15 +58,15 @@ void onWrite(png_structp png, png_bytep from, std::size_t count)
 
 void onFlush(png_structp /*png*/) {}
 
-/// Rows as a PNG has them.
+/// Rows in the format of a PNG.
 struct Rows {
     int width = 0;
     int height = 0;
-    int depth = 8;  ///< bits
+    int depth = 8;  ///< [bits per channel]
     int colour_type = PNG_COLOR_TYPE_RGB;
-    bool is_colour = true;  ///< sRGB, not numbers
+    bool is_colour = true;  ///< sRGB; false: data
     const std::uint8_t* first = nullptr;
-    std::size_t stride = 0;  ///< bytes
+    std::size_t stride = 0;  ///< [bytes per row]
 };
 
 bool encode(PngWriter& writer, const Rows& rows, PngEffort effort)
@@ -121,18 +121,18 @@ void requireCount(const char* name, std::size_t count, int width, int height, in
     }
 }
 
-/// One side of a picture, scaled: which pixels make a new one, and their shares.
+/// Scaling of one side of a picture: old pixels and weights for each new pixel.
 struct Tap {
     std::size_t first = 0;
     std::vector<float> shares;
 };
 
-/// @param from   where the scaled picture begins in the old one [px]
-/// @param scale  old pixels for a new one
+/// @param from   beginning of the new picture in the old one [px]
+/// @param scale  old pixels per new pixel
 std::vector<Tap> tapsOf(int old_side, int new_side, double from, double scale)
 {
     std::vector<Tap> taps(static_cast<std::size_t>(new_side));
-    const double reach = std::max(scale, 1.0);  // of the tent that averages or interpolates
+    const double reach = std::max(scale, 1.0);  // half-width of the tent filter
     for (std::size_t i = 0; i < taps.size(); ++i) {
         const double centre = from + (static_cast<double>(i) + 0.5) * scale - 0.5;
         const int low = static_cast<int>(std::ceil(centre - reach));
@@ -145,7 +145,7 @@ std::vector<Tap> tapsOf(int old_side, int new_side, double from, double scale)
         for (int k = low; k <= high; ++k) {
             sum += std::max(1.0 - std::abs(k - centre) / reach, 0.0);
         }
-        for (int k = low; k <= high; ++k) {  // beyond the edge, the edge
+        for (int k = low; k <= high; ++k) {  // beyond the edge the edge pixel repeats
             taps[i].shares[static_cast<std::size_t>(std::clamp(k, first, last) - first)] +=
                 static_cast<float>(std::max(1.0 - std::abs(k - centre) / reach, 0.0) / sum);
         }
@@ -212,7 +212,7 @@ std::uint64_t writePng(const Layer& layer, std::ostream& out, PngEffort effort)
 std::uint64_t writePng(const DeepPicture& picture, std::ostream& out, PngEffort effort)
 {
     picture.validate();
-    std::vector<std::uint8_t> bytes;  // the more significant first
+    std::vector<std::uint8_t> bytes;  // big-endian
     bytes.reserve(2 * picture.levels.size());
     for (const std::uint16_t level : picture.levels) {
         bytes.push_back(static_cast<std::uint8_t>(level >> 8));

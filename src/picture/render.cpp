@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// T. Whitted, "An Improved Illumination Model for Shaded Display" (1980): rays branch at every surface, none is left to
-// chance. What scatters below liquid is darker than dry: J. Lekner, M. C. Dorf, "Why some things are darker when wet"
-// (1988). Samples within a pixel: I. M. Sobol', "On the distribution of points in a cube" (1967).
+// T. Whitted, "An Improved Illumination Model for Shaded Display" (1980): rays branch at every surface; nothing is
+// random. Wet ground is darker than dry ground: J. Lekner, M. C. Dorf, "Why some things are darker when wet" (1988).
+// Samples within a pixel: I. M. Sobol', "On the distribution of points in a cube" (1967).
 #include "droplet/picture/render.h"
 
 #include <tbb/parallel_for.h>
@@ -30,16 +30,16 @@ namespace {
 constexpr int kMaxPixels = 8192;
 constexpr int kMinSamples = 4;
 constexpr int kMaxSamples = 256;
-constexpr float kWhite = 0.85F;  // how white ground in the open comes out, before the filmic curve
+constexpr float kWhite = 0.85F;  // level of open white ground before the filmic curve
 constexpr float kPi = 3.14159265F;
 
-// Beyond these a ray ends in the room's light.
+// Beyond these limits a ray ends in the room's light.
 constexpr int kMaxMeetings = 7;
-constexpr float kMinWeight = 0.004F;  // a level of 255
+constexpr float kMinWeight = 0.004F;  // one level of 255
 
-// Cells of the light on the plane, along its longer side, for a pixel along the picture's.
+// Cells of the light map along its longer side, per pixel of the picture's longer side.
 constexpr double kLightCells = 0.36;
-constexpr double kStandCells = 0.45;  // of the light on a stand, along its texture
+constexpr double kStandCells = 0.45;  // likewise for the light on a stand, along its texture
 constexpr int kMinLightCells = 64;
 constexpr int kMaxLightCells = 1024;
 
@@ -48,7 +48,7 @@ constexpr int kMaxLightCells = 1024;
     throw Error(ErrorCode::InvalidArgument, "options." + text);
 }
 
-/// A filmic curve (J. Hable's form, fitted by K. Narkowicz).
+/// Filmic curve (J. Hable's form, fitted by K. Narkowicz).
 Vec3f filmic(Vec3f a)
 {
     const auto curve = [](float light) {
@@ -72,7 +72,7 @@ Medium mediumOf(const Look& look, double mean_height, double scale)
     return medium;
 }
 
-/// Parts of what is seen: with its ground; without it, which is black then; and white ground through the liquid alone.
+/// What a ray sees: everything; everything on black ground; or only white ground through the liquid.
 enum class Part { All, Own, Through };
 
 class Tracer {
@@ -118,7 +118,7 @@ public:
         squeezed_ = static_cast<float>(1.0 / (n * n));
     }
 
-    // Linear light for a screen, 0 … 1, through a point of the picture.
+    // Linear light 0 … 1 for a screen at a point of the picture.
     [[nodiscard]] Vec3f shown(float x, float y, Part part) const
     {
         const RayF ray = camera_.ray(x, y);
@@ -134,10 +134,10 @@ public:
 
 private:
     struct Way {
-        float weight;    // of the ray in the pixel
-        bool inside;     // the liquid
-        int meetings;    // so far
-        float distance;  // so far
+        float weight;    // weight of the ray in the pixel
+        bool inside;     // inside the liquid
+        int meetings;    // number of surfaces met so far
+        float distance;  // length of the path so far
         Part part;
     };
 
@@ -184,7 +184,7 @@ private:
     [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
     {
         const Way next{share * way.weight, inside, way.meetings + 1, way.distance + meeting.distance, way.part};
-        // Directions by smooth normals may point through the facet; they are bent to graze it.
+        // A direction from a smooth normal may point through the facet; it is bent to graze the facet.
         const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
         if (side < 1e-3F) {
             direction = unit(direction + (inside ? side - 1e-3F : 1e-3F - side) * meeting.facet);
@@ -206,7 +206,7 @@ private:
         const Vec3f upright = mix(grey(ratio * ratio), colour, metal);
         const Vec3f mirror_share = mix(upright, grey(1.0F), grazing);
         const Vec3f mirror = mirrored(ray.direction, normal);
-        // What is rough mirrors a blurred room.
+        // Rough materials reflect a blurred room.
         const Vec3f gloss =
             look.roughness < 0.1 ? onward(meeting, mirror, way, largest(mirror_share), false) : studio_.diffuse(mirror);
         const Vec3f matter = (1.0F - metal) * colour * studio_.diffuse(normal);
@@ -217,7 +217,7 @@ private:
     {
         constexpr float kLine = 1.6F;  // [px]
         const Triangle& triangle = scene_.triangle(meeting);
-        // The values' gradient on the facet, by how much of it the pixel sees.
+        // Gradient of the values on the facet, times the length that the pixel covers.
         const float pixel = kLine * camera_.pixel() * (way.distance + meeting.distance);
         const double slope = static_cast<double>(pixel) * slopeOn(triangle, ray.direction, meeting.facet);
         const Vec3f colour = paintAt(*options_.paint, triangle, {meeting.u, meeting.v, slope});
@@ -228,7 +228,7 @@ private:
         return std::clamp(0.45F + 0.55F * light, 0.0F, 1.15F) * colour;
     }
 
-    // How fast paint's values change across the picture, per length at right angles to the ray.
+    // Change of the paint's values across the picture, per length perpendicular to the ray.
     [[nodiscard]] double slopeOn(const Triangle& triangle, Vec3f direction, Vec3f facet) const
     {
         const Vec3f a = scene_.vertex(triangle[0]);
@@ -239,7 +239,7 @@ private:
         const auto dq = static_cast<float>(values[triangle[2]] - values[triangle[0]]);
         const Vec3f across = cross(p, q);
         const Vec3f gradient = (1.0F / std::max(dot(across, across), 1e-30F)) * cross(dp * q - dq * p, across);
-        // A step across the picture is longer on a slanted facet, along the ray's trace on it.
+        // A step across the picture is longer on a slanted facet, in the direction of the ray's projection on it.
         const float slant = std::max(std::abs(dot(direction, facet)), 0.15F);
         const Vec3f trace = direction - dot(direction, facet) * facet;
         const float along = dot(gradient, unit(trace)) * (1.0F / slant - 1.0F);
@@ -277,7 +277,7 @@ private:
         return seen;
     }
 
-    // Ground that is not there: white where it is seen, and what is mirrored of it grey.
+    // Ground of a cut-out: white where it is seen directly, grey where it is reflected.
     [[nodiscard]] Vec3f leftOut(const Meeting& meeting, const Way& way) const
     {
         const bool is_seen = way.meetings == 0 || way.inside;
@@ -309,14 +309,14 @@ private:
         return {std::max(sum.x, 0.2F * light.x), std::max(sum.y, 0.2F * light.y), std::max(sum.z, 0.2F * light.z)};
     }
 
-    // Light that scatters below a liquid's surface is in part sent back there, again and again.
+    // A part of the light scattered below the liquid is reflected back to the ground, repeatedly.
     [[nodiscard]] Vec3f wetness(Vec3f matter, float first) const
     {
         return {first / (1.0F - returned_ * matter.x), first / (1.0F - returned_ * matter.y),
                 first / (1.0F - returned_ * matter.z)};
     }
 
-    // A pool of light on the table, and darkness far away.
+    // The table is bright near the droplet and dark far away.
     [[nodiscard]] Vec3f faded(Vec3f seen, Vec3f place) const
     {
         const Vec3f flat = turn_({0.12F, -0.10F, 0.0F});
@@ -334,7 +334,7 @@ private:
         if (studio_.uniform()) {
             return grey(1.0F);
         }
-        // An object is plain; curved ground has the table's ruling, seen from above.
+        // An object is plain; curved ground has the table's ruling, projected from above.
         return options_.stand && options_.frames_stand ? Vec3f{0.42F, 0.45F, 0.46F} : table_->at(meeting.place, width);
     }
 
@@ -346,17 +346,17 @@ private:
     Camera camera_;
     std::optional<GroundPicture> picture_;
     std::optional<Table> table_;
-    std::optional<LightMap> light_;     // on the plane
-    std::optional<LightMap> key_gain_;  // on a stand
-    Vec3f key_;                         // toward the key light
+    std::optional<LightMap> light_;     // light on the plane
+    std::optional<LightMap> key_gain_;  // share of the key light on a stand
+    Vec3f key_;                         // direction toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;
     float span_ = 1.0F;
-    float returned_ = 0.0F;  // share of the light scattered below the surface that it sends back
-    float squeezed_ = 1.0F;  // radiance outside over that inside
+    float returned_ = 0.0F;  // share of the light scattered below that the surface reflects back
+    float squeezed_ = 1.0F;  // radiance outside over radiance inside
 };
 
-/// Where in a pixel its samples lie: the first 4, 16, 64 … are one in every part of a grid.
+/// Places of samples in a pixel: the first 4, 16, 64 … lie one in every cell of a grid.
 std::vector<std::array<float, 2>> samplesInPixel(int count)
 {
     std::vector<std::array<float, 2>> samples;
@@ -379,7 +379,7 @@ std::vector<std::array<float, 2>> samplesInPixel(int count)
     return samples;
 }
 
-/// What a pixel's samples have shown so far.
+/// Sums over the samples of a pixel so far.
 struct Pixel {
     Vec3f sum;
     float spread = 0.0F;
@@ -390,7 +390,7 @@ Vec3f onScreen(Vec3f light)
     return {toDisplay(light.x), toDisplay(light.y), toDisplay(light.z)};
 }
 
-// Near enough to tell what is visible.
+// Approximate conversion, good enough to detect visible differences.
 Vec3f roughly(Vec3f light)
 {
     return {std::sqrt(light.x), std::sqrt(light.y), std::sqrt(light.z)};
@@ -507,7 +507,7 @@ void RenderOptions::validate() const
     if (framed) {
         const Vec3 size = framed->high - framed->low;
         if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0 && length(size) > 0.0 && std::isfinite(length(size)))) {
-            refuse("framed must be a box with an extent");
+            refuse("framed must be a box with a positive extent");
         }
     }
 }
@@ -525,7 +525,7 @@ void requireDrawable(const Surface& surface, const RenderOptions& options)
                             [&first = surface.positions.front()](const Vec3& p) {
                                 return p.x == first.x && p.y == first.y && p.z == first.z;
                             })) {
-        throw Error(ErrorCode::InvalidArgument, "surface must have an extent; all of it is at one place");
+        throw Error(ErrorCode::InvalidArgument, "surface must have an extent; all vertices are at one place");
     }
     if (options.paint) {
         options.paint->validate(surface.positions.size());
@@ -556,7 +556,7 @@ Layer renderCutOut(const Surface& surface, const RenderOptions& options)
     tbb::parallel_for(std::size_t{0}, own.rgb.size() / 3, [&](std::size_t i) {
         const std::uint8_t* const mirrored = own.rgb.data() + 3 * i;
         const std::uint8_t* const passed = through.rgb.data() + 3 * i;
-        // Over white every colour is the sum, over black what is mirrored and tinted.
+        // Over white the colour is the sum; over black it is the reflected and tinted part.
         const int min = std::min({passed[0], passed[1], passed[2]});
         std::array<int, 3> over_black{};
         int alpha = 255 - min;
@@ -592,8 +592,8 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
         throw Error(ErrorCode::InvalidArgument, "ground must not be flat, and extent above 0");
     }
     constexpr int kCells = 400;
-    constexpr double kBeyond = 3.0;    // times the image
-    constexpr double kSteepest = 8.0;  // beyond, cells are seen as what they are
+    constexpr double kBeyond = 3.0;    // size of the ground over the image's
+    constexpr double kSteepest = 8.0;  // on steeper ground single cells would be visible
     TexturedMesh mesh;
     std::vector<std::optional<std::uint32_t>> vertices;
     for (int j = 0; j <= kCells; ++j) {
@@ -605,7 +605,7 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
             try {
                 point = ground.at(p);
             } catch (const Error&) {
-                continue;  // there is none
+                continue;  // no ground here
             }
             if (length(point.gradient) > kSteepest) {
                 continue;
@@ -631,7 +631,7 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
         }
     }
     if (mesh.triangles.empty()) {
-        throw Error(ErrorCode::InvalidArgument, "ground is nowhere below the image");
+        throw Error(ErrorCode::InvalidArgument, "ground must exist somewhere below the image");
     }
     return mesh;
 }

@@ -16,10 +16,10 @@
 namespace droplet {
 namespace {
 
-// Scenes are about 1 in size; floats there are good to 1e-7, and robust intersections miss nothing farther than this.
+// Scenes have a size of about 1; floats are accurate to 1e-7, and robust intersections miss nothing beyond this.
 constexpr float kNear = 2e-5F;
 
-/// For every triangle whether it belongs to the base.
+/// For every triangle, whether it belongs to the base.
 std::vector<bool> baseTriangles(const Surface& surface)
 {
     UnionFind sheets(surface.positions.size());
@@ -50,7 +50,7 @@ struct Buffers {
     std::vector<Triangle> triangles;
 };
 
-// Parts of a scene, by their number in it.
+// Numbers of the parts of a scene.
 constexpr unsigned kLiquid = 0;
 constexpr unsigned kBase = 1;
 constexpr unsigned kStand = 2;
@@ -64,7 +64,7 @@ struct Scene::Embree {
     EmbreeDevice::Scene dry;
     std::array<Buffers, 3> parts;
 
-    // One thread builds: the order of triangles in the tree, which decides on shared edges, must not depend on chance.
+    // One thread builds the tree, so that the order of triangles, which decides on shared edges, is always the same.
     EmbreeDevice::Scene build(std::initializer_list<unsigned> wanted)
     {
         EmbreeDevice::Scene scene = device.newScene();
@@ -166,8 +166,7 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
         embree_->parts[kStand].triangles = stand->triangles;
         shown_.insert(shown_.end(), embree_->parts[kStand].positions.begin(), embree_->parts[kStand].positions.end());
     }
-    // Where there is a stand it is what is seen through the air, and the base through the liquid: one touches the
-    // other.
+    // The stand and the base touch: through air the stand is seen, through the liquid the base.
     embree_->air = stand != nullptr ? embree_->build({kLiquid, kStand}) : embree_->build({kLiquid, kBase});
     embree_->liquid = has_base ? embree_->build({kLiquid, kBase}) : embree_->build({kLiquid, kStand});
     embree_->dry = stand != nullptr ? embree_->build({kStand}) : embree_->build({kBase});
@@ -228,7 +227,7 @@ Meeting Scene::meet(void* scene, const RayF& ray) const
     if (hit.hit.geomID != kLiquid) {
         meeting.uv = static_cast<double>(w) * part.uvs[t[0]] + static_cast<double>(meeting.u) * part.uvs[t[1]] +
                      static_cast<double>(meeting.v) * part.uvs[t[2]];
-        // A base looks down, out of the liquid; ground looks up.
+        // The base's normal points down, out of the liquid; the ground's normal points up.
         if (hit.hit.geomID == kBase) {
             meeting.normal = -1.0F * meeting.normal;
             meeting.facet = -1.0F * meeting.facet;

@@ -8,22 +8,22 @@
 
 namespace droplet {
 
-/// An environment to be looked up by direction, so bright that level ground gets a given light.
+/// Environment with look-up by direction, scaled to a given irradiance of level ground.
 class Sky {
 public:
-    /// A part of the sphere.
+    /// Part of the sphere.
     struct Cell {
-        Vec3f toward;        ///< the middle of its light, unit
-        Vec3f radiance;      ///< mean
-        float angle = 0.0F;  ///< solid [sr]
+        Vec3f toward;        ///< mean direction of its light, unit
+        Vec3f radiance;      ///< mean radiance
+        float angle = 0.0F;  ///< solid angle [sr]
     };
 
     /// @param environment  valid
-    /// @param irradiance   of level ground in the open, green
+    /// @param irradiance   green irradiance of open level ground
     Sky(const Environment& environment, float irradiance);
 
     [[nodiscard]] Vec3f at(Vec3f direction) const;
-    /// The whole sphere in parts of a few degrees.
+    /// The whole sphere, divided into parts of a few degrees.
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
 private:

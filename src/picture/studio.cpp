@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Share of every band that a cosine lobe lets through, over π.
+/// Factor of a cosine lobe for each band of spherical harmonics, divided by π.
 constexpr std::array<float, 9> kLobe = {1.0F, 2.0F / 3.0F, 2.0F / 3.0F, 2.0F / 3.0F, 0.25F, 0.25F, 0.25F, 0.25F, 0.25F};
 
 struct BoxPlace {
@@ -25,8 +25,9 @@ struct BoxPlace {
     Vec3f radiance;
 };
 
-// Chosen by eye: the key light warm, low and small, so that every stroke of water throws a bright and a dark edge; a
-// band high on the left that every edge turned there mirrors, also toward a camera above; the other one cool.
+// Values are chosen by eye. The key light is warm, low and small, so that every stroke of water casts a bright and a
+// dark edge. A band high on the left is reflected by every edge that faces it, also toward a camera above. The band on
+// the right is cool.
 constexpr std::array<BoxPlace, 3> kBoxes = {{
     {126.0, 33.0, 0.14F, 0.10F, {128.0F, 119.0F, 106.0F}},
     {138.0, 56.0, 0.90F, 0.060F, {18.0F, 18.5F, 19.0F}},
@@ -45,7 +46,7 @@ Vec3f towards(double azimuth, double elevation)
     return toFloats({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)});
 }
 
-// Evenly over the sphere, by the golden angle.
+// Directions spread evenly over the sphere by the golden angle.
 Vec3f onSphere(int index, int count)
 {
     const float z = 1.0F - 2.0F * (static_cast<float>(index) + 0.5F) / static_cast<float>(count);
@@ -77,7 +78,7 @@ Light lightOf(const SoftBox& box, int across, int upward)
             const float y = (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(upward) - 1.0F;
             const Vec3f ahead = box.centre + x * box.half_width * box.right + y * box.half_height * box.up;
             const Vec3f toward = unit(ahead);
-            // Solid angle of a part of the rectangle at distance 1.
+            // Solid angle of this part of the rectangle at distance 1.
             const float angle = 4.0F * box.half_width * box.half_height / static_cast<float>(across * upward) /
                                 std::pow(dot(ahead, ahead), 1.5F);
             const Vec3f irradiance = angle * toward.z * box.seen(toward);
@@ -115,7 +116,7 @@ Vec3f SoftBox::seen(Vec3f direction) const
 Studio::Studio(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment)
     : uniform_(lighting == Lighting::Uniform), back_{turn.cosine, -turn.sine}, harmonics_{}
 {
-    constexpr float kIrradiance = 6.0F;  // about that of the studio
+    constexpr float kIrradiance = 6.0F;  // about the studio's
     if (environment != nullptr && !uniform_) {
         sky_.emplace(*environment, kIrradiance);
         addSky(turn);
@@ -157,7 +158,7 @@ void Studio::addBoxes(bool upright, CameraTurn turn)
 
 void Studio::addRoom(CameraTurn turn)
 {
-    // The room as beams of equal weight, evenly over the cosine of their elevation's square: Lambert's law.
+    // The room becomes beams of equal weight, spread evenly over the squared cosine of elevation (Lambert's law).
     constexpr int kRoomBeams = 48;
     Light sky;
     sky.soft = true;
@@ -181,9 +182,9 @@ void Studio::addRoom(CameraTurn turn)
 
 void Studio::addSky(CameraTurn turn)
 {
-    // What is far brighter than the rest throws shadows with detail, from few places; the rest is soft.
+    // The parts far brighter than the rest cast detailed shadows from few directions; the rest is soft.
     constexpr std::size_t kMaxBeams = 16;
-    constexpr float kBright = 4.0F;  // times the mean
+    constexpr float kBright = 4.0F;  // limit over the mean radiance
     std::vector<Sky::Cell> cells = sky_->cells();
     std::stable_sort(cells.begin(), cells.end(),
                      [](const Sky::Cell& a, const Sky::Cell& b) { return a.radiance.y > b.radiance.y; });
@@ -210,7 +211,7 @@ void Studio::addSky(CameraTurn turn)
         light.beams.push_back({toward, irradiance.y});
         light.irradiance = light.irradiance + irradiance;
     }
-    // Of the soft rest every so many cells stand for all.
+    // For the soft rest, a regular selection of cells represents all.
     constexpr std::size_t kSoftBeams = 64;
     std::vector<Beam> few;
     for (std::size_t k = 0; k < kSoftBeams && !rest.beams.empty(); ++k) {
@@ -230,7 +231,7 @@ void Studio::addSky(CameraTurn turn)
         }
     }
     if (lights_.empty()) {
-        lights_.emplace_back();  // all of it shines from below
+        lights_.emplace_back();  // all light comes from below
     }
 }
 

@@ -12,51 +12,51 @@
 
 namespace droplet {
 
-/// What is seen at the horizon.
+/// Light at the horizon.
 inline constexpr Vec3f kDistance = {0.050F, 0.080F, 0.100F};
 
-/// A glowing rectangle far away, with round corners, its middle brighter than its edge.
+/// Soft box: a glowing rectangle far away with round corners, brighter in the middle.
 struct SoftBox {
-    Vec3f centre;  ///< direction toward it, unit
+    Vec3f centre;  ///< direction toward the centre, unit
     Vec3f right;
     Vec3f up;
-    float half_width = 0.0F;   ///< tangent of half its angle
-    float half_height = 0.0F;  ///< tangent of half its angle
+    float half_width = 0.0F;   ///< tangent of half its angular width
+    float half_height = 0.0F;  ///< tangent of half its angular height
     Vec3f radiance;
 
     [[nodiscard]] Vec3f seen(Vec3f direction) const;
 };
 
-/// Parallel light.
+/// Beam of parallel light.
 struct Beam {
-    Vec3f toward;        ///< where it comes from, unit, z > 0
-    float share = 0.0F;  ///< of its light's irradiance on level ground
+    Vec3f toward;        ///< direction toward its source, unit, z > 0
+    float share = 0.0F;  ///< share of the light's irradiance on level ground
 };
 
-/// A light as beams.
+/// Light as a set of beams.
 struct Light {
     Vec3f irradiance;  ///< on level ground
     std::vector<Beam> beams;
-    bool soft = false;  ///< from all over the sky: its shadows have no detail
+    bool soft = false;  ///< light from all over the sky: its shadows have no detail
 };
 
-/// What shines on a droplet: a dim room brighter at its walls, a key light behind the droplet on the left, a band
-/// above it, and a narrow one on the right; on an object that stands upright, a key light in front of it on the left,
-/// and two at its sides.
+/// Lighting of a scene. For droplets on the ground it is a dim room with brighter walls, a key light behind the droplet
+/// on the left, a band of light above that, and a narrow band on the right. For an upright object the key light is in
+/// front on the left, and two lights are at the sides.
 class Studio {
 public:
-    /// @param environment  in place of it; null: none
+    /// @param environment  replaces the room; null: none
     Studio(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment = nullptr);
 
-    /// What comes from a direction.
+    /// Radiance from a direction.
     [[nodiscard]] Vec3f radiance(Vec3f direction) const;
-    /// What is seen behind everything.
+    /// Colour of the backdrop in a direction.
     [[nodiscard]] Vec3f backdrop(Vec3f direction) const;
-    /// Light on a surface of that normal, divided by π, in the open: the first nine spherical harmonics of it.
+    /// Irradiance of an open surface, divided by π, by its normal: the first nine spherical harmonics.
     [[nodiscard]] Vec3f diffuse(Vec3f normal) const;
     [[nodiscard]] const std::vector<Light>& lights() const { return lights_; }
     [[nodiscard]] bool uniform() const { return uniform_; }
-    /// Light on level ground in the open.
+    /// Irradiance of open level ground.
     [[nodiscard]] Vec3f level() const;
 
 private:
@@ -68,7 +68,7 @@ private:
 
     bool uniform_;
     std::optional<Sky> sky_;
-    CameraTurn back_;  ///< from directions in the scene to those in the sky
+    CameraTurn back_;  ///< from directions in the scene to directions in the sky
     std::vector<SoftBox> boxes_;
     std::vector<Light> lights_;
     std::array<Vec3f, 9> harmonics_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IEC 61966-2-1: sRGB, by tables.
+// Tables for sRGB (IEC 61966-2-1).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace droplet {
 
-/// Linear light of every sRGB level.
+/// Linear light by sRGB level.
 inline const std::array<float, 256>& displayLevels()
 {
     static const std::array<float, 256> levels = [] {
@@ -25,14 +25,14 @@ inline const std::array<float, 256>& displayLevels()
     return levels;
 }
 
-/// The nearest whole number from 0 to most, without a call or a branch, which std::clamp may be.
+/// Nearest integer from 0 to `most`, without a call or a branch, unlike std::clamp.
 inline int nearest(float value, std::size_t max)
 {
     const float half_up = std::min(std::max(value, 0.0F), static_cast<float>(max)) + 0.5F;
     return static_cast<int>(half_up);
 }
 
-/// sRGB levels of linear light in steps of 1/4096.
+/// sRGB level by linear light in steps of 1/4096.
 using EncodedLevels = std::array<std::uint8_t, 4097>;
 
 inline const EncodedLevels& encodedLevels()
@@ -48,13 +48,13 @@ inline const EncodedLevels& encodedLevels()
     return levels;
 }
 
-/// The sRGB level of linear light, to half a level but where they lie so close that a step of 1/4096 is more.
+/// sRGB level of linear light, exact to half a level except in the dark, where a step of 1/4096 is more.
 inline std::uint8_t encoded(float light, const EncodedLevels& levels = encodedLevels())
 {
     return levels[static_cast<std::size_t>(nearest(static_cast<float>(levels.size() - 1) * light, levels.size() - 1))];
 }
 
-/// A level over another, mixed by alpha and rounded to the nearest.
+/// Mix of a level over another by alpha, rounded to the nearest.
 inline std::uint8_t mixedLevel(std::uint32_t above, std::uint32_t below, std::uint32_t alpha)
 {
     return static_cast<std::uint8_t>((above * alpha + below * (255U - alpha) + 127U) / 255U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// libFuzzer's way in; DROPLET_FUZZ_TARGET names the function of targets.h.
+// Entry point of libFuzzer; DROPLET_FUZZ_TARGET names a function of targets.h.
 #include <cstdint>
 
 #include "fuzz/targets.h"

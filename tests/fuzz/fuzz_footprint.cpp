@@ -11,10 +11,10 @@
 namespace droplet {
 namespace {
 
-/// First byte: width; second: how levels, edges and threshold are taken; the rest: pixels, row by row.
+/// Input: first byte: width; second: use of levels, edges and threshold; the rest: pixels, row by row.
 Mask maskFrom(std::span<const std::byte> bytes, bool hard)
 {
-    constexpr int kMaxPixels = 40;  // a side: larger masks find nothing that two smaller ones do not
+    constexpr int kMaxPixels = 40;  // per side; larger masks find no further errors
     Mask mask;
     mask.width = 1 + std::to_integer<int>(bytes[0]) % kMaxPixels;
     const std::size_t pixels =
@@ -48,7 +48,7 @@ void fuzzFootprint(std::span<const std::byte> bytes)
         if (error.code() != ErrorCode::InvalidInput) {
             throw;
         }
-        return;  // no liquid, or specks only
+        return;  // no liquid, or only specks
     }
     const Domain domain = split(outline);
     TriangulateOptions mesh_options;

@@ -9,20 +9,20 @@ namespace droplet {
 void fuzzMask(std::span<const std::byte> bytes)
 {
     MaskOptions options;
-    options.max_pixels = std::size_t{1} << 20;  // so that time goes into headers, not into pixels
+    options.max_pixels = std::size_t{1} << 20;  // spend time on headers, not on pixels
     options.vector_long_side = 32;
     for (const Channel channel : {Channel::Auto, Channel::Alpha}) {
         options.channel = channel;
         try {
             decodeMask(bytes, options).validate();
         } catch (const Error&) {
-            // A clear refusal is what broken files are meant to get.
+            // Broken files must be refused.
         }
     }
     try {
         decodeHeightMap(bytes, options.max_pixels).validate();
     } catch (const Error&) {
-        // As above.
+        // Broken files must be refused.
     }
 }
 

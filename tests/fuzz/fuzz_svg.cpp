@@ -11,7 +11,7 @@ namespace droplet {
 
 void fuzzSvg(std::span<const std::byte> bytes)
 {
-    // What is no SVG is the other fuzzer's.
+    // fuzz_mask covers files that are not SVG.
     const auto* const text = reinterpret_cast<const char*>(bytes.data());
     if (std::string_view(text, bytes.size()).find("<svg") == std::string_view::npos) {
         return;

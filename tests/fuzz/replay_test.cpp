@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every seed of the fuzzers and every input they ever failed on, in the ordinary tests.
+// Replays every seed of the fuzzers and every input that ever failed, in the ordinary tests.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -6,16 +6,16 @@
 
 namespace droplet {
 
-// What a fuzzer runs on any bytes at all, and the tests on every file of corpus/. Each returns, or lets an
-// exception other than Error out, or crashes; only the first is right.
+// Fuzzers run these functions on arbitrary bytes, the tests on every file of corpus/. They must return: an exception
+// other than Error, or a crash, is a failure.
 
-/// Reads a mask from the bytes of an image file, by every channel, and a height map.
+/// Reads an image file's bytes as a mask, by every channel, and as a height map.
 void fuzzMask(std::span<const std::byte> bytes);
 
 /// Draws an SVG in a child process; refusals must be one line.
 void fuzzSvg(std::span<const std::byte> bytes);
 
-/// Takes the bytes for a small mask and goes from there to a footprint mesh.
+/// Takes the bytes as a small mask and makes a footprint mesh of it.
 void fuzzFootprint(std::span<const std::byte> bytes);
 
 }  // namespace droplet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Animations are played here as the specification says viewers do (glTF 2.0, section 3.11 and appendix C).
+// These tests play animations as the specification requires of viewers (glTF 2.0, section 3.11 and appendix C).
 #include "droplet/io/animation.h"
 
 #include <gmock/gmock.h>
@@ -25,13 +25,13 @@ namespace {
 using ::testing::HasSubstr;
 using testing::roundDroplet;
 
-/// A film of frames and where new triangles begin.
+/// Frames of an animation, and where new triangles begin.
 struct Film {
     std::vector<Surface> frames;
     std::vector<bool> continues;
 };
 
-/// Runs of so many frames each; within one the droplet grows and moves, each run has triangles of its own.
+/// Runs with given numbers of frames. In a run the droplet grows and moves; every run has its own triangles.
 Film filmOf(const std::vector<int>& runs, bool open = false)
 {
     Film film;
@@ -97,7 +97,7 @@ std::vector<Number> numbersOf(const tinygltf::Model& model, int index)
     return numbers;
 }
 
-/// What a channel gives at a time.
+/// Value of a channel at a time.
 std::vector<double> sampled(const tinygltf::Model& model, const tinygltf::AnimationChannel& channel, double time)
 {
     const tinygltf::AnimationSampler& sampler = model.animations.at(0).samplers.at(at(channel.sampler));
@@ -123,7 +123,7 @@ std::vector<double> sampled(const tinygltf::Model& model, const tinygltf::Animat
     return result;
 }
 
-/// What is seen at a time: the vertices of the one node that is shown.
+/// Vertices of the node that is visible at a time.
 struct Shown {
     std::size_t nodes = 0;
     std::size_t node = 0;
@@ -197,7 +197,7 @@ void expectPlays(const Film& film, double rate)
     const tinygltf::Model model = parsed(written(film, {.frames_per_second = rate, .frames = film.frames.size()}));
     const auto count = static_cast<double>(film.frames.size());
     for (std::size_t k = 0; k < film.frames.size(); ++k) {
-        // The moment itself as a player holds it: the float of a key.
+        // Players store key times as floats.
         expectShows(model, static_cast<double>(static_cast<float>(static_cast<double>(k) / rate)), film.frames[k]);
     }
     expectShows(model, (count - 0.5) / rate, film.frames.back());
@@ -239,11 +239,11 @@ TEST(Animation, BetweenFramesOfARunVerticesMoveInStraightLines)
         const Vec3 wanted = 0.75 * film.frames[1].positions[v] + 0.25 * film.frames[2].positions[v];
         EXPECT_LT(length(shown.positions[v] - wanted), 1e-8);
     }
-    // And the last one of a run stands still.
+    // The last frame of a run stands still.
     expectShows(model, 0.399, film.frames[3]);
 }
 
-TEST(Animation, LongRunsGoOnInAnotherNodeWithoutAJump)
+TEST(Animation, LongRunsContinueInAnotherNodeWithoutAJump)
 {
     for (const int length : {64, 65, 66, 130}) {
         const Film film = filmOf({length, 2});
@@ -264,7 +264,7 @@ TEST(Animation, LongRunsGoOnInAnotherNodeWithoutAJump)
     }
 }
 
-TEST(Animation, WithoutPlayingTheFirstFrameIsSeen)
+TEST(Animation, ShowsTheFirstFrameIfNotPlayed)
 {
     const Film film = filmOf({2, 3});
     tinygltf::Model model = parsed(written(film));
@@ -297,7 +297,7 @@ TEST(Animation, EqualFramesHaveNoDifference)
     for (const auto& target : model.meshes.at(0).primitives.at(0).targets) {
         for (const char* name : {"POSITION", "NORMAL"}) {
             for (const float number : numbersOf<float>(model, target.at(name))) {
-                // What a float of the base leaves of its double.
+                // The difference between the base's doubles and floats.
                 EXPECT_LT(std::abs(number), 1e-7F);
             }
         }
@@ -329,7 +329,7 @@ TEST(Animation, FramesWithoutASurfaceShowNothing)
             expectShows(model, time, film.frames[at(order[frame])]);
         }
     }
-    // What was last before a pause stands still until then, and the film is as long as its frames.
+    // The last frame before a pause stands still until then; the animation is as long as its frames.
     expectShows(model, 0.499, film.frames[2]);
     EXPECT_EQ(playedAt(model, 1.0).nodes, 0U);
     float end = 0.0F;
@@ -346,7 +346,7 @@ TEST(Animation, FramesWithoutASurfaceShowNothing)
     EXPECT_THROW(again.add(film.frames[1], true), Error) << "nothing goes on after a pause";
 }
 
-TEST(Animation, NamesAreThoseOfFrames)
+TEST(Animation, NamesMeshesAfterFrames)
 {
     const tinygltf::Model model = parsed(written(filmOf({2, 3})));
     EXPECT_EQ(model.animations.at(0).name, "sequence");
@@ -369,7 +369,7 @@ std::string refusal(const std::function<void()>& action)
     return {};
 }
 
-TEST(Animation, RefusesWhatCannotBePlayed)
+TEST(Animation, RefusesInvalidFrames)
 {
     EXPECT_THAT(refusal([] { Animation(AnimationOptions{.frames_per_second = 0.0, .frames = {}}); }),
                 HasSubstr("frames_per_second"));
@@ -383,16 +383,16 @@ TEST(Animation, RefusesWhatCannotBePlayed)
                     Animation animation(AnimationOptions{});
                     animation.add(roundDroplet(), true);
                 }),
-                HasSubstr("frame 1 has not the triangles"));
+                HasSubstr("frame 1 must have the same triangles"));
     EXPECT_THAT(refusal([] {
                     Animation animation(AnimationOptions{});
                     animation.add(roundDroplet(), false);
                     animation.add(roundDroplet({.segments = 13}), true);
                 }),
-                HasSubstr("frame 2 has not the triangles"));
+                HasSubstr("frame 2 must have the same triangles"));
 }
 
-TEST(Animation, TooLargeAFileIsRefusedWithItsFirstFrame)
+TEST(Animation, RefusesATooLargeFileAtItsFirstFrame)
 {
     const Surface surface = roundDroplet({.rings = 60, .segments = 60});
     EXPECT_THAT(refusal([&] { Animation({.frames = 100'000}).add(surface, false); }), HasSubstr("2 GiB"));

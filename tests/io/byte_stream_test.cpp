@@ -43,7 +43,7 @@ TEST(ByteStream, DigitsAreText)
     EXPECT_EQ(out.str(), "18446744073709551615 -1.7976931348623157e+308 0.333");
 }
 
-TEST(ByteStream, RefusesWhatIsNoFloat)
+TEST(ByteStream, RefusesNumbersBeyondFloat)
 {
     std::ostringstream out;
     ByteStream bytes(out);
@@ -57,7 +57,7 @@ TEST(ByteStream, RefusesWhatIsNoFloat)
     EXPECT_EQ(bytes.finish(), 12U);
 }
 
-TEST(ByteStream, HandsOverEveryByteOnceInPiecesOfLimitedSize)
+TEST(ByteStream, WritesEveryByteOnceInPiecesOfLimitedSize)
 {
     Pieces pieces;
     std::ostream out(&pieces);
@@ -80,7 +80,7 @@ TEST(ByteStream, HandsOverEveryByteOnceInPiecesOfLimitedSize)
     EXPECT_LE(pieces.largest(), 65'536U);
 }
 
-TEST(ByteStream, LeavesAStreamFailedThatDoesNotTakeAll)
+TEST(ByteStream, LeavesAStreamFailedThatDoesNotTakeEverything)
 {
     std::ostream out(nullptr);
     ByteStream bytes(out);

@@ -42,7 +42,7 @@ using testing::ScratchDirectory;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Energy, height, and of every body volume and pressure, as the file's opening and Evolver state them.
+/// Energy, height, and volume and pressure of every body, as stated by the opening comments or by Evolver.
 struct Statement {
     double energy = 0.0;
     double height = 0.0;
@@ -50,7 +50,7 @@ struct Statement {
     std::vector<double> pressures;
 };
 
-/// The last one in a text of lines `energy E height H` and `body K volume V pressure P` among others.
+/// Last statement in a text with lines `energy E height H` and `body K volume V pressure P` among others.
 Statement statementIn(const std::string& text)
 {
     Statement statement;
@@ -69,7 +69,7 @@ Statement statementIn(const std::string& text)
     return statement;
 }
 
-/// What a datafile says, read anew.
+/// Content of a datafile, parsed.
 struct Datafile {
     struct Vertex {
         Vec3 place;
@@ -95,7 +95,7 @@ struct Datafile {
     std::vector<std::array<Side, 3>> faces;
     std::vector<Body> bodies;
 
-    /// Where a face's sides begin.
+    /// First vertices of a face's sides.
     [[nodiscard]] std::array<std::size_t, 3> cornersOf(std::size_t face) const
     {
         std::array<std::size_t, 3> corners{};
@@ -105,7 +105,7 @@ struct Datafile {
         }
         return corners;
     }
-    /// 0 where none is stated.
+    /// 0 if the file states none.
     [[nodiscard]] double groundAt(std::size_t vertex) const
     {
         const std::string& words = vertices.at(vertex).words;
@@ -114,7 +114,7 @@ struct Datafile {
     }
 };
 
-/// Calls line(words) for every line of a section, which begins with the lines' numbers from 1 on.
+/// Calls line(words) for every line of a section; lines begin with their numbers, from 1.
 template <class Line>
 void forLines(const std::string& text, const std::string& section, const Line& line)
 {
@@ -187,8 +187,8 @@ Datafile parsed(const std::string& text)
     return file;
 }
 
-/// Energy, height and volumes by the opening's words, from the numbers below it: quadrature at the edges' middles,
-/// exact for quadratics.
+/// Energy, height and volumes, computed from the file's numbers by the definitions in its opening comments: quadrature
+/// at the edges' middles, exact for quadratics.
 Statement recomputed(const Datafile& file)
 {
     Statement statement;
@@ -222,7 +222,7 @@ Statement recomputed(const Datafile& file)
     return statement;
 }
 
-/// Droplets, and the heights given to them.
+/// Droplets with given heights.
 struct Droplets {
     std::vector<PlanarMesh> meshes;
     std::vector<HeightField> fields;
@@ -240,7 +240,7 @@ struct Droplets {
 
 using Function = std::function<double(Vec2)>;
 
-/// A field of any heights; what solving adds to it is left out.
+/// Field of given heights, without the results of solving.
 HeightField fieldOf(const PlanarMesh& mesh, const Function& thickness, const Function& ground = {})
 {
     HeightField field;
@@ -255,7 +255,7 @@ HeightField fieldOf(const PlanarMesh& mesh, const Function& thickness, const Fun
     return field;
 }
 
-/// A square with a hole and a disc beside it, 10 mm and 4 mm wide, under everything that can act on them.
+/// A square with a hole and a disc beside it, 10 mm and 4 mm wide, with all forces and a curved ground.
 Droplets awkwardDroplets(FillSharing sharing)
 {
     const auto square = [](double half) {
@@ -269,7 +269,7 @@ Droplets awkwardDroplets(FillSharing sharing)
     domain.droplets.push_back({disc, {}});
     Droplets droplets;
     droplets.meshes = triangulate(domain, {.edge = 1e-3});
-    droplets.options.tilt = 100.0 * kDegree;  // below the horizontal: gravity pulls away from the ground, too
+    droplets.options.tilt = 100.0 * kDegree;  // beyond vertical: gravity also pulls away from the ground
     droplets.options.tilt_direction = 20.0 * kDegree;
     droplets.options.fill.sharing = sharing;
     const Function wavy = [](Vec2 p) { return 1e-4 * std::sin(1e3 * p.x) - 20.0 * p.y * p.y; };
@@ -312,7 +312,7 @@ TEST(Evolver, DatafileHasTheTriangulation)
     }
     EXPECT_EQ(vertex, file.vertices.size());
     EXPECT_EQ(face, file.faces.size());
-    // A ring and a disc.
+    // The droplets are a ring and a disc.
     EXPECT_EQ(file.vertices.size() + file.faces.size() - file.edges.size(), 0U + 1U);
 }
 
@@ -371,7 +371,7 @@ TEST_P(EvolverSharing, DatafileStatesWhatItHolds)
     }
 }
 
-TEST(Evolver, DatafileTurnsBackIntoSi)
+TEST(Evolver, DatafileGivesFactorsToSi)
 {
     Droplets droplets = awkwardDroplets(FillSharing::Total);
     const std::string text = droplets.written();
@@ -419,7 +419,7 @@ TEST(Evolver, DatafileTurnsBackIntoSi)
     EXPECT_NEAR(volume_factor * stated.volumes.at(0), volume, 1e-13 * volume);
 }
 
-TEST(Evolver, DatafileHasNothingThatDoesNotAct)
+TEST(Evolver, DatafileHasOnlyTheForcesThatAct)
 {
     Droplets droplets = awkwardDroplets(FillSharing::Each);
     droplets.options.tilt = 0.0;
@@ -442,7 +442,7 @@ TEST(Evolver, DatafileHasNothingThatDoesNotAct)
     }
 }
 
-TEST(Evolver, RefusesWhatDoesNotFitTogether)
+TEST(Evolver, RefusesInconsistentInput)
 {
     const Droplets good = awkwardDroplets(FillSharing::Each);
     const auto refusal = [](const Droplets& droplets) {
@@ -474,7 +474,7 @@ TEST(Evolver, RefusesWhatDoesNotFitTogether)
     EXPECT_NE(refusal(bad), "");
 }
 
-/// What Evolver makes of droplets with these commands.
+/// Evolver's results for droplets and commands.
 Statement evolved(const Droplets& droplets, const std::string& commands)
 {
     const ScratchDirectory scratch;
@@ -482,7 +482,7 @@ Statement evolved(const Droplets& droplets, const std::string& commands)
     CommandOptions session;
     session.input = commands + "\nq\nq\n";
     session.directory = scratch.path();
-    session.environment = {{"HOME", scratch.path()}};  // it keeps a history of commands there
+    session.environment = {{"HOME", scratch.path()}};  // Evolver keeps a history of commands there
     const CommandResult result = runProgram({"evolver", "droplets.fe"}, session);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.error, "");
@@ -535,7 +535,7 @@ TEST(Evolver, EvolverMakesASphericalCap)
     }
 }
 
-/// π but for the polygon that stands for the disc.
+/// Area of the polygon that approximates the disc of area π.
 double footprintOf(const Droplets& droplets)
 {
     return area(droplets.meshes[0]);
@@ -575,7 +575,7 @@ TEST(Evolver, EvolverStandsAndHangs)
     EXPECT_NEAR(evolved(droplets, "equilibrate; report").pressures.at(0), pressure(hanging), 0.01 * pressure(hanging));
 }
 
-// Raised by c everything stays but what heights are counted from: E by wcV, λ by wc.
+// Raising the ground by c changes only the zero of heights: E by wcV, λ by wc.
 TEST(Evolver, EvolverKnowsWhatLiesUnderTheGround)
 {
     constexpr double kRaised = 0.7;
@@ -612,7 +612,7 @@ TEST(Evolver, EvolverKeepsAboveTheGround)
     EXPECT_NEAR(evolved(droplets, commands).energy, 0.0, 1e-12);
 }
 
-/// What acts on a droplet of water.
+/// Forces on a droplet of water.
 struct Situation {
     const char* name;
     double gravity = 0.0;
@@ -642,9 +642,9 @@ INSTANTIATE_TEST_SUITE_P(Situations, EvolverAndUs,
                                            Situation{"Sharing", 9.81, 20.0, kWavyGround, 50e-9, FillSharing::Total}),
                          [](const ::testing::TestParamInfo<Situation>& info) { return info.param.name; });
 
-// A square, 8 mm wide, and in the last situation a disc beside it. Evolver starts from the linear model's heights, and
-// meets the exact model's in whatever Newton's method leaves.
-TEST_P(EvolverAndUs, HaveTheSameEquilibrium)
+// A square, 8 mm wide, and in the last situation a disc beside it. Evolver starts at the linear model's heights and
+// reaches those of the exact model within the tolerance of Newton's method.
+TEST_P(EvolverAndUs, FindTheSameEquilibrium)
 {
     const Situation& situation = GetParam();
     Domain domain = domainOf(polygonLoop({{-4e-3, -4e-3}, {4e-3, -4e-3}, {4e-3, 4e-3}, {-4e-3, 4e-3}}));
@@ -674,12 +674,12 @@ TEST_P(EvolverAndUs, HaveTheSameEquilibrium)
     EXPECT_NEAR(ours.height, theirs.height, 1e-8 * theirs.height);
     EXPECT_NEAR(ours.volumes.at(0), theirs.volumes.at(0), 1e-10 * theirs.volumes.at(0));
     EXPECT_NEAR(ours.pressures.at(0), theirs.pressures.at(0), 1e-8 * std::abs(theirs.pressures.at(0)));
-    // So that there was something to find.
+    // The start differs from the solution.
     EXPECT_GT(start.energy, theirs.energy + 1e-7 * std::abs(theirs.energy));
 }
 
-// A large disc on a steep slope, which runs dry at its upper end. What we left dry stays so; Evolver must find the same
-// between there and the rim, and nothing of it below the ground.
+// A large disc on a steep slope is dry at its upper end. Dry vertices stay fixed; between them and the rim Evolver must
+// find the same heights, none below the ground.
 TEST(Evolver, EvolverAgreesWhereTheGroundIsDry)
 {
     Droplets droplets;

@@ -84,7 +84,7 @@ const tinygltf::Primitive& onlyPrimitive(const tinygltf::Model& model)
     return model.meshes.at(0).primitives.at(0);
 }
 
-// A strip of triangles over that many vertices, none of them welded.
+// Strip of triangles with a given number of vertices, none of them welded.
 Surface strip(std::uint32_t vertices)
 {
     Surface surface;
@@ -188,7 +188,7 @@ TEST_P(Gltf, HoldsTheSurfaceAsFloatsWithYUp)
     }
 }
 
-TEST_P(Gltf, ContactAnglesAreDegreesInAnAttributeOfOurOwn)
+TEST_P(Gltf, ContactAnglesAreDegreesInACustomAttribute)
 {
     const Surface surface = withContactAngles(roundDroplet());
     const tinygltf::Model model = parsed(written(surface, {.binary = GetParam()}), GetParam());
@@ -204,7 +204,7 @@ TEST_P(Gltf, ContactAnglesAreDegreesInAnAttributeOfOurOwn)
         EXPECT_EQ(angles[i], static_cast<float>(surface.contact_angle[i] * 180.0 / 3.14159265358979323846));
     }
     EXPECT_EQ(on_rim, 12U);
-    // The rest is what it is without.
+    // All other data is the same as without contact angles.
     const tinygltf::Model without = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
     EXPECT_EQ(numbersOf<float>(model, primitive.attributes.at("POSITION")),
               numbersOf<float>(without, onlyPrimitive(without).attributes.at("POSITION")));
@@ -246,7 +246,7 @@ TEST_P(Gltf, BoundsArePreciselyThoseOfTheFloats)
     }
 }
 
-TEST_P(Gltf, NothingIsRequiredToShowIt)
+TEST_P(Gltf, RequiresNoExtension)
 {
     for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
         const tinygltf::Model model =
@@ -282,7 +282,7 @@ TEST_P(Gltf, IsByteForByteWhatTinygltfWrites)
     }
 }
 
-TEST_P(Gltf, IsNeverHeldWhole)
+TEST_P(Gltf, IsWrittenInPieces)
 {
     const Surface surface = strip(70'000);
     Pieces pieces;
@@ -292,7 +292,7 @@ TEST_P(Gltf, IsNeverHeldWhole)
     EXPECT_LE(pieces.largest(), 65'536U);
 }
 
-TEST_P(Gltf, NamesItsMakerAndNoTime)
+TEST_P(Gltf, NamesItsGeneratorButNoTime)
 {
     const tinygltf::Model model = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
     EXPECT_EQ(model.asset.version, "2.0");
@@ -310,7 +310,7 @@ TEST_P(Gltf, SixteenBitIndicesEndBelow65535Vertices)
     EXPECT_EQ(*std::max_element(wide.begin(), wide.end()), 65534U);
 }
 
-TEST_P(Gltf, RefusesWhatIsNotFinite)
+TEST_P(Gltf, RefusesNumbersThatAreNotFinite)
 {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<std::function<void(Surface&)>> spoils = {
@@ -340,7 +340,7 @@ TEST_P(Gltf, RefusesWhatIsNotFinite)
 
 TEST_P(Gltf, RefusesFilesOf2GiB)
 {
-    // A vertex has 32 bytes, 42.7 in base64: these only just do not fit.
+    // A vertex has 32 bytes, 42.7 in base64: this number just exceeds the limit.
     const std::size_t vertices = GetParam() ? 67'200'000 : 50'400'000;
     const long wanted = static_cast<long>(vertices * sizeof(Vec3) / 1024) * 5 / 4;
     if (::sysconf(_SC_AVPHYS_PAGES) * (::sysconf(_SC_PAGESIZE) / 1024) < wanted) {
@@ -360,7 +360,7 @@ TEST_P(Gltf, RefusesFilesOf2GiB)
     };
     EXPECT_THAT(complaint(), HasSubstr("2 GiB"));
     surface.positions.resize(vertices - 200'000);
-    EXPECT_THAT(complaint(), HasSubstr("normals"));  // the next thing wrong with it
+    EXPECT_THAT(complaint(), HasSubstr("normals"));  // the next error
 }
 
 TEST(Glb, IsAHeaderAndTwoPaddedChunks)
@@ -379,7 +379,7 @@ TEST(Glb, IsAHeaderAndTwoPaddedChunks)
     EXPECT_EQ(json % 4, 0U);
     EXPECT_EQ(word(20 + json) + 28 + json, bytes.size());
     EXPECT_EQ(bytes.substr(24 + json, 4), std::string("BIN\0", 4));
-    // What the check of the file's size takes for granted.
+    // The check of the file's size assumes this.
     EXPECT_LT(json + 28, 4096U);
 }
 
@@ -395,7 +395,7 @@ TEST(GltfText, HoldsTheSameBufferAsTheBinary)
     EXPECT_EQ(from_text.materials, from_binary.materials);
 }
 
-// Base64 fills up what is no multiple of three bytes.
+// Base64 pads lengths that are not multiples of three bytes.
 TEST(GltfText, HoldsBuffersOfAnyLength)
 {
     std::vector<std::size_t> fills(3);

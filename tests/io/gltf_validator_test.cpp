@@ -27,7 +27,7 @@ struct Verdict {
     std::string text;
 };
 
-// Of the Khronos validator; a missing node or package is a failure as any other.
+// Output of the Khronos validator; a missing node or package is a failure, too.
 Verdict validated(const std::vector<fs::path>& files)
 {
     std::string command = "node '" + std::string(testing::kValidator) + "'";

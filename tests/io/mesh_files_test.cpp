@@ -70,7 +70,7 @@ std::size_t places(const Surface& surface)
     return count;
 }
 
-// The lines of an OBJ, by keyword.
+// Lines of an OBJ, by keyword.
 std::map<std::string, std::vector<std::string>> linesOf(const std::string& obj)
 {
     std::map<std::string, std::vector<std::string>> lines;
@@ -148,12 +148,12 @@ TEST(Obj, HasNineSignificantDigits)
     EXPECT_THAT(obj, HasSubstr(" 6.66666667e-06\n"));
 }
 
-TEST(Obj, KnowsNoNegativeZero)
+TEST(Obj, WritesNoNegativeZero)
 {
     EXPECT_THAT(written(writeObjInMillimetres, roundDroplet()), ::testing::Not(HasSubstr(" -0\n")));
 }
 
-// As in German, with points between thousands.
+// Locale with a decimal comma and points between thousands, as in German.
 class CommaForPoint : public std::numpunct<char> {
 protected:
     char do_decimal_point() const override { return ','; }
@@ -168,7 +168,7 @@ TEST(Obj, DoesNotDependOnTheLocale)
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaForPoint));
     std::string found;
     {
-        std::ostringstream out;  // takes the global locale
+        std::ostringstream out;  // uses the global locale
         writeObj(surface, out);
         found = out.str();
     }
@@ -206,7 +206,7 @@ TEST(Ply, HoldsContactAnglesInDegrees)
             offset += 36;
         }
     }
-    // The others have no place for them.
+    // The other formats have no contact angles.
     EXPECT_EQ(written(writeObjInMillimetres, surface), written(writeObjInMillimetres, roundDroplet()));
     EXPECT_EQ(written(writeStlInMillimetres, surface), written(writeStlInMillimetres, roundDroplet()));
 }
@@ -290,8 +290,8 @@ TEST(Stl, AFacetWithoutAreaHasNoNormal)
     }
 }
 
-// Whatever the unit, our own reader finds the size again.
-TEST(MeshFiles, KnowTheirUnit)
+// Our reader restores the size for every unit.
+TEST(MeshFiles, StateTheirUnit)
 {
     const testing::ScratchDirectory scratch;
     const Surface surface = roundDroplet();
@@ -322,7 +322,7 @@ TEST(MeshFiles, KnowTheirUnit)
     }
 }
 
-TEST(MeshFiles, MaterialsOfObjSayWhatTheyAre)
+TEST(MeshFiles, ObjMaterialsHaveTheirProperties)
 {
     const auto mtl = [](Material material) {
         std::ostringstream out;
@@ -358,7 +358,7 @@ TEST_P(MeshFile, TheSameSurfaceGivesTheSameBytes)
     EXPECT_EQ(written(GetParam().writer, roundDroplet()), written(GetParam().writer, roundDroplet()));
 }
 
-TEST_P(MeshFile, RefusesWhatIsNotFinite)
+TEST_P(MeshFile, RefusesNumbersThatAreNotFinite)
 {
     const std::vector<std::function<void(Surface&)>> spoils = {
         [](Surface& s) { s.positions[3].z = std::numeric_limits<double>::quiet_NaN(); },
@@ -374,9 +374,9 @@ TEST_P(MeshFile, RefusesWhatIsNotFinite)
     }
 }
 
-TEST_P(MeshFile, WritesNonManifoldsWhole)
+TEST_P(MeshFile, WritesAllTrianglesOfNonManifolds)
 {
-    // Three triangles at an edge, one of them twice: half-edges would drop some.
+    // Three triangles share an edge, and one is repeated: half-edges would drop some.
     const Surface surface = testing::soup({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {0, 1, 4}}, 5);
     const std::string bytes = written(GetParam().writer, surface);
     const std::string name = GetParam().name;

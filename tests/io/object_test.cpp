@@ -59,7 +59,7 @@ std::string glb(std::string json, std::string buffer)
     return "glTF" + littleEndian(2) + littleEndian(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
 }
 
-/// A file of one buffer, put together accessor by accessor.
+/// Builder of a file with one buffer, accessor by accessor.
 class Draft {
 public:
     /// Returns the accessor's index.
@@ -99,7 +99,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Two triangles in the plane y = 0 of glTF, normals and uv given: accessors 0, 1, 2.
+/// Two triangles in glTF's plane y = 0, with normals and uv: accessors 0, 1, 2.
 Draft square()
 {
     Draft draft;
@@ -256,7 +256,7 @@ TEST_F(Object, BuffersMayLieBesideTheFile)
     expectFileRefused(path("object.gltf"), "bytes of");
     for (const char* const elsewhere : {"/etc/passwd", "https://example.org/a.bin"}) {
         writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), elsewhere));
-        expectFileRefused(path("object.gltf"), "not beside the file");
+        expectFileRefused(path("object.gltf"), "must be a file beside");
     }
     writeFile(path("object.gltf"), draft.json(scene(kSquare + kIndices), "data:text/plain,abc"));
     expectFileRefused(path("object.gltf"), "base64");
@@ -264,7 +264,7 @@ TEST_F(Object, BuffersMayLieBesideTheFile)
     expectFileRefused(path("object.gltf"), "base64");
 }
 
-// A node with translation, rotation and scale within one with a matrix: as if the vertices had been moved one by one.
+// A node with translation, rotation and scale, inside one with a matrix, equals moving every vertex by hand.
 TEST_F(Object, NodesMoveTheirMeshes)
 {
     const std::string half = std::to_string(std::sqrt(0.5));
@@ -306,8 +306,8 @@ TEST_F(Object, NormalsAndWindingFollowMirrorsAndUnevenScales)
     }
 }
 
-// A cube whose faces have vertices of their own, each face cut by a diagonal, so that counting triangles would lean.
-TEST_F(Object, MissingNormalsAreThoseOfThePlacesAngles)
+// Cube whose faces have their own vertices. Diagonals cut the faces, so a mean over triangles would be tilted.
+TEST_F(Object, MissingNormalsAreWeightedByAngles)
 {
     Draft draft;
     std::vector<float> positions;
@@ -339,7 +339,7 @@ TEST_F(Object, MissingNormalsAreThoseOfThePlacesAngles)
     }
 }
 
-// The can in data/: metres as its generator says, normals outward, and a texture as wide as it is around.
+// The can in data/ has the size that its generator states, outward normals, and a texture as wide as its circumference.
 TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
 {
     const TexturedMesh mesh = readObject(testing::inSource("data/can.glb"));
@@ -362,10 +362,10 @@ TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
             EXPECT_GT(dot(normal, mesh.normals[v]), 0.9 * length(normal));
         }
     }
-    EXPECT_NEAR(metresPerUv(mesh) / (2.0 * std::numbers::pi * 33e-3), 1.0, 1e-3);  // of 64 chords
+    EXPECT_NEAR(metresPerUv(mesh) / (2.0 * std::numbers::pi * 33e-3), 1.0, 1e-3);  // the can has 64 chords
 }
 
-TEST_F(Object, RefusesWhatCannotCarryDroplets)
+TEST_F(Object, RefusesUnusableMeshes)
 {
     expectRefused(indexedSquare().file(scene(R"("attributes":{"POSITION":0,"NORMAL":1})" + kIndices)),
                   "mesh \"lid\" has no texture coordinates");
@@ -386,7 +386,7 @@ TEST_F(Object, RefusesWhatCannotCarryDroplets)
     }
 }
 
-TEST_F(Object, RefusesWhatItDoesNotRead)
+TEST_F(Object, RefusesUnsupportedData)
 {
     Draft sparse = indexedSquare();
     sparse.add(floats({0, 0, 0, 0, 0, 0, 0, 0}), 5126, "VEC2", 4, R"(,"sparse":{"count":1})");
@@ -403,15 +403,15 @@ TEST_F(Object, RefusesDamagedFiles)
 {
     expectFileRefused(path("missing.glb"), "No such file");
     expectFileRefused(path(""), "directory");
-    expectFileRefused(std::filesystem::path("/dev/zero"), "no glTF");
-    expectRefused("", "no glTF");
-    expectRefused("solid teapot\n", "no glTF");
-    expectRefused("{\"nodes\":", "no glTF");
-    expectRefused("[]", "no glTF");
+    expectFileRefused(std::filesystem::path("/dev/zero"), "not glTF");
+    expectRefused("", "not glTF");
+    expectRefused("solid teapot\n", "not glTF");
+    expectRefused("{\"nodes\":", "not glTF");
+    expectRefused("[]", "not glTF");
     expectRefused("glTF", "cut short");
     const std::string whole = indexedSquare().file(scene(kSquare + kIndices));
     expectRefused(whole.substr(0, whole.size() - 4), "cut short");
-    std::string chunk = whole;  // the last chunk claims four bytes more than there are
+    std::string chunk = whole;  // the last chunk claims four bytes more than the file has
     const std::size_t at = chunk.find(std::string("BIN\0", 4)) - 4;
     chunk[at] = static_cast<char>(chunk[at] + 4);
     expectRefused(chunk, "cut short");
@@ -433,8 +433,8 @@ TEST_F(Object, RefusesDamagedFiles)
     expectRefused(square().file(scene(kSquare, R"(,"scale":[1e999,1,1])")), "");
 }
 
-// What tinygltf alone would overlook, fetch, or follow without end.
-TEST_F(Object, HandsOverNothingThatIsNotChecked)
+// tinygltf alone would overlook these errors, load other files, or recurse without limit.
+TEST_F(Object, ChecksTheFileBeforeTinygltfReadsIt)
 {
     const std::string square_scene = scene(kSquare + kIndices);
     const auto changed = [&](const std::string& what, const std::string& to) {
@@ -443,10 +443,10 @@ TEST_F(Object, HandsOverNothingThatIsNotChecked)
         return glb(json, indexedSquare().buffer());
     };
     EXPECT_EQ(read(changed("\"mesh\":0", "\"mesh\":0.0")).triangles, kTwo);
-    expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is no index");
-    expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is no index");
-    expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is no list");
-    expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is no index or count");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0.5"), "\"mesh\" is not a valid index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":4294967296"), "\"mesh\" is not a valid index");
+    expectRefused(changed("\"mesh\":0", "\"mesh\":0,\"children\":0"), "\"children\" is not a list");
+    expectRefused(changed("\"byteOffset\":0", "\"byteOffset\":-4"), "\"byteOffset\" is not a valid index or count");
     expectRefused(changed("\"buffers\":[{\"byteLength\":", "\"buffers\":[{\"byteLength\":0,\"was\":"), "bytes of 0");
     expectRefused(changed("\"buffers\"", "\"buffer\""), "buffers[0] does not exist");
     const std::string nested = std::string(100000, '[') + std::string(100000, ']');
@@ -455,7 +455,7 @@ TEST_F(Object, HandsOverNothingThatIsNotChecked)
               kTwo);
 }
 
-TEST_F(Object, BuffersMayBeLongerThanTheySay)
+TEST_F(Object, BuffersMayBeLongerThanStated)
 {
     const Draft draft = indexedSquare();
     writeFile(path("data.bin"), draft.buffer() + "more");
@@ -464,20 +464,20 @@ TEST_F(Object, BuffersMayBeLongerThanTheySay)
     const std::string a = R"({"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],)"
                           R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)"
                           R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")";
-    // 36 bytes of 0, and three more.
+    // The data is 36 zero bytes and three more.
     for (const char* const kind : {"data:;base64,", "data:application/x-any;charset=none;base64,"}) {
         expectRefused(a + kind + std::string(52, 'A') + "\"}]}", "no texture coordinates");
         expectRefused(a + kind + std::string(47, 'A') + "\"}]}", "Failed to decode");
     }
 }
 
-// Cut anywhere and with any byte changed, it is read as valid or refused.
-TEST_F(Object, DamageNeverDoesHarm)
+// Files cut at any place or with any byte changed are read as valid or refused.
+TEST_F(Object, ReadsDamagedFilesAsValidOrRefusesThem)
 {
     const std::string whole = indexedSquare().file(scene(kSquare + kIndices, R"(,"translation":[1,2,3])"));
     std::size_t refused = 0;
     const auto survive = [&](const std::string& bytes) {
-        std::filesystem::remove(path());  // file systems flush what is written over
+        std::filesystem::remove(path());  // file systems flush overwritten files
         writeFile(path(), bytes);
         try {
             const TexturedMesh mesh = readObject(path());
@@ -497,7 +497,7 @@ TEST_F(Object, DamageNeverDoesHarm)
             bytes[at] = static_cast<char>(bytes[at] ^ change);
             survive(bytes);
         }
-        std::string text = whole;  // another digit, where there is one, is another index, count or offset
+        std::string text = whole;  // a changed digit is another index, count or offset
         text[at] = '9';
         survive(text);
     }

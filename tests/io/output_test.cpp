@@ -69,7 +69,7 @@ mode_t modeOf(const fs::path& path)
     return status.st_mode & 07777;
 }
 
-// What the command would print; empty if nothing was thrown.
+// Message of the Error thrown; empty if none.
 std::string complaint(const std::function<void()>& act)
 {
     try {
@@ -82,7 +82,7 @@ std::string complaint(const std::function<void()>& act)
     return "";
 }
 
-// Runs in a process of its own, where limits and rights can be lowered; its exit status.
+// Runs a function in its own process, where limits and rights can be lowered; returns the exit status.
 int inChild(const std::function<void()>& act)
 {
     std::fflush(nullptr);
@@ -107,7 +107,7 @@ void demand(bool condition)
     }
 }
 
-// Even root is then bound by permissions.
+// Drops root's privileges, so that permissions apply.
 void giveUpCapabilities()
 {
     __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
@@ -115,7 +115,7 @@ void giveUpCapabilities()
     demand(::syscall(SYS_capset, &header, none.data()) == 0);
 }
 
-// As on a file system that knows no files without a name and, on wish, no renaming without replacing.
+// Simulates a file system without nameless files and, optionally, without RENAME_NOREPLACE.
 void withoutNamelessFiles(bool without_noreplace)
 {
     constexpr auto kFlags = static_cast<__u32>(offsetof(seccomp_data, args) + 2 * sizeof(__u64));
@@ -187,7 +187,7 @@ TEST_F(Output, WritesEveryByteAndCountsThem)
         }
         EXPECT_EQ(writeWhole(target, text(bytes)), size);
         EXPECT_EQ(contentOf(target), bytes);
-        // The same in small pieces and single characters, across the buffer's end.
+        // The same data in small pieces and single characters, across the buffer's end.
         const auto in_pieces = [&](std::ostream& out) {
             for (std::size_t i = 0; i < size; i += 8) {
                 out.put(bytes[i]);
@@ -233,7 +233,7 @@ TEST_F(Output, ANewFileHasThePermissionsOfAnyNewFile)
     EXPECT_EQ(modeOf(target), 0640U);
 }
 
-TEST_F(Output, NothingIsSeenBeforeAllIsThere)
+TEST_F(Output, TheFileAppearsOnlyWhenComplete)
 {
     store(target, kOld);
     writeWhole(target, [&](std::ostream& out) {
@@ -243,7 +243,7 @@ TEST_F(Output, NothingIsSeenBeforeAllIsThere)
     EXPECT_EQ(contentOf(target), std::string(200'000, 'x'));
 }
 
-TEST_F(Output, WhatTheWriterThrowsComesThroughAndNothingChanges)
+TEST_F(Output, ExceptionsOfTheWriterPassAndNothingChanges)
 {
     const auto break_off = [](std::ostream& out) {
         out << std::string(200'000, 'x');
@@ -302,7 +302,7 @@ TEST_F(Output, DevFullIsFullForManyBytesAndForFew)
     EXPECT_NO_THROW(checkWritable("/dev/full"));
 }
 
-TEST_F(Output, DevNullTakesAllEvenIfNothingMayBeReplaced)
+TEST_F(Output, DevNullTakesEverythingEvenWithNoClobber)
 {
     EXPECT_EQ(writeWhole("/dev/null", text("gone"), {.no_clobber = true}), 4U);
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -314,7 +314,7 @@ struct Hopeless {
     const char* cause;
 };
 
-TEST_F(Output, HopelessPlacesAreKnownBeforehand)
+TEST_F(Output, CheckingFindsUnwritablePaths)
 {
     store(folder / "file", kOld);
     fs::create_directory(folder / "folder");
@@ -399,7 +399,7 @@ TEST_F(Output, NoClobberRefusesAnExistingFile)
     EXPECT_EQ(contentOf(target), kOld);
 }
 
-TEST_F(Output, NoClobberRefusesAFileThatCameMeanwhile)
+TEST_F(Output, NoClobberRefusesAFileThatAppearedMeanwhile)
 {
     const std::string said = complaint([&] {
         writeWhole(target,
@@ -421,7 +421,7 @@ TEST_F(Output, NoClobberWritesANewFile)
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
 }
 
-TEST_F(Output, WithoutNamelessFilesAllIsTheSame)
+TEST_F(Output, WorksWithoutNamelessFiles)
 {
     for (const bool without_noreplace : {false, true}) {
         const fs::path fresh = folder / "fresh.glb";
@@ -477,7 +477,7 @@ TEST_F(Output, AKilledProcessLeavesNothingBehind)
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
 }
 
-TEST_F(Output, ASignalsHandlerRemovesWhatIsHalfWritten)
+TEST_F(Output, ASignalHandlerRemovesUnfinishedFiles)
 {
     store(target, kOld);
     const int status = inChild([&] {
@@ -537,7 +537,7 @@ TEST_F(Output, ARelativeNameMeansTheWorkingFolder)
     EXPECT_EQ(contentOf(target), "new");
 }
 
-TEST_F(Output, TheLongestNameServes)
+TEST_F(Output, TheLongestNameIsAccepted)
 {
     const fs::path longest = folder / std::string(255, 'x');
     writeWhole(longest, text("new"));
@@ -549,7 +549,7 @@ TEST_F(Output, ALineBreakInANameDoesNotBreakTheMessage)
     EXPECT_THAT(complaint([&] { checkWritable(folder / "a\nb" / "c"); }), HasSubstr("a?b/c"));
 }
 
-TEST_F(Output, APipeGetsAll)
+TEST_F(Output, APipeGetsEverything)
 {
     const fs::path pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -562,7 +562,7 @@ TEST_F(Output, APipeGetsAll)
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST_F(Output, StandardOutputIsContinuedNotReplaced)
+TEST_F(Output, StandardOutputIsAppendedToNotReplaced)
 {
     for (const char* place : {"/dev/stdout", "/proc/self/fd/1", "/dev/fd/1"}) {
         store(target, "before ");
@@ -615,7 +615,7 @@ TEST_F(Output, ANonBlockingPipeIsWaitedFor)
     EXPECT_EQ(received, bytes);
 }
 
-TEST_F(Output, OfTwoAtOnceOneIsWhole)
+TEST_F(Output, OfTwoConcurrentWritesOneIsComplete)
 {
     const auto write_many = [&](char letter) {
         for (int i = 0; i < 50; ++i) {
@@ -645,7 +645,7 @@ TEST(FormatNamed, KnowsNamesAndExtensions)
     EXPECT_EQ(formatNamed("Ply"), Format::Ply);
 }
 
-TEST(FormatNamed, KnowsNoOther)
+TEST(FormatNamed, RefusesOtherNames)
 {
     for (const char* wrong : {"", ".", "..glb", "glb ", "3mf", "gl", "glbx"}) {
         try {
@@ -669,7 +669,7 @@ TEST(WriteSurface, GivesVolumeToClosedSurfacesOnly)
     }
 }
 
-TEST(WriteSurface, DoesNotLookAgainAtWhatIsKnown)
+TEST(WriteSurface, UsesAKnownClosedFlag)
 {
     const Surface closed = testing::roundDroplet();
     for (const Format format : {Format::Glb, Format::Gltf}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a page holds; what it does is in page/browser_test.cpp.
+// Content of a page; page/browser_test.cpp tests its behaviour.
 #include "droplet/io/page.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Words and signs that end elements, scripts and strings, or begin comments and escapes.
+// Text that ends elements, scripts and strings, or begins comments and escapes.
 const std::string kHostile =
     "</script><script>alert(1)</script> </title> <!-- <script> --> ]]> \"'`\\u003c/script\\u003e &lt;/title&gt; "
     "\xe2\x80\xa8 \xe2\x80\xa9 ${x} {{model}} %s\n\t\x01\x7f end";
@@ -39,7 +39,7 @@ PageContent content(const std::string& title = "a droplet", const std::string& r
     return {title, "glTF" + std::string("\x02\x00\x00\x00", 4), report};
 }
 
-/// What stands between the tag that opens with these words and its end tag.
+/// Content between the tag that begins with these words and its end tag.
 std::string element(const std::string& html, const std::string& opening, const std::string& closing)
 {
     const auto at = html.find(opening);
@@ -83,7 +83,7 @@ std::size_t countOf(const std::string& text, const std::string& word)
     return count;
 }
 
-TEST(Page, IsOneHtmlFileWithNothingOutside)
+TEST(Page, IsOneSelfContainedHtmlFile)
 {
     const std::string html = page(content());
     EXPECT_THAT(html, StartsWith("<!doctype html>"));
@@ -139,7 +139,7 @@ TEST(Page, NothingBreaksOutOfItsElement)
     const std::string html = page(content(kHostile, report.dump()));
     EXPECT_EQ(contentOf(html)["title"], kHostile);
     EXPECT_EQ(contentOf(html)["report"], report);
-    // No tag more than without it.
+    // There are as many tags as without it.
     for (const std::string word : {"<script", "</script", "<!--", "<title", "</title"}) {
         EXPECT_EQ(countOf(html, word), countOf(plain, word)) << word;
     }
@@ -155,7 +155,7 @@ TEST(Page, BytesThatAreNotUtf8AreReplaced)
     EXPECT_EQ(contentOf(html)["title"], "caf\xef\xbf\xbd \xef\xbf\xbd");
 }
 
-TEST(Page, TellsNothingOfTheRun)
+TEST(Page, LeavesOutTimesAndMemory)
 {
     Report report;
     std::ostringstream first;
@@ -173,7 +173,7 @@ TEST(Page, TellsNothingOfTheRun)
     EXPECT_TRUE(contentOf(html)["report"].contains("shape"));
 }
 
-TEST(Page, RefusesWhatItCannotShow)
+TEST(Page, RefusesInvalidContent)
 {
     const auto refusal = [](const PageContent& wrong) -> std::string {
         std::ostringstream out;
@@ -194,7 +194,7 @@ TEST(Page, RefusesWhatItCannotShow)
     }
 }
 
-TEST(Page, LeavesTheStreamFailedThatTakesNoMore)
+TEST(Page, LeavesAStreamFailedThatIsFull)
 {
     std::ostringstream out;
     out.setstate(std::ios::badbit);

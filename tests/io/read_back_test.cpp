@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every format read back by a library that had no part in writing it.
+// Every format, read back by an independent library.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ protected:
         ASSERT_TRUE(mesh->HasFaces());
     }
 
-    // From the file's unit and axes back to metres, z up.
+    // Converts the file's unit and axes to metres, z up.
     [[nodiscard]] static Vec3 turnedBack(const aiVector3D& a)
     {
         return GetParam().y_up ? Vec3{a.x, -static_cast<double>(a.z), a.y} : Vec3{a.x, a.y, a.z};
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(EveryFormat, ReadBack,
 
 TEST_P(ReadBack, TheVolumeIsThatOfThePyramid)
 {
-    // One ring of triangles: a pyramid over a regular polygon, its volume known without any mesh.
+    // One ring of triangles is a pyramid over a regular polygon, whose volume has a formula.
     ASSERT_NO_FATAL_FAILURE(read(roundDroplet({.outer = 3e-3, .height = 2e-3, .rings = 1, .segments = 7})));
     EXPECT_EQ(mesh->mNumFaces, 14U);
     EXPECT_NEAR(volume() / (testing::polygonArea(3e-3, 7) * 2e-3 / 3.0), 1.0, 1e-6);
@@ -112,7 +112,7 @@ TEST_P(ReadBack, EveryTriangleStandsWhereItStood)
     }
 }
 
-TEST_P(ReadBack, ARefillIsAMorphTargetOfGltfAndInNoOthersWay)
+TEST_P(ReadBack, ARefillIsAMorphTargetInGltfOnly)
 {
     const Surface surface = testing::withRefill(roundDroplet({.centre = {2e-3, -4e-3}}));
     ASSERT_NO_FATAL_FAILURE(read(surface));
@@ -122,7 +122,7 @@ TEST_P(ReadBack, ARefillIsAMorphTargetOfGltfAndInNoOthersWay)
         return;
     }
     ASSERT_EQ(mesh->mNumAnimMeshes, 1U);
-    const aiAnimMesh& target = *mesh->mAnimMeshes[0];  // where vertices are at weight 1, that is at two fills
+    const aiAnimMesh& target = *mesh->mAnimMeshes[0];  // positions at weight 1, which is a fill of 2
     EXPECT_STREQ(target.mName.C_Str(), "volume");
     ASSERT_EQ(target.mNumVertices, surface.positions.size());
     const Surface twice = refilled(surface, 2.0);
@@ -147,7 +147,7 @@ TEST_P(ReadBack, NormalsAndTextureCoordinatesBelongToTheirCorners)
             const std::uint32_t vertex = surface.triangles[t][k];
             const Vec3 normal = surface.normals[crisp ? vertex : surface.weld[vertex]];
             EXPECT_LT(length(turnedBack(mesh->mNormals[read_vertex]) - normal), 1e-6);
-            // Assimp turns glTF's v over, to have every format's origin below.
+            // Assimp flips glTF's v, so that every format has its origin at the bottom.
             const aiVector3D uv = mesh->mTextureCoords[0][read_vertex];
             EXPECT_NEAR(uv.x, surface.uvs[vertex].x, 1e-6);
             EXPECT_NEAR(uv.y, 1.0 - surface.uvs[vertex].y, 1e-6);
@@ -181,7 +181,7 @@ TEST_P(ReadBack, WeldedByPlaceItIsClosedWithTheRightEulerNumber)
     }
 }
 
-// Takes so many bytes and no more; like a file it has a buffer, so that it is full only once that is written out.
+// Stream buffer with limited room. Like a file it has a buffer, so it fails only when that is written out.
 class SmallDisk : public std::streambuf {
 public:
     explicit SmallDisk(std::size_t bytes) : left_(bytes) { setp(buffer_.begin(), buffer_.end()); }

@@ -70,7 +70,7 @@ TEST_F(ReadSurfaceTest, EveryFormatHoldsTheSurfaceThatWasWritten)
         for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl}) {
             const Surface found = read(std::string("droplet.") + name(format), written(surface, format));
             const Comparison between = compare(surface, found);
-            // Floats, and nine digits of millimetres: half a unit in the last place of 5 mm.
+            // Tolerance: floats, or nine digits in millimetres: half a unit in the last place of 5 mm.
             EXPECT_LT(between.symmetric.upper, 1e-9) << name(format);
             EXPECT_TRUE(between.same_topology) << name(format);
             EXPECT_EQ(found.triangles.size(), surface.triangles.size());
@@ -100,7 +100,7 @@ TEST_F(ReadSurfaceTest, NormalsOfStlAreTheFacets)
     }
 }
 
-TEST_F(ReadSurfaceTest, ContactAnglesAreReadWhereFilesHaveThem)
+TEST_F(ReadSurfaceTest, ReadsContactAnglesIfPresent)
 {
     const Surface surface = testing::withContactAngles(roundDroplet());
     for (const Format format : {Format::Glb, Format::Ply}) {
@@ -123,9 +123,9 @@ TEST_F(ReadSurfaceTest, ObjInEveryNotation)
     EXPECT_EQ(plain.positions.size(), 4U);
     EXPECT_TRUE(topology(plain).closed);
     EXPECT_NEAR(enclosedVolume(plain), 1e-9 / 6.0, 1e-22);
-    // y up: the third vertex is the one that is on top.
+    // The file is y up: the third vertex is on top.
     EXPECT_EQ(plain.positions[1], (Vec3{0.0, 0.0, 1e-3}));
-    // From behind, with textures and normals, comments, groups, blanks, carriage returns, plus signs.
+    // Negative indices, with textures and normals, comments, groups, blanks, carriage returns, plus signs.
     const std::string other =
         "# a tetrahedron\r\no t\r\n" + kTetrahedron +
         "vt 0 0\nvn 0 0 +1\ng a\n\n  f -4/1/1  -2/1/1 -3/1/1 # one\nf 1//1 2//1 4//1\r\nf 1/1 4/1 "
@@ -157,9 +157,9 @@ TEST_F(ReadSurfaceTest, PlyAndStlAsText)
         return text.replace(text.find("1e3"), 3, number);
     };
     EXPECT_EQ(read("exact.stl", with("0.1234567890123456")).positions[1].x, kMillimetre * 0.1234567890123456);
-    expectRefused("nan.stl", with("nan"), "no STL");
-    expectRefused("word.stl", with("one"), "no STL");
-    expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "no STL");
+    expectRefused("nan.stl", with("nan"), "not STL");
+    expectRefused("word.stl", with("one"), "not STL");
+    expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "not STL");
     expectRefused("cut.stl", "solid one\n" + facet, "cut short");
     expectRefused("empty.stl", "solid one\nendsolid one\n", "no triangles");
     for (std::size_t length = 0; length + 8 < ply.size(); ++length) {
@@ -184,8 +184,8 @@ TEST_F(ReadSurfaceTest, FilesCutAnywhereAreRefused)
 
 TEST_F(ReadSurfaceTest, DamageIsNamed)
 {
-    expectRefused("quad.obj", kTetrahedron + "f 1 2 3 4\n", "more than three corners; only triangles are read");
-    expectRefused("two.obj", kTetrahedron + "f 1 2\n", "line 5 has a face of less than three corners");
+    expectRefused("quad.obj", kTetrahedron + "f 1 2 3 4\n", "more than three corners; only triangles are supported");
+    expectRefused("two.obj", kTetrahedron + "f 1 2\n", "line 5 has a face with fewer than three corners");
     expectRefused("index.obj", kTetrahedron + "f 1 2 5\n", "names \"5\" of 4");
     expectRefused("zero.obj", kTetrahedron + "f 0 1 2\n", "names \"0\" of 4");
     expectRefused("back.obj", kTetrahedron + "f -5 1 2\n", "names \"-5\" of 4");
@@ -212,7 +212,8 @@ TEST_F(ReadSurfaceTest, DamageIsNamed)
     std::string stl = written(roundDroplet(), Format::Stl);
     stl.replace(84 + 12, 4, std::string("\0\0\xc0\x7f", 4));
     expectRefused("nan.stl", stl, "not finite");
-    expectRefused("more.stl", written(roundDroplet(), Format::Stl) + "x", "bytes, not those of as many triangles");
+    expectRefused("more.stl", written(roundDroplet(), Format::Stl) + "x",
+                  "bytes, which do not match its number of triangles");
     expectRefused("text.glb", "text", "");
     std::filesystem::create_directory(path("folder.obj"));
     EXPECT_THROW((void)readSurface(path("folder.obj")), Error);
@@ -226,14 +227,14 @@ TEST_F(ReadSurfaceTest, DamageIsNamed)
     }
 }
 
-TEST_F(ReadSurfaceTest, WhatMovesIsTakenAtRest)
+TEST_F(ReadSurfaceTest, ReadsTheRestPoseOfAnimatedFiles)
 {
     std::string gltf = written(roundDroplet(), Format::Gltf);
     const std::string mark = "\"attributes\"";
     gltf.insert(gltf.find(mark), "\"targets\":[{\"POSITION\":0}],");
     writeFile(path("moves.gltf"), gltf);
     const ReadSurface found = readSurface(path("moves.gltf"));
-    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("taken at rest")));
+    EXPECT_THAT(found.warnings, ::testing::ElementsAre(HasSubstr("the rest pose is read")));
     EXPECT_LT(compare(roundDroplet(), found.surface).symmetric.upper, 1e-9);
 }
 

@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-/// Every number different, so that one written under another's name shows.
+/// Report in which all numbers differ, so that exchanged keys are found.
 Report sampleReport()
 {
     Report report;
@@ -81,7 +81,7 @@ std::string written(const Report& report)
 
 std::vector<std::string> keysOf(const std::string& text, const std::string& pointer)
 {
-    // ordered_json: the order in the file is part of "the same bytes".
+    // ordered_json, because "the same bytes" includes the order.
     const auto parsed = nlohmann::ordered_json::parse(text);
     std::vector<std::string> keys;
     for (const auto& item : parsed[nlohmann::ordered_json::json_pointer(pointer)].items()) {
@@ -221,7 +221,7 @@ TEST(Report, PutsEveryValueUnderItsOwnName)
     EXPECT_EQ(report["peak_memory_bytes"], 987654321);
 }
 
-TEST(Report, HasNoPressureForAllWhereThereIsNone)
+TEST(Report, HasNoCommonPressureIfDropletsDiffer)
 {
     Report report = sampleReport();
     EXPECT_TRUE(json::parse(written(report))["shape"]["pressure_pa"].is_null());
@@ -276,7 +276,7 @@ TEST(Report, SaysWhetherDropletsWouldSlideOnlyWhenAsked)
     }
     EXPECT_TRUE(silent["liquid"]["advancing_deg"].is_null());
 
-    // Together they are held, and one of them slides nevertheless.
+    // All droplets together are held, but one of them slides.
     report.hysteresis = Hysteresis{100 * kDegree, 20 * kDegree};
     report.retention = Retention{3e-6, 5e-6};
     report.droplets[0].retention = Retention{1e-6, 4e-6};
@@ -295,7 +295,7 @@ TEST(Report, SaysWhetherDropletsWouldSlideOnlyWhenAsked)
     EXPECT_EQ(json::parse(written(report))["shape"]["would_slide"], false);
 }
 
-TEST(Report, TellsOfTheObjectDropletsWereLaidOn)
+TEST(Report, HoldsTheObjectUnderTheDroplets)
 {
     Report report = sampleReport();
     EXPECT_TRUE(json::parse(written(report))["onto"].is_null());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page in a real browser, from disk: what it shows, what it does, and that it asks for nothing.
+// Tests of the page in a real browser, from disk: display, controls, and no network requests.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using testing::writeFile;
 const std::string kHostile =
     "</script><script>window.executed=1</script></title><img src=x onerror=\"window.executed=1\"><!-- \"'&lt;";
 
-/// What every control does to this part of the pixels at least; what changes nothing stays below kNoise.
+/// Minimum share of pixels that a control changes; without an effect it stays below kNoise.
 constexpr double kSeen = 0.02;
 constexpr double kNoise = 0.002;
 
@@ -68,7 +68,7 @@ void makePages(const fs::path& folder)
     writePage(hostile, {kHostile, "glTF, but no more", report.dump()});
 }
 
-TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
+TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
 {
     const testing::ScratchDirectory scratch;
     makePages(scratch.path());
@@ -88,7 +88,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_TRUE(wide["labelled"]);
     EXPECT_THAT(wide["scale"].get<std::string>(), HasSubstr("mm"));
 
-    // The slider: from nothing to twice the liquid, seen and told.
+    // The slider fills the droplet from nothing to twice the liquid, in the picture and in the table.
     EXPECT_EQ(wide["range"], (nlohmann::json{"0", "2", "1"}));
     EXPECT_GT(wide["full"], kSeen);
     EXPECT_GT(wide["empty"], kSeen);
@@ -107,7 +107,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_EQ(wide["figures"]["Volume"], "40.0 µL");
     EXPECT_EQ(wide["figures"]["Liquid"], "Water");
     EXPECT_EQ(wide["figures"]["Picture"], "20.0 × 20.0 mm");
-    // At twice the liquid the table is that of a droplet made of twice the liquid, and then as it was.
+    // At twice the liquid the table equals that of a droplet made with twice the liquid; then it returns.
     for (const char* row : {"Volume", "Greatest height", "Contact angle", "Liquid surface", "Pressure", "Footprint"}) {
         EXPECT_EQ(wide["figures_full"][row], seen["told_full"][row]) << row;
     }
@@ -157,7 +157,7 @@ TEST(PageInBrowser, DoesWhatItShouldAndAsksForNothing)
     EXPECT_EQ(hostile["heading"], kHostile);
     EXPECT_EQ(hostile["scripts"], 3);
     EXPECT_EQ(hostile["images"], 0);
-    // What is no model is said, and can be had all the same.
+    // The page reports a damaged model and still offers it for download.
     EXPECT_EQ(hostile["state"], "failed");
     EXPECT_TRUE(hostile["trouble"]);
     EXPECT_TRUE(hostile["download"]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens pages from disk in a real browser and uses them as people do: node drive.mjs CHROMIUM FOLDER FIGURES_JS
-// FOLDER holds full.json, a report, water.html, exact.html, film.html, hostile.html and picture.png. Prints one JSON object of what was seen; what of
-// that is right is for the test to say.
+// Opens pages from disk in a real browser and operates their controls: node drive.mjs CHROMIUM FOLDER FIGURES_JS
+// FOLDER holds full.json, a report, water.html, exact.html, film.html, hostile.html and picture.png. Prints the
+// observations as one JSON object; the test judges them.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -9,7 +9,7 @@ import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
 const [executablePath, folder, figures_source] = process.argv.slice(2);
-const kWide = { width: 700, height: 300 };  // beside the panel, small: the processor draws
+const kWide = { width: 700, height: 300 };  // besides the panel; small, since rendering is in software
 const kPhone = { width: 360, height: 640 };
 
 const browser = await chromium.launch({
@@ -17,8 +17,8 @@ const browser = await chromium.launch({
     args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
         '--ignore-gpu-blocklist', '--disable-background-networking'],
 });
-const complaints = [];  // of console and pages
-const outside = [];     // requests for anything but the file itself
+const complaints = [];  // messages of console and pages
+const outside = [];     // requests other than for the file itself
 
 async function open(file, options) {
     const url = pathToFileURL(resolve(folder, file)).href;
@@ -32,9 +32,9 @@ async function open(file, options) {
         return route.abort();
     });
     const page = await context.newPage();
-    page.setDefaultTimeout(120_000);  // where many tests share the processor
+    page.setDefaultTimeout(120_000);  // enough when many tests share the processor
     page.on('console', (message) => {
-        // Of software drawing and of pictures taken Chromium tells at length; of nothing else it may.
+        // Chromium's messages about software rendering and screenshots are expected, no others.
         if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
             complaints.push(`${file}: ${message.text()}`);
         }
@@ -126,7 +126,7 @@ async function wide() {
     await page.waitForTimeout(400);
     seen.frames_at_rest = await frames(page) - before;
 
-    // By the keyboard, as by hand.
+    // The keyboard works like the mouse.
     seen.amounts = [await page.locator('#amount').innerText()];
     await page.locator('#fill').focus();
     await page.keyboard.press('End');
@@ -147,7 +147,7 @@ async function wide() {
     for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) {
         await page.keyboard.press(key);
     }
-    await page.locator('#view').blur();  // takes its frame away
+    await page.locator('#view').blur();  // removes the focus frame
     seen.turned_by_key = difference(first, await look(page));
     await page.locator('#view').press('Home');
     await page.locator('#view').blur();
@@ -183,7 +183,7 @@ async function phone() {
     seen.overflow = await page.evaluate(() => Math.max(document.documentElement.scrollWidth, document.body.scrollWidth) - innerWidth);
     seen.reachable = {};
     for (const id of ['fill', 'download', 'reset', 'picture']) {
-        // What a finger at its middle would touch.
+        // Finds the element that a finger at its middle would touch.
         seen.reachable[id] = await page.locator(`#${id}`).evaluate((control) => {
             control.scrollIntoView({ block: 'nearest' });
             const box = control.getBoundingClientRect();
@@ -260,7 +260,7 @@ async function film() {
     await settle(page);
     seen.moved_in_pause = await time() - paused;
     await page.context().close();
-    // Where motion is welcome it plays by itself.
+    // Without prefers-reduced-motion the animation plays by itself.
     const plays = await open('film.html', { viewport: kWide });
     await plays.waitForFunction(() => Number(document.getElementById('time').value) > 0.1);
     await plays.context().close();
@@ -279,7 +279,7 @@ async function hostile() {
         trouble: !document.getElementById('trouble').hidden,
         download: document.getElementById('download').checkVisibility(),
     }));
-    // Even a script that got in would be forbidden.
+    // The policy forbids even an injected script.
     seen.forbidden = await page.evaluate(() => {
         const script = document.createElement('script');
         script.textContent = 'window.executed = true';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What three.js makes of GLB files: their morph targets, and what an animation shows at every frame.
+// Loads a GLB file in three.js and prints its morph targets and the state of its animation at every frame.
 //
 //   node play.mjs THREE_FOLDER FRAMES_PER_SECOND FRAMES FILE
 import { readFileSync } from 'node:fs';

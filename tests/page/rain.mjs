@@ -26,7 +26,7 @@ async function show(file) {
     const renderer = new WebGLRenderer({ canvas: document.getElementById('view').cloneNode(), preserveDrawingBuffer: true });
     const scene = new Scene();
     scene.add(gltf.scene);
-    // Opaque and white: what is drawn is seen.
+    // Opaque and white, so that every drawn pixel is visible.
     scene.add(new AmbientLight(0xffffff, 3));
     gltf.scene.traverse((object) => {
         if (object.isMesh) {

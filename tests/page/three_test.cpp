@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What three.js's own loader, run by node, makes of our files.
+// Our files in three.js's own loader, run by node.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(Three, KnowsTheSliderByItsName)
     EXPECT_EQ(mesh.at("relative"), true);
 }
 
-// Every moment has one mesh, whose targets are those of the frame and add up to one, or to none at a run's first.
+// At every time one mesh is shown; its weights select the frame and add up to 1, or to 0 at a run's first frame.
 TEST(Three, PlaysOneMeshAfterAnother)
 {
     constexpr int kFrames = 12;
@@ -75,7 +75,7 @@ TEST(Three, PlaysOneMeshAfterAnother)
     EXPECT_EQ(order.size(), seen.at("meshes").size());
 }
 
-// In a real browser both forms of a model show the same droplets, the texture's by the shader of the documentation.
+// In a real browser both forms of a model show the same droplets; the texture form uses the example's shader.
 TEST(Three, PlaysRainByNodesAndByTexture)
 {
     testing::ScratchDirectory scratch;

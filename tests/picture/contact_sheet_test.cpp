@@ -41,11 +41,11 @@ TEST(ContactSheet, ShowsEveryTileWhole)
     sheet.validate();
     EXPECT_EQ(pixelsOf(sheet, kRed), 80U * 60U);
     EXPECT_EQ(pixelsOf(sheet, kBlue), 40U * 20U) << "small pictures are not enlarged";
-    // Large ones keep their aspect, and a plain colour stays what it is.
+    // Large pictures keep their aspect, and a plain colour does not change.
     EXPECT_EQ(pixelsOf(contactSheet({{plain(333, 111, kRed), ""}}, options), kRed), 80U * 27U);
 }
 
-TEST(ContactSheet, PicturesOfTheSizeToldAreNotShrunk)
+TEST(ContactSheet, PicturesOfTileSizeAreNotShrunk)
 {
     for (const int max : {8192, 300}) {
         const ContactSheetOptions options{.tile_width = 100, .tile_height = 75, .max_side = max};
@@ -58,7 +58,7 @@ TEST(ContactSheet, PicturesOfTheSizeToldAreNotShrunk)
     }
 }
 
-TEST(ContactSheet, RowsFollowTheOrderGiven)
+TEST(ContactSheet, FillsRowsInTheOrderGiven)
 {
     const ContactSheetOptions options{.columns = 1, .tile_width = 32, .tile_height = 32};
     const Picture sheet = contactSheet({{plain(32, 32, kRed), ""}, {plain(32, 32, kBlue), ""}}, options);
@@ -88,7 +88,7 @@ TEST(ContactSheet, StaysWithinItsSize)
     EXPECT_LE(contactSheet({many.begin(), many.begin() + 50}, {.max_side = 300}).height, 300);
 }
 
-TEST(ContactSheet, RefusesWhatItCannotLayOut)
+TEST(ContactSheet, RefusesImpossibleLayouts)
 {
     EXPECT_THROW(contactSheet({}), Error);
     EXPECT_THROW(contactSheet({{Picture{}, ""}}), Error);
@@ -111,7 +111,7 @@ TEST(Lettering, WidthsAddUpAndScale)
     EXPECT_EQ(fitted("\u00b0\u00b0\u00b0\u00b0\u00b0", 12.0, textWidth("\u00b0...", 12.0)), "\u00b0...");
 }
 
-// Every printable character leaves ink, none the same as another, and none is drawn beyond the picture.
+// Every printable character leaves ink, all differ, and none draws beyond the picture.
 TEST(Lettering, CharactersDiffer)
 {
     std::vector<Picture> drawn;

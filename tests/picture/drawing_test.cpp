@@ -29,7 +29,7 @@ std::string svgOf(const Drawing& drawing)
     return out.str();
 }
 
-/// How dark a pixel is, from 0 to 1.
+/// Darkness of a pixel, from 0 to 1.
 double inkAt(const Picture& picture, int x, int y)
 {
     const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
@@ -87,14 +87,14 @@ TEST(Drawing, DashesAreHalfOfTheLineHoweverItBends)
     const std::vector<Vec2> bent{{5.0, 5.0}, {45.0, 5.0}, {45.0, 45.0}, {5.0, 45.0}};
     const Drawing whole{50.0, 50.0, {Line{bent, kBlack, 3.0, 0.0}}};
     const Drawing dashed{50.0, 50.0, {Line{bent, kBlack, 3.0, 6.0}}};
-    // Ten dashes of 6, each with its round ends.
+    // There are ten dashes of length 6, each with round ends.
     EXPECT_NEAR(inkOf(pictureOf(dashed, 1.0)) / (10 * (18.0 + 2.25 * 3.14159265)), 1.0, 0.03);
     EXPECT_NEAR(inkOf(pictureOf(whole, 1.0)) / (3.0 * 120.0 + 2.25 * 3.14159265), 1.0, 0.03);
     EXPECT_THAT(svgOf(dashed), HasSubstr("stroke-dasharray=\"6\""));
     EXPECT_THAT(svgOf(whole), Not(HasSubstr("dasharray")));
 }
 
-TEST(Drawing, WhatLiesBeyondThePageIsLeftOut)
+TEST(Drawing, ClipsMarksToThePage)
 {
     const Drawing drawing{
         20.0,
@@ -104,7 +104,7 @@ TEST(Drawing, WhatLiesBeyondThePageIsLeftOut)
     EXPECT_NEAR(inkOf(pictureOf(drawing, 1.0)), 400.0, 1e-9);
 }
 
-TEST(Drawing, TextStandsByItsAnchor)
+TEST(Drawing, PlacesTextByItsAnchor)
 {
     const auto columns = [](Anchor anchor) {
         const Picture picture = pictureOf({200.0, 40.0, {Text{"m/s² −4", {100.0, 30.0}, 12.0, kBlack, anchor}}}, 1.0);
@@ -129,14 +129,14 @@ TEST(Drawing, TextStandsByItsAnchor)
     EXPECT_EQ(start_last - start_first, end_last - end_first);
 }
 
-TEST(Drawing, MarksThatStandForSomethingInSvgAreEscaped)
+TEST(Drawing, EscapesSpecialCharactersInSvg)
 {
     const std::string svg = svgOf({10.0, 10.0, {Text{"a<b & c>d", {1.0, 1.0}}}});
     EXPECT_THAT(svg, HasSubstr(">a&lt;b &amp; c&gt;d</text>"));
 }
 
-// An independent renderer draws the SVG as we paint it.
-TEST(Drawing, SvgIsThePicture)
+// An independent renderer draws the SVG as pictureOf draws the drawing.
+TEST(Drawing, SvgEqualsThePicture)
 {
     const Drawing drawing{128.0,
                           96.0,
@@ -156,7 +156,7 @@ TEST(Drawing, SvgIsThePicture)
     EXPECT_LT(difference / static_cast<double>(ours.rgb.size()), 0.5) << "levels of 255 on average";
 }
 
-TEST(Drawing, SideBySideEveryOneHasItsPlace)
+TEST(Drawing, PlacesDrawingsSideBySide)
 {
     const Drawing a{10.0, 8.0, {Area{{{0.0, 0.0}, {10.0, 0.0}, {10.0, 8.0}, {0.0, 8.0}}, kBlack, 1.0}}};
     const Drawing b{6.0, 12.0, {}};
@@ -171,7 +171,7 @@ TEST(Drawing, SideBySideEveryOneHasItsPlace)
     EXPECT_NEAR(inkOf(picture), 80.0, 1e-9);
 }
 
-TEST(Drawing, OfNoSizeOrTooLargeIsRefused)
+TEST(Drawing, RefusesEmptyAndTooLargePictures)
 {
     EXPECT_THROW(pictureOf({0.0, 10.0, {}}, 1.0), Error);
     EXPECT_THROW(pictureOf({1e5, 1e5, {}}, 1.0), Error);

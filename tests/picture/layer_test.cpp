@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layers, pictures of numbers, and pictures made to cover a frame.
+// Tests of layers, data pictures, and pictures scaled to cover a frame.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,14 +87,14 @@ TEST(LayerOver, MixesByAlpha)
     EXPECT_THROW((DeepPicture{1, 1, 2, {0, 0}}).validate(), Error);
 }
 
-TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
+TEST(Covering, KeepsTheMiddleOfThePicture)
 {
     Picture uneven{64, 36, {}};
     for (int i = 0; i < 3 * 64 * 36; ++i) {
         uneven.rgb.push_back(static_cast<std::uint8_t>(i * i % 251));
     }
     EXPECT_EQ(covering(uneven, 64, 36), uneven);
-    // A plain colour stays itself, whatever the sizes.
+    // A plain colour does not change at any size.
     for (const auto& [w, h] : {std::pair(1, 1), std::pair(100, 3), std::pair(7, 90), std::pair(200, 150)}) {
         Picture plain{33, 21, {}};
         for (int i = 0; i < 33 * 21; ++i) {
@@ -107,7 +107,7 @@ TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
             EXPECT_NEAR(scaled.rgb[i], (std::array{200, 100, 30})[i % 3], 1);
         }
     }
-    // Three stripes, of which a square frame keeps the one in the middle.
+    // Of three stripes, a square frame keeps the middle one.
     Picture stripes{30, 10, {}};
     for (int i = 0; i < 300; ++i) {
         const int stripe = i % 30 / 10;
@@ -124,7 +124,7 @@ TEST(Covering, KeepsWhatFitsAndTheMiddleOfTheRest)
     EXPECT_THROW(covering(uneven, 5, 9000), Error);
 }
 
-// Every value comes back as it is, whatever its size, with colours in their places.
+// Every value is preserved exactly, whatever its size, in its channel.
 TEST(FloatPicture, OpenExrHoldsItsValues)
 {
     for (const int channels : {1, 3}) {

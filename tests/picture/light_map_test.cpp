@@ -27,7 +27,7 @@ Light slanted()
     return {grey(1.0F), {{unit({0.5F, 0.2F, 0.7F}), 0.75F}, {unit({-0.3F, 0.6F, 0.9F}), 0.25F}}, false};
 }
 
-// Light that is missing on the plane, as an area [m²].
+// Missing light on the plane, as an area [m²].
 double missing(const LightMap& map, const Scene& scene)
 {
     double sum = 0.0;
@@ -65,11 +65,11 @@ TEST(LightMap, OpaqueDropletTakesTheLightItIntercepts)
     const double area = testing::polygonArea(4e-3, 48);
     const LightMap down = lightGain(scene, {false, 1.0F, {}}, straightDown(), kCells, 0.0F);
     EXPECT_NEAR(missing(down, scene), area, 0.005 * area);
-    // Blurring moves light about, but loses none.
+    // Blurring moves light but loses none.
     EXPECT_NEAR(missing(lightGain(scene, {false, 1.0F, {}}, straightDown(), kCells, 2.0F), scene), area, 0.005 * area);
 }
 
-// What arrives is what was intercepted less what the surface reflects (Fresnel), wherever it is bent to.
+// The light that arrives, anywhere, is the intercepted light minus the reflected light (Fresnel).
 TEST(LightMap, ClearDropletLosesWhatItReflects)
 {
     constexpr double kRadius = 4e-3;
@@ -89,7 +89,7 @@ TEST(LightMap, ClearDropletLosesWhatItReflects)
     }
 }
 
-// Near its axis a droplet is a lens of focal length R/(1 − 1/n) below its top, R being the radius of curvature there.
+// Near its axis a droplet is a lens of focal length R/(1 − 1/n) below its top, with the radius of curvature R there.
 TEST(LightMap, MiddleOfADropletGathersLightLikeALens)
 {
     constexpr double kHeight = 1e-3;
@@ -105,7 +105,7 @@ TEST(LightMap, MiddleOfADropletGathersLightLikeALens)
 
 TEST(LightMap, ColouredLiquidAbsorbsByItsDepth)
 {
-    // As good as level in the middle.
+    // The middle is almost level.
     const Surface surface = roundDroplet({.outer = 8e-3, .height = 0.5e-3, .rings = 40, .segments = 96});
     const Scene scene(surface, RenderOptions{});
     const auto depth = static_cast<float>(0.5e-3 / scene.scale());
@@ -116,7 +116,7 @@ TEST(LightMap, ColouredLiquidAbsorbsByItsDepth)
     EXPECT_NEAR(middle.z, 1.0, 1e-4);
 }
 
-TEST(LightMap, IsTheSameAtAnyNumberOfThreads)
+TEST(LightMap, IsTheSameWithAnyNumberOfThreads)
 {
     const Surface surface = roundDroplet({.height = 2e-3, .rings = 8, .segments = 48});
     const auto made = [&](int threads) {
@@ -133,8 +133,8 @@ TEST(LightMap, IsTheSameAtAnyNumberOfThreads)
     EXPECT_EQ(std::memcmp(one.values.data(), several.values.data(), one.values.size() * sizeof(Vec3f)), 0);
 }
 
-// On a stand that is the plane itself the map by uv says what the map on the plane says.
-TEST(LightMap, OnAStandIsAsOnThePlane)
+// If the stand is the plane, the map by uv equals the map on the plane.
+TEST(LightMap, OnAStandEqualsThePlane)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 24, .segments = 96});
     TexturedMesh plane;
@@ -172,7 +172,7 @@ TEST(DiffuseReflectance, IsAsTabulated)
     EXPECT_NEAR(diffuseReflectance(1.5), 0.0918, 2e-4);
     EXPECT_NEAR(diffuseReflectance(4.0 / 3.0), 0.0662, 3e-4);
     EXPECT_EQ(diffuseReflectance(1.0), 0.0);
-    // By quadrature of Fresnel's formula under Lambert's law.
+    // Reference: quadrature of Fresnel's formula under Lambert's law.
     for (const double n : {1.1, 1.333, 2.0}) {
         double sum = 0.0;
         constexpr int kSteps = 20000;

@@ -88,7 +88,7 @@ TEST(ContactAnglePaint, ShowsAnglesAlongTheRimAlone)
     EXPECT_THROW(contactAnglePaint(roundDroplet()), Error);
 }
 
-TEST(ContactAnglePaint, OfOneAngleHasASpan)
+TEST(ContactAnglePaint, EqualAnglesHaveASpan)
 {
     Surface surface = roundDroplet();
     surface.contact_angle.assign(surface.positions.size(), 0.0F);
@@ -100,7 +100,7 @@ TEST(ContactAnglePaint, OfOneAngleHasASpan)
     contactAnglePaint(surface).validate(surface.positions.size());
 }
 
-TEST(Paint, RefusesWhatDoesNotFit)
+TEST(Paint, RefusesInvalidValues)
 {
     const Surface surface = roundDroplet();
     const std::size_t n = surface.positions.size();

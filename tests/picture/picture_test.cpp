@@ -14,7 +14,7 @@
 namespace droplet {
 namespace {
 
-// No two pixels alike, all channels different.
+// Picture in which all pixels and all channels differ.
 Picture colourful(int width, int height)
 {
     Picture picture{width, height, {}};
@@ -68,7 +68,7 @@ TEST(PictureFile, PngIsReadByOthersPixelByPixel)
     }
 }
 
-TEST(PictureFile, StreamThatTakesNothingIsLeftFailed)
+TEST(PictureFile, LeavesAStreamFailedThatTakesNothing)
 {
     std::ostringstream out;
     out.setstate(std::ios::failbit);
@@ -76,7 +76,7 @@ TEST(PictureFile, StreamThatTakesNothingIsLeftFailed)
     EXPECT_TRUE(out.fail());
 }
 
-TEST(PictureFile, EveryFormatThatLosesNothingGivesItsColours)
+TEST(PictureFile, LosslessFormatsKeepEveryColour)
 {
     const Picture picture = colourful(37, 23);
     for (const char* extension : {".png", ".bmp", ".tif", ".ppm", ".webp"}) {
@@ -113,7 +113,7 @@ TEST(PictureFile, SixteenBitsAreRounded)
     EXPECT_THAT(decodePicture(bytesOf(bytes)).rgb, ::testing::ElementsAre(0, 128, 255, 7, 0, 1, 0, 128, 255));
 }
 
-TEST(PictureFile, WhatIsTransparentIsWhite)
+TEST(PictureFile, TransparentPixelsAreWhite)
 {
     cv::Mat glass(1, 3, CV_8UC4, cv::Scalar(10, 20, 30, 255));
     glass.at<cv::Vec4b>(0, 1) = {10, 20, 30, 0};
@@ -123,7 +123,7 @@ TEST(PictureFile, WhatIsTransparentIsWhite)
     EXPECT_THAT(decodePicture(bytesOf(bytes)).rgb, ::testing::ElementsAre(30, 20, 10, 255, 255, 255, 127, 127, 127));
 }
 
-TEST(PictureFile, WhatIsNoPictureIsRefused)
+TEST(PictureFile, RefusesFilesThatAreNotPictures)
 {
     const std::string whole = png(colourful(37, 23));
     for (const std::string& broken : {std::string(), std::string("no picture"), whole.substr(0, whole.size() / 2)}) {

@@ -64,7 +64,7 @@ Picture slopes()
     return picture;
 }
 
-// The level slopes() has at a uv of one axis.
+// Level of slopes() at a uv of one axis.
 double levelAt(double uv)
 {
     return static_cast<double>(255.0F * toDisplay(static_cast<float>(0.1 + 0.8 * uv)));
@@ -77,7 +77,7 @@ std::array<int, 3> pixelAt(const Picture& picture, int x, int y)
     return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
 }
 
-// A level film's upper side alone, far wider than the pictures look.
+// Upper side of a level film, far wider than the field of view.
 Surface film(double height, double half_side)
 {
     Surface surface;
@@ -92,7 +92,7 @@ Surface film(double height, double half_side)
     return surface;
 }
 
-// The furnace: where all that light ends in is equally bright, refraction and reflection must neither add nor lose any.
+// White furnace: if everything around is equally bright, refraction and reflection must neither add nor lose light.
 TEST(Render, ClearDropletIsInvisibleInAWhiteFurnace)
 {
     const std::vector<Surface> surfaces = {
@@ -127,7 +127,7 @@ TEST(Render, FurnaceHoldsOnCurvedGround)
     EXPECT_THAT(render(surface, options).rgb, ::testing::Each(::testing::Ge(254)));
 }
 
-// From above, and with a droplet that bends no light, the picture of the ground lies where its uv say.
+// From above, through a droplet that bends no light, the picture of the ground lies where uv says.
 TEST(Render, GroundPictureLiesWhereUvSays)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .centre = {2e-3, -1e-3}});
@@ -158,8 +158,8 @@ TEST(Render, GroundPictureLiesWhereUvSays)
     }
 }
 
-// Snell, Fresnel and the light that scatters below a film: the colour of every pixel by hand.
-TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
+// The test computes every pixel by the laws of Snell and Fresnel and the light scattered below a film.
+TEST(Render, FilmShiftsAndDimsTheGroundExactly)
 {
     constexpr double kHeight = 1.5e-3;
     constexpr double kIndex = 1.5;
@@ -181,7 +181,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
             const double inner_cosine = std::sqrt(1.0 - inner_sine * inner_sine);
             const double top = kHeight / scene.scale();
             const double down = (static_cast<double>(ray.origin.z) - top) / cosine;
-            // Along the ray to the film, and below it as far as the steeper way leads.
+            // Follows the ray to the film, then the refracted ray to the ground.
             const double shift = top * inner_sine / inner_cosine / sine;
             const Vec3f place = ray.origin + static_cast<float>(down) * ray.direction;
             const Vec2 at{static_cast<double>(place.x), static_cast<double>(place.y)};
@@ -208,7 +208,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundByExactlyAsMuchAsItShould)
 
 TEST(Render, PictureOfAMirrorImageIsTheMirroredPicture)
 {
-    // Ground and droplet are the same to the left and right.
+    // Ground and droplet are symmetric.
     RenderOptions options = small(View::Top);
     options.ground = slopes();
     for (std::size_t i = 0; i < options.ground->rgb.size(); i += 3) {
@@ -220,13 +220,13 @@ TEST(Render, PictureOfAMirrorImageIsTheMirroredPicture)
         for (int x = 0; x < options.width; ++x) {
             const int difference = pixelAt(picture, x, y)[1] - pixelAt(picture, options.width - 1 - x, y)[1];
             sum += std::abs(difference);
-            EXPECT_LE(std::abs(difference), 20);  // of pixels on an edge, whose samples are not mirrored
+            EXPECT_LE(std::abs(difference), 20);  // pixels on an edge, whose samples are not mirrored
         }
     }
     EXPECT_LT(sum / (options.width * options.height), 0.5);
 }
 
-TEST(Render, GivesTheSameBytesAtAnyNumberOfThreads)
+TEST(Render, GivesTheSameBytesWithAnyNumberOfThreads)
 {
     const Surface surface = roundDroplet({.height = 2e-3, .rings = 10, .segments = 48});
     for (const Material material : {Material::Water, Material::Ink, Material::Mercury, Material::Plain}) {
@@ -247,7 +247,7 @@ TEST(Render, LeavesFloatingPointModesAlone)
 {
     const unsigned before = _mm_getcsr();
     render(roundDroplet(), small());
-    constexpr unsigned kFlags = 0x3fU;  // what has happened, not what shall
+    constexpr unsigned kFlags = 0x3fU;  // sticky status flags, not control bits
     EXPECT_EQ(_mm_getcsr() & ~kFlags, before & ~kFlags);
 }
 
@@ -277,7 +277,7 @@ TEST(Render, WaterShowsHighlightsAndShadows)
     EXPECT_LT(darkest, plain_darkest - 20);
 }
 
-// What is cut out lies over another picture: nothing far from it, its shadow dark, water clear and metal opaque.
+// A cut-out over another picture: transparent far away, dark shadow, clear water, opaque metal.
 TEST(RenderCutOut, IsTheDropletAndItsShadow)
 {
     RenderOptions options = small(View::Top);
@@ -301,8 +301,7 @@ TEST(RenderCutOut, IsTheDropletAndItsShadow)
     EXPECT_TRUE(renderCutOut(surface, options) == water);
 }
 
-// Even light from all around is the white furnace's, whatever its unit; light from one side throws a shadow to the
-// other.
+// Even light from all directions is the white furnace, in any unit; light from one side casts a shadow on the other.
 TEST(Environment, ShinesInPlaceOfTheStudio)
 {
     RenderOptions options = small(View::Top);
@@ -318,7 +317,7 @@ TEST(Environment, ShinesInPlaceOfTheStudio)
         return renderCutOut(surface, options);
     };
     EXPECT_TRUE(lit(1.0F, 1.0F, 1.0F) == lit(1.0F, 1.0F, 64.0F));
-    const auto shadow = [&](const Layer& layer) {  // at the right less at the left
+    const auto shadow = [&](const Layer& layer) {  // right side minus left side
         long sum = 0;
         for (int y = 0; y < layer.height; ++y) {
             for (int x = 0; x < layer.width; ++x) {
@@ -333,7 +332,7 @@ TEST(Environment, ShinesInPlaceOfTheStudio)
     EXPECT_THROW(render(surface, options), Error);
 }
 
-TEST(Camera, StandsWhereItIsTold)
+TEST(Camera, StandsInTheGivenDirection)
 {
     RenderOptions options = small();
     const Picture usual = render(roundDroplet(), options);
@@ -344,8 +343,8 @@ TEST(Camera, StandsWhereItIsTold)
     EXPECT_THROW(render(roundDroplet(), options), Error);
 }
 
-// A box of twice the droplet's size is filled by half of it.
-TEST(Render, FramesTheBoxThatIsGiven)
+// The droplet fills half of a box of twice its size.
+TEST(Render, FramesAGivenBox)
 {
     const auto columns = [&](const RenderOptions& options) {
         const Layer layer = renderCutOut(roundDroplet({.height = 2e-3, .rings = 24, .segments = 96}), options);
@@ -366,7 +365,7 @@ TEST(Render, FramesTheBoxThatIsGiven)
     EXPECT_NEAR(columns(options) / whole, 0.5, 0.06);
 }
 
-// Whatever the view, all is in the picture and fills it up to the margin.
+// In every view the droplet is in the picture and fills it up to the margin.
 TEST(Camera, FramesEverything)
 {
     const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
@@ -391,7 +390,7 @@ TEST(Camera, FramesEverything)
     }
 }
 
-TEST(Camera, FramesATurntableOnceForAllTurns)
+TEST(Camera, FramesATurntableForAllTurns)
 {
     const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
@@ -410,8 +409,8 @@ TEST(Camera, FramesATurntableOnceForAllTurns)
     }
 }
 
-// A point on the right comes to the front when the droplet is turned counter-clockwise by three quarters.
-TEST(Camera, StaysWhereItIsForWhatIsFramed)
+// A counter-clockwise turn by three quarters moves a point from the right to the front.
+TEST(Camera, DependsOnlyOnTheFramedBox)
 {
     for (const View view : kViews) {
         RenderOptions options = small(view);
@@ -454,7 +453,7 @@ TEST(Camera, TurnsTheDropletCounterClockwise)
     EXPECT_LT(camera.seen({0.5F, 0.0F, 0.0F}).y, 20.0);
 }
 
-TEST(Render, PaintHasItsColours)
+TEST(Render, ShowsTheColoursOfPaint)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32});
     RenderOptions options = small(View::Top);
@@ -469,7 +468,7 @@ TEST(Render, PaintHasItsColours)
     EXPECT_NEAR(plain[0], plain[2], 8);
 }
 
-TEST(Render, RefusesWhatItCannotDo)
+TEST(Render, RefusesInvalidOptions)
 {
     const Surface surface = roundDroplet();
     const auto refused = [&](const auto& change, const std::string& words) {
@@ -502,7 +501,7 @@ TEST(Render, RefusesWhatItCannotDo)
     EXPECT_EQ(viewNamed("side"), View::Side);
 }
 
-// Of a sphere smaller than the image there is ground in the middle alone.
+// A sphere smaller than the image has ground only in the middle.
 TEST(GroundMesh, EndsWhereTheGroundDoes)
 {
     const TexturedMesh mesh = groundMesh(BaseSurface::sphere(4e-3), {kExtent, kExtent});

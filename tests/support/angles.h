@@ -31,7 +31,7 @@ inline std::vector<double> rimAngles(const PlanarMesh& mesh)
     return angles;
 }
 
-/// Mean distance of a footprint's points along its loops [m].
+/// Mean distance between neighbouring points of a footprint's loops [m].
 inline double detailOf(const Footprint& footprint)
 {
     std::size_t points = footprint.rim.points.size();
@@ -41,7 +41,7 @@ inline double detailOf(const Footprint& footprint)
     return rimLength(footprint) / static_cast<double>(points);
 }
 
-/// Triangles sharper than triangulate() promises: 20°, or, within two points of a corner of less than 40°, half of it.
+/// Triangles below the angle that triangulate() guarantees: 20°, or near a corner of less than 40° half of the corner.
 inline std::vector<std::string> brokenPromises(const PlanarMesh& mesh, const Footprint& footprint)
 {
     const double reach = 2.0 * detailOf(footprint);
@@ -68,7 +68,7 @@ inline std::vector<std::string> brokenPromises(const PlanarMesh& mesh, const Foo
                 }
             }
         }
-        // A corner is split by halving the edge across it, which halves the angle but for the sides' unequal lengths.
+        // Halving the opposite edge splits a corner; it halves the angle except for the sides' unequal lengths.
         if (min < 0.99 * allowed) {
             broken.push_back(std::to_string(min / kDegree) + " degrees, not " + std::to_string(allowed / kDegree) +
                              ", at " + std::to_string(mesh.vertices[t[0]].x) + " " +

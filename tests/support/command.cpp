@@ -81,8 +81,7 @@ void openTerminal(Pipe& pipe)
     pipe.write.reset(terminal);
 }
 
-/// Root passes by the modes of files by two capabilities; a program started without them in its bounding set does not
-/// regain them.
+/// Two capabilities let root ignore file modes; a program without them in its bounding set cannot regain them.
 bool dropOverride()
 {
     return ::geteuid() != 0 ||
@@ -113,7 +112,7 @@ bool dropOverride()
     ::_exit(kNotStarted);
 }
 
-/// Takes what there is to read; false at the end.
+/// Reads the available bytes; returns false at the end.
 bool take(const Descriptor& from, std::string& into)
 {
     std::array<char, 65536> chunk{};
@@ -121,7 +120,7 @@ bool take(const Descriptor& from, std::string& into)
     if (got < 0 && errno == EINTR) {
         return true;
     }
-    // A terminal whose last user has left reads as an input/output error.
+    // A terminal without users gives an input/output error.
     if (got <= 0) {
         return false;
     }
@@ -129,24 +128,24 @@ bool take(const Descriptor& from, std::string& into)
     return true;
 }
 
-/// Feeds standard input and takes both outputs until all are closed.
+/// Writes standard input and reads both outputs until all are closed.
 void converse(Descriptor& input, Descriptor& output, Descriptor& error, const CommandOptions& options,
               CommandResult& result)
 {
-    constexpr int kPatience = 60'000;  // [ms] far beyond any run of the tests
+    constexpr int kPatience = 60'000;  // [ms] far longer than any test run
     std::size_t sent = 0;
     while (output.open() || error.open()) {
         const bool waiting = result.error.find(options.input_waits_for) == std::string::npos;
         if (input.open() && !waiting && sent == options.input.size()) {
             input.close();
         }
-        // poll() passes over negative descriptors.
+        // poll() ignores negative descriptors.
         std::array<pollfd, 3> events{
             {{waiting ? -1 : input.number(), POLLOUT, 0}, {output.number(), POLLIN, 0}, {error.number(), POLLIN, 0}}};
         const int ready = ::poll(events.data(), events.size(), kPatience);
         require(ready >= 0 || errno == EINTR, "poll");
         if (ready == 0) {
-            input.close();  // what we wait for does not come: let the program end, and the test say so
+            input.close();  // the awaited text does not come: let the program end; the test fails
         }
         if (ready <= 0) {
             continue;
@@ -156,7 +155,7 @@ void converse(Descriptor& input, Descriptor& output, Descriptor& error, const Co
             if (done >= 0) {
                 sent += static_cast<std::size_t>(done);
             } else if (errno != EINTR && errno != EAGAIN) {
-                input.close();  // the program does not want it
+                input.close();  // the program does not read it
             }
         }
         if (events[1].revents != 0 && !take(output, result.output)) {

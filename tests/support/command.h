@@ -9,22 +9,22 @@
 
 namespace droplet::testing {
 
-/// How the program under test is started.
+/// Options of a run of a program.
 struct CommandOptions {
     std::string input;                                             ///< bytes for its standard input
     std::filesystem::path directory;                               ///< working directory; ours if empty
-    std::filesystem::path output_file;                             ///< standard output goes there, not to the result
+    std::filesystem::path output_file;                             ///< receives standard output instead of the result
     bool output_closed = false;                                    ///< nobody reads its standard output
     bool error_is_terminal = false;                                ///< standard error is a pseudo-terminal
-    bool respect_permissions = false;                              ///< root, too, is held to the modes of files
+    bool respect_permissions = false;                              ///< file modes apply even to root
     std::vector<std::pair<std::string, std::string>> environment;  ///< added to ours
     /// The input is sent only once the program has written this to standard error.
     std::string input_waits_for;
 };
 
-/// What came of it.
+/// Result of a run.
 struct CommandResult {
-    int exit_code = -1;  ///< 128 + signal if one ended it
+    int exit_code = -1;  ///< 128 + signal if a signal ended the program
     std::string output;
     std::string error;
 
@@ -38,10 +38,10 @@ CommandResult runDroplet(const std::vector<std::string>& arguments, const Comman
 /// Runs any program found in PATH.
 CommandResult runProgram(const std::vector<std::string>& command, const CommandOptions& options = {});
 
-/// Whether `respect_permissions` can be had: not when root may not give up its privileges.
+/// Whether `respect_permissions` works: root must be able to drop its privileges.
 bool canRespectPermissions();
 
-/// An empty directory of its own for the running test, removed with its contents at the end.
+/// Empty directory for the running test, removed with its contents at the end.
 class ScratchDirectory {
 public:
     ScratchDirectory();
@@ -50,7 +50,7 @@ public:
     ScratchDirectory& operator=(const ScratchDirectory&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Names of everything in it, sorted, temporary files included.
+    /// Sorted names of all files in it, including temporary files.
     [[nodiscard]] std::vector<std::string> names() const;
 
 private:
@@ -60,10 +60,10 @@ private:
 void writeFile(const std::filesystem::path& path, const std::string& bytes);
 std::string readFile(const std::filesystem::path& path);
 
-/// A binary greymap (PGM) with the brightness given for every pixel.
+/// Binary greymap (PGM) with a given brightness of every pixel.
 std::string greymap(int width, int height, const std::function<int(int x, int y)>& brightness);
 
-/// A white disc on black, radius in pixels, in the middle of a square picture; hard edges.
+/// White disc on black in the middle of a square picture, with hard edges; radius in pixels.
 std::string discPicture(int size, double radius);
 
 }  // namespace droplet::testing

@@ -13,7 +13,7 @@
 
 namespace droplet::testing {
 
-/// A surface of triangles, nothing else.
+/// Surface of triangles without attributes.
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -47,7 +47,7 @@ inline double distance(Vec3 p, Vec3 a, Vec3 b)
     return length(p - (a + t * ab));
 }
 
-/// Distance of a point from a triangle: from its plane where the point stands over it, else from its nearest side.
+/// Distance of a point from a triangle: from its plane if the point is above it, otherwise from its nearest side.
 inline double distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c)
 {
     const Vec3 normal = cross(b - a, c - a);
@@ -58,13 +58,13 @@ inline double distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c)
                 : std::min({distance(p, a, b), distance(p, b, c), distance(p, c, a)});
 }
 
-/// How far the points of a surface stray from another one.
+/// Distances of the points of a surface from another one.
 struct Distance {
     double mean = 0.0;
     double largest = 0.0;
 };
 
-/// Distance of one surface's triangles, at their centres, weighted by area, and of its vertices, for the largest.
+/// Distance of one surface from another: mean over the triangles' centres weighted by area, maximum also over vertices.
 inline Distance strays(const TriangleMesh& from, const TriangleMesh& to)
 {
     struct Ball {
@@ -106,9 +106,9 @@ inline Distance strays(const TriangleMesh& from, const TriangleMesh& to)
     return result;
 }
 
-/// How far two surfaces lie apart, however they are triangulated.
+/// Difference of two surfaces, independent of their triangulations.
 struct Difference {
-    Distance distance;    ///< the larger of both ways, in their unit of length
+    Distance distance;    ///< the larger one of both directions, in the surfaces' unit
     double volume = 0.0;  ///< relative to the second
     double area = 0.0;    ///< relative to the second
 };

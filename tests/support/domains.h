@@ -12,7 +12,7 @@
 
 namespace droplet::testing {
 
-/// A smooth loop of many points, without corners.
+/// Smooth loop of many points, without corners.
 inline Loop smoothLoop(std::vector<Vec2> points)
 {
     Loop loop{std::move(points), {}};
@@ -20,7 +20,7 @@ inline Loop smoothLoop(std::vector<Vec2> points)
     return loop;
 }
 
-/// An ellipse about the origin as a polygon so fine that it counts as exact: area off by 1e-7.
+/// Ellipse about the origin as a fine polygon; the relative error of its area is 1e-7.
 inline Loop ellipseLoop(double a, double b)
 {
     constexpr std::size_t kPoints = 8192;
@@ -32,7 +32,7 @@ inline Loop ellipseLoop(double a, double b)
     return smoothLoop(std::move(points));
 }
 
-/// A polygon whose vertices are corners, its sides subdivided.
+/// Polygon whose vertices are corners, with subdivided sides.
 inline Loop polygonLoop(const std::vector<Vec2>& corners)
 {
     constexpr std::size_t kPieces = 64;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Forces on the vertices of a solved droplet, assembled here once more: the gradient of
+// Forces on the vertices of a solved droplet, assembled independently: the gradient of
 // ∫√(1+|∇u|²) (or ∫½|∇u|²) + ½w∫u² − (ρ/σ)∫(g∥·x)u − (λ/σ)∫u.
 #pragma once
 
@@ -37,7 +37,7 @@ inline std::vector<PlanarMesh> discMeshes(double edge)
     return triangulate(domainOf(ellipseLoop(1, 1)), {.edge = edge});
 }
 
-/// Mean order of convergence of errors on meshes each with half the edge of the one before.
+/// Mean order of convergence of errors on meshes whose edges are halved each time.
 inline double meanOrder(const std::vector<double>& errors)
 {
     return std::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
@@ -53,8 +53,8 @@ inline Vec2 gradientOn(const PlanarMesh& mesh, const Triangle& t, const std::vec
     return {(d1 * e2.y - d2 * e1.y) / twice, (d2 * e1.x - d1 * e2.x) / twice};
 }
 
-/// ∫f over the mesh, by the rule of the edges' middles: exact for quadratics.
-/// @param f  of a point and the value there of the linear interpolant of `values`
+/// ∫f over the mesh, by quadrature at the edges' middles: exact for quadratics.
+/// @param f  function of a point and of the interpolated value of `values` there
 inline double integrate(const PlanarMesh& mesh, const std::vector<double>& values,
                         const std::function<double(Vec2, double)>& f)
 {
@@ -79,7 +79,7 @@ inline double l2Error(const PlanarMesh& mesh, const HeightField& field, const st
 }
 
 /// ∫f along the rim, by the trapezoidal rule.
-/// @param f  of a rim vertex and the outward normal of an edge at it
+/// @param f  function of a rim vertex and the outward normal of an edge at it
 inline double integrateRim(const PlanarMesh& mesh, const std::function<double(std::uint32_t, Vec2)>& f)
 {
     double sum = 0.0;
@@ -95,12 +95,12 @@ inline double integrateRim(const PlanarMesh& mesh, const std::function<double(st
     return sum;
 }
 
-/// How far a droplet is from being in equilibrium. Forces are in terms of the largest on any vertex.
+/// Deviation of a droplet from equilibrium. Forces are relative to the largest force on any vertex.
 struct Equilibrium {
-    double free_force = 0.0;  ///< largest on an inner vertex that is not held
-    double held_force = 0.0;  ///< smallest on a held vertex, positive where the ground pushes the liquid's surface up
-    double held_gap = 0.0;    ///< largest |u − h| at a held vertex
-    double rim_gap = 0.0;     ///< largest |u − h| at a rim vertex
+    double free_force = 0.0;     ///< largest force on an inner vertex that is not held
+    double held_force = 0.0;     ///< smallest force on a held vertex; positive: the ground pushes the surface up
+    double held_gap = 0.0;       ///< largest |u − h| at a held vertex
+    double rim_gap = 0.0;        ///< largest |u − h| at a rim vertex
     double min_thickness = 0.0;  ///< smallest u − h at any vertex
     double volume = 0.0;
 };

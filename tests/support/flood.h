@@ -10,7 +10,7 @@
 
 namespace droplet::testing {
 
-/// What the mask itself says: liquid pixels that touch at a corner are one droplet, dry ones are not one hole.
+/// Counts from the mask itself: liquid pixels that touch at a corner are one droplet; dry ones are two holes.
 struct Counts {
     std::size_t droplets = 0;
     std::size_t holes = 0;
@@ -22,7 +22,7 @@ struct Counts {
     }
 };
 
-/// Counts 8-connected liquid and 4-connected dry regions, the dry world around the image aside, by flooding.
+/// Counts 8-connected liquid and 4-connected dry regions by flooding, without the dry region around the image.
 inline Counts flooded(const Mask& mask)
 {
     const int width = mask.width + 2;

@@ -36,7 +36,7 @@ inline std::vector<std::byte> bytesOf(const char* path)
     return {first, first + text.size()};
 }
 
-/// What FreeType's rasteriser makes of a font's glyphs, unhinted.
+/// Unhinted glyphs of a font, drawn by FreeType's rasteriser.
 class RenderedFont {
 public:
     RenderedFont(const char* path, unsigned pixels_per_em)
@@ -50,10 +50,10 @@ public:
     RenderedFont& operator=(const RenderedFont&) = delete;
     ~RenderedFont() { FT_Done_FreeType(library_); }
 
-    /// The glyph with a dry margin of a pixel; coverage is what lies within the outline by the non-zero rule.
+    /// The glyph with a dry margin of one pixel; coverage by the non-zero rule.
     [[nodiscard]] Mask operator()(GlyphId glyph) const
     {
-        // The flag makes the rasteriser look at 16 points of a pixel, where it otherwise adds up what contours cover.
+        // With the flag the rasteriser samples 16 points per pixel; otherwise it adds the areas of all contours.
         bool good = FT_Load_Glyph(face_, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0;
         face_->glyph->outline.flags |= FT_OUTLINE_OVERLAP;
         good = good && FT_Render_Glyph(face_->glyph, FT_RENDER_MODE_NORMAL) == 0;
@@ -74,7 +74,7 @@ public:
         return mask;
     }
 
-    /// What the glyph's curves enclose by Green's formula, exactly, as long as contours do not overlap [em²].
+    /// Exact area inside the glyph's curves by Green's formula, if contours do not overlap [em²].
     [[nodiscard]] double exactArea(GlyphId glyph) const
     {
         if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {

@@ -10,7 +10,7 @@
 
 namespace droplet::testing {
 
-/// A field made without solving: ground and, but on the rim, so much liquid on it.
+/// Field made without solving: liquid of a given thickness on the ground, except on the rim.
 inline HeightField liquidOn(const PlanarMesh& mesh, const BaseSurface& ground,
                             const std::function<double(Vec2)>& thickness)
 {

@@ -7,7 +7,7 @@
 
 namespace droplet::testing {
 
-/// A drawing that asks for far more than it is long.
+/// Short drawing that requires huge work.
 struct HostileDrawing {
     std::string name;
     std::function<std::string()> text;
@@ -19,7 +19,7 @@ inline std::string svgText(const std::string& content)
            content + "</svg>";
 }
 
-/// What `piece` makes of 0 … count − 1, in a row.
+/// Concatenation of piece(0) … piece(count − 1).
 inline std::string repeated(int count, const std::function<std::string(int i)>& piece)
 {
     std::string all;
@@ -34,7 +34,7 @@ inline std::string repeated(int count, const std::string& piece)
     return repeated(count, [&](int) { return piece; });
 }
 
-/// Elements of which each refers to the one before by `link`, where @ stands for numbers.
+/// Elements each of which refers to the one before by `link`, where @ is replaced by its number.
 inline std::string chained(int count, const std::string& first, const std::string& link)
 {
     return "<defs>" + first +

@@ -28,7 +28,7 @@ inline double polygonArea(const std::vector<Vec2>& polygon)
     return 0.5 * twice;
 }
 
-/// How often a polygon winds around a point.
+/// Winding number of a polygon around a point.
 inline int windingNumber(const std::vector<Vec2>& polygon, Vec2 p)
 {
     int winding = 0;
@@ -42,7 +42,7 @@ inline int windingNumber(const std::vector<Vec2>& polygon, Vec2 p)
     return winding;
 }
 
-/// The least distance between pieces that are not neighbours; 0 where any cross or touch.
+/// Minimum distance between segments that are not neighbours; 0 if any cross or touch.
 inline double minGap(const std::vector<std::vector<Vec2>>& loops)
 {
     struct Piece {

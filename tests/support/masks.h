@@ -12,10 +12,10 @@
 
 namespace droplet::testing {
 
-/// Whether a point of the image is liquid; pixels, y down, the image's corner at the origin.
+/// Function that says whether a point of the image is liquid [px], y down, origin at the image's corner.
 using Inside = std::function<bool(Vec2)>;
 
-/// A hard mask: a pixel is liquid if its centre is.
+/// Mask with hard edges: a pixel is liquid if its centre is.
 inline Mask hardMask(int width, int height, const Inside& inside)
 {
     Mask mask;
@@ -29,8 +29,8 @@ inline Mask hardMask(int width, int height, const Inside& inside)
     return mask;
 }
 
-/// An anti-aliased mask: coverage counted on a grid of samples in every pixel that is not plainly one or the other, and
-/// rounded to 8 bits, as renderers do.
+/// Anti-aliased mask: in pixels on an edge, coverage is counted on a grid of samples and rounded to 8 bits, as
+/// renderers do.
 inline Mask smoothMask(int width, int height, const Inside& inside)
 {
     constexpr int kSamples = 32;
@@ -62,7 +62,7 @@ inline Inside disc(Vec2 centre, double radius)
     return [=](Vec2 p) { return length(p - centre) < radius; };
 }
 
-/// A rectangle of the given half sides, turned counter-clockwise as seen with y down.
+/// Rectangle with given half sides, turned counter-clockwise as seen with y down.
 inline Inside rectangle(Vec2 centre, Vec2 half, double angle)
 {
     return [=](Vec2 p) {
@@ -73,7 +73,7 @@ inline Inside rectangle(Vec2 centre, Vec2 half, double angle)
     };
 }
 
-/// A hard mask drawn with characters: `#` is liquid; rows separated by line breaks.
+/// Mask drawn with characters: `#` is liquid; rows separated by line breaks.
 inline Mask drawnMask(std::string_view rows)
 {
     Mask mask;

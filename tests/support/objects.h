@@ -9,15 +9,15 @@
 
 namespace droplet::testing {
 
-/// A sheet made of rows and columns, each cell two triangles.
+/// Sheet of rows and columns; each cell has two triangles.
 struct Sheet {
     std::uint32_t columns = 1;
     std::uint32_t rows = 1;
     Vec2 uv_begin{0.0, 0.0};
     Vec2 uv_end{1.0, 1.0};
-    std::function<Vec3(Vec2)> place;  ///< in space, of a uv
+    std::function<Vec3(Vec2)> place;  ///< position of a uv in space
     std::function<Vec3(Vec2)> normal = [](Vec2) { return Vec3{0.0, 0.0, 1.0}; };
-    bool turned = false;  ///< triangles wind the other way
+    bool turned = false;  ///< reverse the winding
 };
 
 /// With turned = false triangles wind counter-clockwise as the picture is seen.
@@ -49,7 +49,7 @@ inline TexturedMesh meshOf(const Sheet& sheet)
     return mesh;
 }
 
-/// Both objects, the first one's triangles first.
+/// Union of two objects, the first one's triangles first.
 inline TexturedMesh together(TexturedMesh a, const TexturedMesh& b)
 {
     const auto offset = static_cast<std::uint32_t>(a.positions.size());

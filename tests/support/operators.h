@@ -19,7 +19,7 @@ inline std::size_t unknownsOf(const PlanarMesh& mesh)
     return mesh.vertices.size() - mesh.rimVertexCount();
 }
 
-/// The operator, entry by entry, and ∫φ; held vertices are like any other.
+/// The operator as a matrix, and ∫φ; held vertices are treated like all others.
 struct Assembled {
     Eigen::SparseMatrix<double> matrix;
     Eigen::VectorXd load;
@@ -56,7 +56,7 @@ inline Operator weighing(double mass_weight)
     return {mass_weight, {}, {}};
 }
 
-/// The exact model's operator on a spherical cap over the unit disc: stretched by the square of the slope at the rim.
+/// The exact model's operator on a spherical cap over the unit disc; at the rim it is stretched by the squared slope.
 inline std::vector<SymmetricTensor> capTensors(const PlanarMesh& mesh, double rim_angle)
 {
     std::vector<SymmetricTensor> tensors;
@@ -86,7 +86,7 @@ inline std::vector<SymmetricTensor> randomTensors(const PlanarMesh& mesh, std::m
     return tensors;
 }
 
-/// Inner vertices within two discs about vertices of the mesh.
+/// Inner vertices inside two discs around vertices of the mesh.
 inline std::vector<std::uint8_t> heldPatches(const PlanarMesh& mesh)
 {
     const std::uint32_t rim = mesh.rimVertexCount();

@@ -5,11 +5,11 @@
 
 namespace droplet::testing {
 
-// Where the build keeps what tests need. CMake writes them into a file of its own, so that what is compiled does not
-// depend on where the checkout lies, and a compiler cache serves every checkout.
+// Paths that tests need. CMake writes them into a separate file, so that other object files do not depend on the
+// checkout's path, and a compiler cache serves every checkout.
 extern const char* const kCommand;     ///< droplet-shape
 extern const char* const kSourceDir;   ///< the checkout
-extern const char* const kScratchDir;  ///< for files of tests
+extern const char* const kScratchDir;  ///< folder for files of tests
 extern const char* const kValidator;   ///< node script: glTF validator
 extern const char* const kChromium;    ///< browser
 extern const char* const kPageDriver;  ///< node script: drives a page in the browser
@@ -17,7 +17,7 @@ extern const char* const kPlayer;      ///< node script: plays an animation in t
 extern const char* const kRainPlayer;  ///< plays a windshield's models in a browser
 extern const char* const kThree;       ///< folder of three.js
 
-/// A file of the checkout.
+/// Path of a file of the checkout.
 inline std::string inSource(const std::string& name)
 {
     return std::string(kSourceDir) + "/" + name;

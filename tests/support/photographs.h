@@ -15,12 +15,12 @@
 
 namespace droplet::testing {
 
-/// A made-up photograph whose true mask is known.
+/// Synthetic photograph with a known mask.
 struct Photograph {
     int width = 0;
     int height = 0;
     std::vector<std::array<double, 3>> rgb;  ///< levels in [0, 1], row by row from the top left
-    double area = 0.0;                       ///< of the liquid [px²]
+    double area = 0.0;                       ///< area of the liquid [px²]
     std::size_t droplets = 0;
     std::size_t holes = 0;
 };
@@ -29,15 +29,15 @@ struct Photograph {
 struct Scene {
     int width = 0;
     int height = 0;
-    /// How far a point is outside the liquid [px], negative inside; y down.
+    /// Signed distance of a point from the liquid [px], negative inside; y down.
     std::function<double(Vec2)> outside;
-    /// The part of the paper's light that comes back through or from the liquid, by the point and its depth inside.
+    /// Light from the liquid over light from dry paper, by the point and its distance from the rim.
     std::function<std::array<double, 3>(Vec2, double)> look;
     std::size_t droplets = 0;
     std::size_t holes = 0;
 };
 
-/// Light on the scene: of each channel, at a point from (0, 0) to (1, 1).
+/// Light on the scene, per channel, at a point from (0, 0) to (1, 1).
 using Light = std::function<std::array<double, 3>(Vec2)>;
 
 /// A blob whose radius varies around it.
@@ -72,7 +72,7 @@ inline Scene inkSpill(double size = 640.0)
     return scene;
 }
 
-/// Clear droplets on paper: darker than it, most at the rim, with a mirrored lamp in each: 5 droplets, no hole.
+/// Clear droplets on paper, darker than it, mostly at the rim, each with the reflection of a lamp: 5 droplets, no hole.
 inline Scene clearDroplets(double size = 640.0)
 {
     Scene scene;
@@ -105,7 +105,7 @@ inline Light evenLight()
     return [](Vec2) { return std::array{0.95, 0.95, 0.95}; };
 }
 
-/// From full light to a quarter of it.
+/// Light that falls from full to a quarter.
 inline Light gradientLight()
 {
     return [](Vec2 p) {
@@ -123,7 +123,7 @@ inline Light vignette()
     };
 }
 
-/// Half of the picture in shadow, with a soft edge across.
+/// Light with half of the picture in shadow, with a soft edge.
 inline Light shadowLight()
 {
     return [](Vec2 p) {
@@ -141,9 +141,9 @@ inline Light lampLight()
     };
 }
 
-/// Takes the photograph: a little out of focus, on paper with a grain.
+/// Takes the photograph, slightly out of focus, on grainy paper.
 /// @param noise  standard deviation of every pixel's level
-/// @param salt   share of pixels that are white or black for no reason
+/// @param salt   share of pixels that are randomly white or black
 inline Photograph photograph(const Scene& scene, const Light& light, double noise = 0.004, double salt = 0.0)
 {
     constexpr double kBlur = 1.6;  // width of an edge [px]

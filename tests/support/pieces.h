@@ -8,7 +8,7 @@
 
 namespace droplet::testing {
 
-/// Takes what is written to a stream and remembers the largest piece that came at once.
+/// Stream buffer that stores all bytes and the size of the largest single write.
 class Pieces : public std::streambuf {
 public:
     [[nodiscard]] const std::string& taken() const { return taken_; }

@@ -30,7 +30,7 @@ protected:
         return runDroplet(arguments, options);
     }
 
-    /// The run ends with the exit code and one line on standard error that holds all the words; nothing has changed.
+    /// Expects an exit code, one line on standard error that contains all words, and unchanged files.
     void expectRefusal(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
                        const CommandOptions& options = {}) const
     {

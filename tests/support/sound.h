@@ -29,8 +29,8 @@ inline void expectLiquid(const PlanarMesh& mesh, const HeightField& field)
     EXPECT_TRUE(std::all_of(field.rim_slope.begin(), field.rim_slope.end(), [](double s) { return std::isfinite(s); }));
 }
 
-/// Whether a surface is what its droplets' rims make of it: one component per droplet, Euler number 2 − 2h of a closed
-/// surface with h handles where the droplet has h holes, or 1 − h and h + 1 boundary loops where the base is left out.
+/// Whether a surface has the topology of its footprints: one component per droplet. A droplet with h holes has Euler
+/// number 2 − 2h if closed; without a base it has 1 − h and h + 1 boundary loops.
 inline void expectTopologyOfRims(const Droplet& droplet, bool open)
 {
     long holes = 0;
@@ -46,8 +46,8 @@ inline void expectTopologyOfRims(const Droplet& droplet, bool open)
     EXPECT_EQ(found.boundary_loops, open ? static_cast<std::size_t>(count + holes) : 0U);
 }
 
-/// What must hold of every droplet, whatever the mask: valid meshes that cover their loops, positive heights, a
-/// manifold of the right topology, and one volume whether measured, enclosed or asked for.
+/// Invariants of droplets from any mask: valid meshes that cover their loops, positive heights, a manifold with the
+/// right topology, and the same volume if measured, enclosed or asked for.
 inline void expectSound(const Droplet& droplet, bool open = false)
 {
     ASSERT_EQ(droplet.meshes.size(), droplet.domain.droplets.size());
@@ -57,7 +57,7 @@ inline void expectSound(const Droplet& droplet, bool open = false)
         const PlanarMesh& mesh = droplet.meshes[k];
         ASSERT_NO_THROW(mesh.validate());
         ASSERT_EQ(mesh.loopCount(), 1 + droplet.domain.droplets[k].holes.size());
-        // The triangles fill the polygon of the rim: summed over them, or around it, the area is one.
+        // The triangles fill the polygon of the rim: the sum of their areas is the polygon's area.
         double around = 0.0;
         for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
             double enclosed = 0.0;
@@ -67,7 +67,7 @@ inline void expectSound(const Droplet& droplet, bool open = false)
             EXPECT_EQ(enclosed > 0.0, loop == 0) << "the rim runs counter-clockwise, holes clockwise";
             around += enclosed;
         }
-        // Round-off: products of coordinates up to the extent, in sums of as many terms as there are triangles.
+        // Bound of round-off: sums over all triangles of products of coordinates up to the extent.
         const double extent = droplet.domain.extent.x * droplet.domain.extent.y;
         const auto terms = static_cast<double>(mesh.triangles.size());
         EXPECT_NEAR(area(mesh), around, std::numeric_limits<double>::epsilon() * terms * extent);

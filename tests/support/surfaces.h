@@ -12,26 +12,26 @@
 
 namespace droplet::testing {
 
-/// A droplet on a disc or ring with a known shape, made without any of the library's stages.
+/// Droplet of known shape on a disc or ring, made without the library's stages.
 struct RoundDroplet {
     double inner = 0.0;   ///< radius of the hole [m]; 0: none
     double outer = 4e-3;  ///< [m]
     double height = 1e-3;
-    std::uint32_t rings = 4;  ///< of triangles, from the hole or the centre outward
+    std::uint32_t rings = 4;  ///< rings of triangles, from the hole or the centre outward
     std::uint32_t segments = 12;
     bool open = false;
     Vec2 centre = {};
 };
 
-inline constexpr double kExtent = 20e-3;  ///< of the imagined image, centred at the origin [m]
+inline constexpr double kExtent = 20e-3;  ///< extent of the imagined image, centred at the origin [m]
 
-/// Area of the regular polygon that stands for a circle [m²].
+/// Area of the regular polygon that approximates a circle [m²].
 inline double polygonArea(double radius, std::uint32_t segments)
 {
     return 0.5 * segments * radius * radius * std::sin(2.0 * std::numbers::pi / segments);
 }
 
-/// Adds vertices of another surface behind those of the first.
+/// Appends the vertices of another surface.
 inline Surface together(Surface a, const Surface& b)
 {
     const auto offset = static_cast<std::uint32_t>(a.positions.size());
@@ -47,8 +47,8 @@ inline Surface together(Surface a, const Surface& b)
     return a;
 }
 
-/// Height (outer² − r²)·height/outer² over a disc, a paraboloid; over a ring a parabola across it. The rim stands
-/// twice, welded; the base is the same triangles at z = 0, wound the other way.
+/// Over a disc a paraboloid, (outer² − r²)·height/outer²; over a ring a parabola across it. Rim vertices exist twice,
+/// welded; the base has the same triangles at z = 0 with reversed winding.
 inline Surface roundDroplet(const RoundDroplet& wish = {})
 {
     const bool ring = wish.inner > 0.0;
@@ -111,7 +111,7 @@ inline Surface roundDroplet(const RoundDroplet& wish = {})
     return surface;
 }
 
-/// The same with contact angles at the liquid's rim, which grow from vertex to vertex.
+/// The same droplet with contact angles that grow from vertex to vertex along the rim.
 inline Surface withContactAngles(Surface surface)
 {
     surface.contact_angle.assign(surface.positions.size(), 0.0F);
@@ -124,7 +124,7 @@ inline Surface withContactAngles(Surface surface)
     return surface;
 }
 
-/// The same, to be filled from 0 to 2: every height grows by itself, and what is between rim and base with it.
+/// The same droplet with a refill from 0 to 2, which doubles every height.
 inline Surface withRefill(Surface surface)
 {
     Refill refill;
@@ -137,7 +137,7 @@ inline Surface withRefill(Surface surface)
     return surface;
 }
 
-/// Triangles alone, on as many vertices as asked, every vertex at a place of its own.
+/// Triangles on a given number of vertices, each at a different place.
 inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
 {
     Surface surface;

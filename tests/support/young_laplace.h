@@ -15,9 +15,9 @@
 
 namespace droplet::testing {
 
-/// A droplet of revolution on the circle of radius 1 at height 0, with σ = 1; hanging where weight < 0.
+/// Droplet of revolution on the circle of radius 1 at height 0, with σ = 1; it hangs if weight < 0.
 struct Revolution {
-    /// A point of the meridian.
+    /// Point of the meridian.
     struct Node {
         double r = 0.0;
         double u = 0.0;
@@ -38,7 +38,7 @@ struct Revolution {
 
     [[nodiscard]] double energy() const { return area + 0.5 * weight * squares; }
 
-    /// u by cubic Hermite interpolation; beyond the rim, where polygons reach, along the tangent.
+    /// u by cubic Hermite interpolation; beyond the rim, which polygons cross, along the tangent.
     [[nodiscard]] double at(double r) const
     {
         if (r >= nodes.back().r) {
@@ -112,7 +112,7 @@ inline Revolution meridian(double weight, double curvature, double arc, std::siz
     return droplet;
 }
 
-/// The droplet of revolution of which `figure` is `target`: Newton on curvature and arc, from small droplets upward.
+/// Droplet of revolution whose `figure` equals `target`: Newton's method on curvature and arc, from small droplets on.
 inline Revolution shoot(double weight, double target, const std::function<double(const Revolution&)>& figure,
                         std::size_t steps = 1000)
 {
@@ -175,7 +175,7 @@ struct Cap {
     [[nodiscard]] double at(double r) const
     {
         const double radius = 2.0 / pressure();
-        // Beyond the rim, where polygons reach, heights are negative.
+        // Beyond the rim, which polygons cross, heights are negative.
         return std::sqrt(std::max(radius * radius - r * r, 0.0)) - (radius - height);
     }
 };

@@ -13,7 +13,7 @@
 
 namespace droplet::testing {
 
-/// A footprint of its own kind, with a name for messages.
+/// Test footprint with a name for messages.
 struct Animal {
     std::string name;
     Domain domain;
@@ -40,7 +40,7 @@ inline bool insideLetter(Vec2 p)
     return stem || bowl || bars || leg;
 }
 
-/// Footprints that differ in what is hard about them: wide and narrow parts, corners, holes, detail of one pixel.
+/// Footprints with different difficulties: wide and narrow parts, corners, holes, detail of one pixel.
 inline std::vector<Animal> zoo()
 {
     const auto thin_ring = [](Vec2 p) {

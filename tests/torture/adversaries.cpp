@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Masks nobody draws by accident.
+// Masks that are deliberately awkward.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -108,10 +108,10 @@ void addCombs(std::vector<Drawing>& drawings)
     }
 }
 
-/// Whether the pixel is in a Hilbert curve's stroke: cells of 2 px, of which the curve takes every other.
+/// Whether a pixel is in the stroke of a Hilbert curve. Cells have 2 px; the curve uses every other one.
 bool inHilbert(int x, int y, int order)
 {
-    // Cells on even places are the curve's points; one between two of them is taken if they follow on each other.
+    // Cells at even places are the curve's points; a cell between two of them is liquid if they are consecutive.
     const auto place = [order](int cx, int cy) {
         long d = 0;
         for (int s = (1 << order) / 2; s > 0; s /= 2) {
@@ -185,7 +185,7 @@ void addFractals(std::vector<Drawing>& drawings)
     }
 }
 
-/// Levels in which the threshold of one half is nearly everywhere.
+/// Levels that are near the threshold of one half almost everywhere.
 void addPlateaus(std::vector<Drawing>& drawings)
 {
     constexpr int kSide = 40;
@@ -227,7 +227,7 @@ void addPlateaus(std::vector<Drawing>& drawings)
         [](int x, int y) { return 0.5 + 0.5 * std::cos(0.05 * ((x - 20.2) * (x - 20.2) + (y - 19.9) * (y - 19.9))); });
 }
 
-/// What printers and screens make of grey.
+/// Dithered grey, as on printers and screens.
 void addDithers(std::vector<Drawing>& drawings)
 {
     constexpr std::array<int, 16> kBayer{0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
@@ -304,14 +304,14 @@ void addNearMisses(std::vector<Drawing>& drawings)
     }
     for (const double radius : {0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0}) {
         addShape(drawings, "discs_of_" + number(radius) + "px", 70, 70, [=](Vec2 p) {
-            // Every phase of the pixel grid: the pitch is no whole number.
+            // The pitch is not an integer, so every phase of the pixel grid occurs.
             const double pitch = 2.0 * radius + 2.37;
             return length(Vec2{wrapped(p.x, pitch), wrapped(p.y, pitch)} - Vec2{0.5 * pitch, 0.5 * pitch}) < radius;
         });
     }
 }
 
-/// Shapes of a few pixels beside one so large that its triangles are larger than they are, or as holes in it.
+/// Shapes of a few pixels, beside or as holes in a shape so large that its triangles are larger than they are.
 void addSmallCompany(std::vector<Drawing>& drawings)
 {
     constexpr int kSide = 600;
@@ -336,7 +336,7 @@ void addSmallCompany(std::vector<Drawing>& drawings)
         const auto small = [contains = contains](Vec2 p) {
             const Vec2 cell{std::floor(p.x / kPitch), std::floor(p.y / kPitch)};
             const Vec2 q{p.x - (cell.x + 0.5) * kPitch, p.y - (cell.y + 0.5) * kPitch};
-            // Growing from left to right, turning from top to bottom.
+            // Shapes grow from left to right and turn from top to bottom.
             return contains(turned(q, 0.37 * cell.y), 1.0 + 0.4 * cell.x);
         };
         addShape(drawings, "small_" + name, kSide, kSide, [=](Vec2 p) {
@@ -413,7 +413,7 @@ Corpus patterns()
     constexpr int kCells = 3;
     std::vector<Drawing> drawings;
     for (int pattern = 0; pattern < 1 << (kCells * kCells); ++pattern) {
-        // Cells from a pixel to a few, margins with and without.
+        // Cells have one to a few pixels, with and without margins.
         const int cell = 1 + pattern % 5;
         const int margin = pattern % 3;
         const int side = kCells * cell + 2 * margin;

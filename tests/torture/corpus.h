@@ -11,30 +11,30 @@
 
 namespace droplet::torture {
 
-/// A picture to make droplets of.
+/// Picture to make droplets of.
 struct Item {
-    std::string name;              ///< fit for a file's name
-    std::vector<std::byte> bytes;  ///< of the encoded picture; a greymap (P5) stands as it is, like --channel luma
+    std::string name;              ///< valid as a file name
+    std::vector<std::byte> bytes;  ///< encoded picture; a greymap (P5) is read as with --channel luma
 };
 
 struct Verdict;
 
-/// Items that are made one by one, the same whenever asked for.
+/// Items that are generated one by one, reproducibly.
 struct Corpus {
     std::string name;
     std::size_t count = 0;
     std::function<Item(std::size_t index)> item;
-    std::function<Verdict(const Item&)> trial = {};  ///< of items that are no pictures to make droplets of
+    std::function<Verdict(const Item&)> trial = {};  ///< replaces the usual trial for items that are not pictures
 };
 
-/// A mask as an item, in a 16-bit greymap.
+/// Item of a mask, as a 16-bit greymap.
 Item greymapItem(const std::string& name, const Mask& mask);
 
-/// Every glyph of DejaVu Sans, in sizes that take turns, anti-aliased.
+/// Every glyph of DejaVu Sans, in alternating sizes, anti-aliased.
 /// @throws std::runtime_error without the font
 Corpus smoothGlyphs();
 
-/// Every fourth glyph of DejaVu Sans, hard.
+/// Every fourth glyph of DejaVu Sans, with hard edges.
 /// @throws std::runtime_error without the font
 Corpus hardGlyphs();
 
@@ -42,7 +42,7 @@ Corpus hardGlyphs();
 /// @throws std::runtime_error without it
 Corpus icons();
 
-/// Files, and those in folders and below them, in order.
+/// Given files, and all files in given folders and subfolders, in order.
 /// @throws std::runtime_error if there are none
 Corpus files(const std::vector<std::filesystem::path>& paths);
 
@@ -52,16 +52,16 @@ Corpus whiteNoise();
 /// Coastlines, caves, mazes and dust from fixed seeds.
 Corpus randomWorlds();
 
-/// Pictures drawn to be as awkward as possible: lines, combs, spirals, rings, dithers, plateaus, extreme sizes.
+/// Deliberately awkward pictures: lines, combs, spirals, rings, dithers, plateaus, extreme sizes.
 Corpus adversaries();
 
 /// Every arrangement of liquid in a square of 3 × 3 cells of several pixels.
 Corpus patterns();
 
-/// Noise and shapes in every kind of PNG, and JPEG at bad quality, read as a user's pictures are.
+/// Noise and shapes in every kind of PNG and in JPEG of low quality, read like users' pictures.
 Corpus encodedNoise();
 
-/// Drawings that ask for far more than they are long.
+/// Short drawings that require huge work.
 Corpus hostileDrawings();
 
 /// SVG, meshes of every format and fonts, changed at random from fixed seeds.

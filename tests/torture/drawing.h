@@ -15,7 +15,7 @@
 
 namespace droplet::torture {
 
-/// A mask with its name, drawn when asked for.
+/// Named mask that is drawn on demand.
 struct Drawing {
     std::string name;
     std::function<Mask()> draw;
@@ -29,7 +29,7 @@ inline Corpus corpusOf(const std::string& name, std::vector<Drawing> drawings)
             }};
 }
 
-/// A mask of levels; what lies outside [0, 1] is clipped.
+/// Mask of levels, clipped to [0, 1].
 inline Mask levelMask(int width, int height, const std::function<double(int x, int y)>& level)
 {
     Mask mask;
@@ -45,7 +45,7 @@ inline Mask levelMask(int width, int height, const std::function<double(int x, i
     return mask;
 }
 
-/// A mask anti-aliased as coarsely as renderers do that are in a hurry: by 4 × 4 samples.
+/// Coarsely anti-aliased mask, by 4 × 4 samples, as fast renderers do.
 inline Mask coarseMask(int width, int height, const testing::Inside& inside)
 {
     constexpr int kSamples = 4;
@@ -60,7 +60,7 @@ inline Mask coarseMask(int width, int height, const testing::Inside& inside)
     });
 }
 
-/// The same shape as two drawings, hard and anti-aliased.
+/// Two drawings of a shape, hard and anti-aliased.
 inline void addShape(std::vector<Drawing>& drawings, const std::string& name, int width, int height,
                      const testing::Inside& inside)
 {

@@ -28,7 +28,7 @@ const std::vector<Kind>& kinds()
     return all;
 }
 
-/// Samples of three characters: noise throughout; noise in which most is black; a soft disc in noise.
+/// Three kinds of samples: noise; mostly black noise; a soft disc in noise.
 encoded::Raster raster(int side, int channels, int bits, int character, Random& random)
 {
     encoded::Raster result{side, side, channels, bits, {}};
@@ -105,7 +105,7 @@ Corpus encodedNoise()
         for (const int bits : kind.bits) {
             for (const bool interlaced : {false, true}) {
                 addPngs(makes, kind, bits, interlaced, false);
-                // Formats with alpha say nothing of transparency beside it.
+                // Formats with alpha have no other transparency.
                 if (kind.channels % 2 == 1) {
                     addPngs(makes, kind, bits, interlaced, true);
                 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Glyphs as FreeType renders them, without hinting: outlines as they were drawn.
+// Glyphs rendered by FreeType without hinting, which preserves their outlines.
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-/// Heights of the em [px]: from type that is all strokes of a pixel to type that fills a logo.
+/// Heights of the em [px], from strokes of one pixel to the size of a logo.
 constexpr std::array<FT_UInt, 5> kSizes{16, 28, 50, 90, 160};
 
 /// Dry pixels around the glyph; without any, liquid touches the border.
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(face_->num_glyphs); }
 
-    /// @return the rendered glyph, valid until the next is
+    /// @return the rendered glyph, valid until the next call
     [[nodiscard]] const FT_Bitmap& render(std::size_t glyph, FT_UInt size, bool hard) const
     {
         const FT_Int32 flags =
@@ -74,7 +74,7 @@ Mask maskOf(const FT_Bitmap& bitmap, int margin)
     const auto columns = static_cast<int>(bitmap.width);
     const auto rows = static_cast<int>(bitmap.rows);
     Mask mask;
-    // A blank has no pixels at all; a picture has at least one.
+    // A blank glyph has no pixels, but a picture must have at least one.
     mask.width = std::max(1, columns + 2 * margin);
     mask.height = std::max(1, rows + 2 * margin);
     for (int y = -margin; y < mask.height - margin; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawings, meshes and fonts that are broken, or mean harm: each is read, or refused with a reason.
+// Broken or hostile drawings, meshes and fonts: each must be read or refused with a reason.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -31,7 +31,7 @@ std::vector<std::byte> bytesOf(const std::string& text)
     return {first, first + text.size()};
 }
 
-/// A file to break, and where its numbers lie that all else hangs on.
+/// File to break, and the positions of its crucial numbers.
 struct Seed {
     std::string name;
     std::string bytes;
@@ -77,7 +77,7 @@ std::string mutated(const Seed& seed, Random& random)
     return bytes;
 }
 
-/// Elements and numbers of a drawing exchanged, repeated, nested and made extreme.
+/// Changes a drawing: exchanges, repeats and nests elements, and makes numbers extreme.
 std::string redrawn(const Seed& seed, Random& random)
 {
     if (random.below(4) == 0) {
@@ -139,7 +139,7 @@ std::vector<Seed> drawingSeeds()
     };
 }
 
-/// Reads a drawing as a mask, small and in little time, however it is meant.
+/// Reads a drawing as a small mask, within a short time limit.
 Verdict tryDrawing(const Item& item)
 {
     MaskOptions options;
@@ -212,7 +212,7 @@ Verdict tryFont(const Item& item)
             try {
                 glyphOutline(font, glyph);
             } catch (const Error&) {
-                // That glyph is broken; others need not be.
+                // Only this glyph is broken.
             }
         }
         setText(font, "fA\u0301V \u05d0\u0628\u0629 ffi\n&");

@@ -3,11 +3,11 @@
 //   torture [--corpus NAME] [--every N] [--limit SECONDS] [--workers N] [--failures FOLDER]
 //   torture [...] FILE|FOLDER...
 //
-// Makes droplets of thousands of pictures that mean no good: without names, of every glyph of a large font, of an icon
-// theme, of noise and of drawings; else of the files named. Each must give sound droplets or be refused with a reason,
-// within 2 s of processor time. So must SVG, meshes and fonts be read or refused that are broken or hostile. Pictures
-// take turns in how they are filled, and every 101st goes through the command, too. One line tells of every corpus, one
-// of every failure, whose picture is kept in the folder: `torture FILE` tries it again, filled in every way.
+// Makes droplets of thousands of awkward pictures: of the given files, or by default of every glyph of a large font, an
+// icon theme, noise and drawings. Each must give sound droplets or be refused with a reason, within 2 s of processor
+// time. Broken and hostile SVG, meshes and fonts must be read or refused, too. Pictures alternate between kinds of
+// fill; every 101st also runs through the command. One line reports every corpus, and one every failure, whose picture
+// is kept in the folder; `torture FILE` tries it again with every kind of fill.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -36,14 +36,14 @@ namespace {
 
 struct Options {
     std::vector<std::filesystem::path> paths;
-    std::string corpus;     ///< the only one to try; empty: all
-    std::size_t every = 1;  ///< only each so manieth item
+    std::string corpus;     ///< name of the only corpus to try; empty: all
+    std::size_t every = 1;  ///< try only every n-th item
     double limit = 2.0;     ///< [s]
     std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
     std::filesystem::path failures = "failures";
 };
 
-/// What a corpus came to.
+/// Results of a corpus.
 class Tally {
 public:
     void add(std::size_t item, const Verdict& verdict)
@@ -58,7 +58,7 @@ public:
             sharpest_ = {verdict.min_angle, item};
         }
         if (verdict.outcome == Outcome::Refused) {
-            // Up to the colon: what comes after it are numbers.
+            // Messages are grouped by the text before the colon; numbers follow it.
             ++refused_[verdict.message.substr(0, verdict.message.find(':'))];
         }
         failed_ += verdict.outcome == Outcome::Failed ? 1 : 0;
@@ -107,7 +107,7 @@ private:
     std::map<std::string, std::size_t> refused_;
 };
 
-/// Keeps a failing picture under its corpus' name and its own.
+/// Saves a failing picture, named after its corpus and itself.
 std::filesystem::path keep(const Item& item, const std::string& corpus, const std::filesystem::path& folder)
 {
     std::string name = corpus + "_" + item.name;
@@ -119,7 +119,7 @@ std::filesystem::path keep(const Item& item, const std::string& corpus, const st
     return folder / name;
 }
 
-/// A verdict late enough is a failure, however good.
+/// Turns a verdict that took too long into a failure.
 Verdict judged(Verdict verdict, double limit)
 {
     if (verdict.outcome != Outcome::Failed && verdict.seconds > limit) {
@@ -137,7 +137,7 @@ std::size_t run(const Corpus& corpus, const Options& options, bool all_fills)
     const std::size_t count = (corpus.count + options.every - 1) / options.every;
     const auto item_of = [&](std::size_t task) { return task / fills * options.every; };
     const auto work = [&](std::size_t task) {
-        // One thread, so that processor time is what it takes, and cores are shared out among items.
+        // One thread per item: its processor time is meaningful, and items share the cores.
         const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
         const Item item = corpus.item(item_of(task));
         if (corpus.trial) {
@@ -204,7 +204,7 @@ int start(int argc, char** argv)
     app.add_option("--workers", options.workers, "processes at a time")->check(CLI::PositiveNumber);
     app.add_option("--failures", options.failures, "folder that keeps pictures of failures");
     CLI11_PARSE(app, argc, argv);
-    // Expectations are looked at outside of tests.
+    // Expectations are also checked outside of tests.
     ::testing::InitGoogleTest();
     return runAll(options) == 0 ? 0 : 1;
 }

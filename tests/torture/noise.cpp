@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Masks left to chance. Coastlines: midpoint displacement after A. Fournier, D. Fussell and L. Carpenter, "Computer
+// Random masks. Coastlines: midpoint displacement after A. Fournier, D. Fussell and L. Carpenter, "Computer
 // rendering of stochastic models" (1982).
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace droplet::torture {
 namespace {
 
-/// Levels that are liquid with the given probability, each apart from all others.
+/// Levels that are liquid with a given probability, independently.
 Mask white(int width, int height, double density, bool hard, std::uint64_t seed)
 {
     Random random(seed);
@@ -21,7 +21,7 @@ Mask white(int width, int height, double density, bool hard, std::uint64_t seed)
     });
 }
 
-/// A square of heights whose surface has the given roughness (Hurst exponent), around 0.
+/// Square of heights around 0 with a given roughness (Hurst exponent).
 std::vector<double> mountains(int cells, double hurst, Random& random)
 {
     const int side = cells + 1;
@@ -58,7 +58,7 @@ std::vector<double> mountains(int cells, double hurst, Random& random)
     return height;
 }
 
-/// Land above the sea. A steepness of levels per unit of height beyond all reason makes it hard.
+/// Land above the sea. A very large steepness (levels per unit of height) gives hard edges.
 Mask coastline(int cells, double hurst, double steepness, std::uint64_t seed)
 {
     Random random(seed);
@@ -69,7 +69,7 @@ Mask coastline(int cells, double hurst, double steepness, std::uint64_t seed)
     });
 }
 
-/// Caves: noise in which every pixel has taken the side of most of its neighbours a few times.
+/// Caves: noise in which every pixel takes the majority of its neighbours, a few times.
 Mask caves(int side, double density, int rounds, std::uint64_t seed)
 {
     Mask mask = white(side, side, density, true, seed);
@@ -88,7 +88,7 @@ Mask caves(int side, double density, int rounds, std::uint64_t seed)
     return mask;
 }
 
-/// A maze of corridors a pixel wide between walls a pixel wide, by depth first search.
+/// Maze of corridors and walls of one pixel, by depth-first search.
 Mask maze(int cells, bool walls_are_liquid, std::uint64_t seed)
 {
     Random random(seed);
@@ -128,7 +128,7 @@ Mask maze(int cells, bool walls_are_liquid, std::uint64_t seed)
     return mask;
 }
 
-/// Discs of all sizes and soft edges anywhere, over the border and over one another.
+/// Discs of all sizes and soft edges at random places, across the border and one another.
 Mask splashes(int side, int count, double largest, double softness, std::uint64_t seed)
 {
     Random random(seed);
@@ -147,7 +147,7 @@ Mask splashes(int side, int count, double largest, double softness, std::uint64_
     });
 }
 
-/// Lines of any width from anywhere to anywhere.
+/// Lines of random width between random points.
 Mask scribble(int side, int count, double width, bool hard, std::uint64_t seed)
 {
     Random random(seed);

@@ -17,7 +17,7 @@ std::vector<fs::path> filesBelow(const fs::path& folder)
 {
     std::vector<fs::path> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        // A theme gives one picture many names.
+        // A theme has many names for one picture.
         if (entry.is_regular_file() && !entry.is_symlink()) {
             found.push_back(entry.path());
         }

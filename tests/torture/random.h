@@ -6,7 +6,7 @@
 
 namespace droplet::torture {
 
-/// Numbers that are the same everywhere: the standard fixes its engines, not its distributions.
+/// Random numbers that are the same on every platform: the standard fixes engines but not distributions.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -14,7 +14,7 @@ public:
     /// Uniform in [0, 1).
     double real() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
 
-    /// Uniform in [0, count), but for a bias of count/2⁵³.
+    /// Uniform in [0, count), except for a bias of count/2⁵³.
     int below(int count) { return static_cast<int>(real() * count); }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every picture the torture ever failed on, in the ordinary tests.
+// Replays every picture that ever failed, in the ordinary tests.
 #include <gtest/gtest.h>
 
 #include "support/paths.h"

@@ -74,7 +74,7 @@ void expectFilled(const Droplet& droplet, const Fill& fill)
     }
 }
 
-/// Every border of the mask is a loop, or was dropped as a speck.
+/// Checks that every border of the mask is a loop or was dropped as a speck.
 void expectEveryBorder(const Droplet& droplet, const Mask& mask)
 {
     const testing::Counts counts = testing::flooded(mask);
@@ -173,7 +173,7 @@ Verdict tryCommand(const Item& item)
     testing::writeFile(input, std::string(reinterpret_cast<const char*>(item.bytes.data()), item.bytes.size()));
 
     const double begin = childrensSeconds();
-    // Whoever runs us may be ended before it, and would leave it running for ever.
+    // If the parent is killed, the command must still end.
     constexpr const char* kPatience = "60";  // [s]
     const testing::CommandResult result = testing::runProgram(
         {"timeout", kPatience, testing::kCommand, "--quiet", "--triangles", std::to_string(kTriangles), "--channel",

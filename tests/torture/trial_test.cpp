@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the torture would see what it looks for.
+// Tests that the torture detects failures.
 #include "torture/trial.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ Mask ring()
     });
 }
 
-TEST(Trial, TakesGoodPicturesByLibraryAndCommand)
+TEST(Trial, AcceptsGoodPicturesByLibraryAndCommand)
 {
     const Item item = greymapItem("ring.pgm", ring());
     for (std::size_t turn = 0; turn < kFills; ++turn) {
@@ -40,7 +40,7 @@ TEST(Trial, TakesGoodPicturesByLibraryAndCommand)
     EXPECT_GT(command.seconds, 0.0);
 }
 
-TEST(Trial, KnowsRefusalsByLibraryAndCommand)
+TEST(Trial, RecognisesRefusalsByLibraryAndCommand)
 {
     const Item blank = greymapItem("blank.pgm", testing::hardMask(9, 9, [](Vec2) { return false; }));
     EXPECT_TRUE(tryLibrary(blank, {}).outcome == Outcome::Refused);
@@ -60,7 +60,7 @@ TEST(Trial, CallsEveryOtherErrorAFailure)
     EXPECT_TRUE(tryLibrary(greymapItem("ring.pgm", ring()), bottomless).outcome == Outcome::Failed);
 }
 
-TEST(Trial, SeesFlaws)
+TEST(Trial, DetectsFlaws)
 {
     const Mask mask = ring();
     const Droplet good = makeDroplet(mask);

@@ -29,7 +29,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A verdict on its way between processes.
+/// Verdict in the form sent between processes.
 struct Record {
     Outcome outcome = Outcome::Failed;
     std::size_t droplets = 0;
@@ -59,7 +59,7 @@ void require(bool success, const char* what)
     }
 }
 
-/// Ends this process when it has computed for so long from now.
+/// Limits the processor time of this process from now on.
 void limitProcessor(double seconds)
 {
     itimerval limit{};
@@ -68,7 +68,7 @@ void limitProcessor(double seconds)
     require(setitimer(ITIMER_PROF, &limit, nullptr) == 0, "setitimer");
 }
 
-/// The life of a child: takes an index, sends a verdict, until there are no more.
+/// Main loop of a child: receives an index and sends a verdict, until the socket is shut.
 [[noreturn]] void serve(int socket, const std::function<Verdict(std::size_t)>& work, const WorkOptions& options)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -89,7 +89,7 @@ void limitProcessor(double seconds)
     _exit(0);
 }
 
-/// A child process and the item it is at.
+/// Child process and its current item.
 class Worker {
 public:
     Worker(const std::function<Verdict(std::size_t)>& work, const WorkOptions& options)
@@ -108,7 +108,8 @@ public:
     }
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
-    /// Waits for the process, which ends when its socket is shut; closing would not do, as later children have it, too.
+    /// Shuts the socket, which ends the process, and waits. Closing is not enough, as later children inherit the
+    /// socket.
     ~Worker()
     {
         shutdown(socket_, SHUT_RDWR);
@@ -127,11 +128,11 @@ public:
     {
         item_ = item;
         since_ = Clock::now();
-        // To one that has fallen already nothing can be sent; that shows when its verdict is asked for.
+        // Sending to a dead process fails; reading its verdict then shows that.
         [[maybe_unused]] const ssize_t sent = send(socket_, &item, sizeof item, MSG_NOSIGNAL);
     }
 
-    /// The verdict, or none from a process that has ended.
+    /// Verdict; empty if the process has ended.
     [[nodiscard]] std::optional<Verdict> verdict() const
     {
         Record record;
@@ -143,7 +144,7 @@ public:
 
     void end() const { kill(process_, SIGKILL); }
 
-    /// How the process ended; it has.
+    /// How the process ended. Precondition: it has ended.
     std::string obituary() const
     {
         siginfo_t info{};
@@ -185,7 +186,7 @@ void workThrough(std::size_t count, const std::function<Verdict(std::size_t inde
         require(poll(events.data(), events.size(), kLook) >= 0 || errno == EINTR, "poll");
         for (std::size_t k = 0; k < workers.size(); ++k) {
             Worker& worker = *workers[k];
-            // What has an answer, or has fallen, is not late, however late that is seen.
+            // A process that has answered or died is not late, even if that is noticed late.
             const bool silent = events[k].revents == 0;
             if (silent && !worker.isLate(options)) {
                 continue;

@@ -8,19 +8,19 @@
 
 namespace droplet::torture {
 
-/// How items are worked on.
+/// Options of the worker processes.
 struct WorkOptions {
-    std::size_t workers = 1;      ///< processes at a time
-    double processor_limit = 20;  ///< an item that takes more is ended [s of processor time]
-    double patience = 120;        ///< so is one that does not end in this time [s]
+    std::size_t workers = 1;      ///< number of processes
+    double processor_limit = 20;  ///< limit per item [s of processor time]
+    double patience = 120;        ///< limit per item [s of real time]
 };
 
-/// Runs work(0) … work(count − 1), each once, in processes of their own.
+/// Runs work(0) … work(count − 1), each once, in child processes.
 ///
-/// A process that is ended, by a fault or by a limit, takes only the item it was at with it, which is given the
-/// verdict Failed; another process goes on with the next.
+/// If a fault or a limit ends a process, only its current item gets the verdict Failed; another process continues with
+/// the next item.
 /// @param work  called in a child process; may crash
-/// @param done  called here, with every index once, in any order
+/// @param done  called in this process, once per index, in any order
 void workThrough(std::size_t count, const std::function<Verdict(std::size_t index)>& work,
                  const std::function<void(std::size_t index, const Verdict& verdict)>& done,
                  const WorkOptions& options);

@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Numbers told of every index; the rest of what can happen, at some.
+/// Returns a number for every index; crashes, hangs or throws at some.
 Verdict misbehave(std::size_t index)
 {
     volatile std::uint64_t spins = 0;
@@ -47,7 +47,7 @@ Verdict misbehave(std::size_t index)
     return verdict;
 }
 
-TEST(Workers, TellOfEveryItemWhateverBecameOfIt)
+TEST(Workers, ReportEveryItemWhateverItsOutcome)
 {
     constexpr std::size_t kCount = 40;
     for (const std::size_t team : {1U, 3U, 100U}) {
@@ -56,7 +56,7 @@ TEST(Workers, TellOfEveryItemWhateverBecameOfIt)
         WorkOptions options;
         options.workers = team;
         options.processor_limit = 0.2;
-        options.patience = 600.0;  // nothing here takes for ever, however many share the processor
+        options.patience = 600.0;  // no item hangs, but many tests may share the processor
         workThrough(
             kCount, misbehave,
             [&](std::size_t index, const Verdict& verdict) {
@@ -83,7 +83,7 @@ TEST(Workers, TellOfEveryItemWhateverBecameOfIt)
     }
 }
 
-TEST(Workers, TellOfWhatDoesNotEnd)
+TEST(Workers, ReportItemsThatDoNotEnd)
 {
     WorkOptions options;
     options.patience = 0.1;
@@ -99,7 +99,7 @@ TEST(Workers, TellOfWhatDoesNotEnd)
     EXPECT_THAT(told, ::testing::ElementsAre("did not end", "did not end"));
 }
 
-TEST(Workers, HaveNothingToDo)
+TEST(Workers, AcceptAnEmptyList)
 {
     workThrough(0, misbehave, [](std::size_t, const Verdict&) { ADD_FAILURE(); }, {});
 }

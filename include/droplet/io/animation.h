@@ -12,44 +12,47 @@
 
 namespace droplet {
 
-/// What an animated glTF file holds beside the surfaces.
+/// Options of an animated glTF file.
 struct AnimationOptions {
-    double frames_per_second = 24.0;  ///< > 0
-    Material material = Material::Water;
+    double frames_per_second = 24.0;         ///< > 0
+    Material material = Material::Water;     ///< of the liquid
     bool closed = true;                      ///< as in GltfOptions
-    std::optional<std::size_t> frames = {};  ///< how many are to come, where that is known: too large a file is then
-                                             ///< refused with the first
+    std::optional<std::size_t> frames = {};  ///< expected number of frames, if known: a file that would be too large
+                                             ///< is then refused at its first surface
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// An animated GLB on its way: takes one surface after another, keeps what the file will hold of them, and is written
-/// in the end.
+/// Builder of an animated GLB: collects surfaces frame by frame and writes the file at the end.
 ///
-/// A node with a mesh for every run of frames that share their triangles. Within a run frames are morph targets whose
-/// weights are animated LINEAR, so that between frames vertices move; runs longer than 64 frames go on in another node,
-/// which begins with the frame that the one before ends with, so nothing jumps there. Which run is shown, is animated
-/// by scale, STEP, 1 or 0, for all viewers can do that. The last frame is shown for as long as all others, then the
-/// animation may begin again. In frames without a surface no run is shown. Without an animation, the first surface is.
+/// Each run of frames with the same triangles becomes one node with one mesh. The frames of a run are morph targets
+/// with LINEAR weights, so vertices move between frames. A run of more than 64 frames continues in another node; its
+/// first frame is the last one of the node before, so nothing jumps. The scale of a node, 1 or 0 with STEP, shows or
+/// hides its run; all viewers support that. The last frame is shown as long as the others; then the animation may
+/// repeat. Frames without a surface show no run. Viewers that do not play animations show the first surface.
 /// Texture coordinates are those of a run's first frame; contact angles are left out.
 class Animation {
 public:
+    /// An animation without frames.
     /// @throws Error InvalidArgument
     explicit Animation(const AnimationOptions& options);
     ~Animation();
-    Animation(Animation&&) noexcept;
-    Animation& operator=(Animation&&) noexcept;
+    Animation(Animation&&) noexcept;             ///< leaves the other one unusable
+    Animation& operator=(Animation&&) noexcept;  ///< leaves the other one unusable
 
+    /// Adds a frame.
     /// @param surface    valid
-    /// @param continues  it is the surface before with its vertices moved: as many, and the same triangles
-    /// @throws Error     InvalidArgument: an invalid surface, one that does not continue the one before, or the file
-    ///                   would reach 2 GiB
+    /// @param continues  the surface has as many vertices and the same triangles as the one before
+    /// @throws Error     InvalidArgument: the surface is invalid or does not continue the one before, or the file would
+    ///                   reach 2 GiB
     void add(const Surface& surface, bool continues);
 
-    /// A frame in which nothing is shown.
+    /// Adds a frame without liquid.
     void addDry();
 
+    /// Writes the GLB.
+    ///
     /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.
     /// @return       bytes handed to the stream
     /// @throws Error InvalidArgument if no frame has a surface

@@ -9,20 +9,21 @@
 
 namespace droplet {
 
-/// What a glTF file holds beside the surface.
+/// Options of a glTF file.
 struct GltfOptions {
-    bool binary = true;  ///< GLB; otherwise JSON with the buffer embedded as base64
-    Material material = Material::Water;
-    bool closed = true;  ///< an open surface gets no volume: viewers would refract at a missing base
+    bool binary = true;                   ///< GLB; otherwise JSON with the buffer embedded as base64
+    Material material = Material::Water;  ///< of the liquid
+    bool closed = true;  ///< false: no volume extension, since viewers would refract at the missing base
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
-/// and TEXCOORD_0, 32-bit indices where needed; and, if the surface has them, contact angles as a float scalar in
-/// degrees, _CONTACT_ANGLE: names of attributes that glTF does not define begin with an underscore (section 3.7.2.1),
-/// and viewers ignore them. No extension is required to show it; transmission, ior and volume
-/// are used where known. A surface that can be refilled has a morph target named `volume`, whose weight w shows 1 + w
-/// fills: mesh.weights [0], and in mesh.extras `targetNames` and `fill_range`, the fills of least and most. Colour by
-/// depth is given at the mean height; an open surface has it as plain tint.
+/// and TEXCOORD_0, 32-bit indices where needed.
+///
+/// Contact angles, if the surface has them, are the float scalar _CONTACT_ANGLE in degrees; attributes that glTF does
+/// not define begin with an underscore (section 3.7.2.1), and viewers ignore them. The file uses the extensions for
+/// transmission, ior and volume but requires none. A surface that can be refilled has a morph target named `volume`;
+/// its weight w shows 1 + w fills. mesh.weights is then [0], and mesh.extras holds `targetNames` and `fill_range`,
+/// the minimum and maximum fill. Colour by depth is given at the mean height; an open surface has it as plain tint.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream

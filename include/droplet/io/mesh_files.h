@@ -11,32 +11,32 @@
 
 namespace droplet {
 
-/// What a length of 1 is in a file that does not say so to programs.
+/// Unit of length in a file whose format does not state one.
 enum class LengthUnit { Millimetre, Centimetre, Metre };
 
-/// How an OBJ is written.
+/// Options of an OBJ file.
 struct ObjOptions {
-    LengthUnit unit = LengthUnit::Millimetre;
-    Material material = Material::Water;
-    std::optional<std::string> material_file = {};  ///< name of the file that writeMtl made; empty: no material
+    LengthUnit unit = LengthUnit::Millimetre;       ///< of the coordinates
+    Material material = Material::Water;            ///< used with material_file
+    std::optional<std::string> material_file = {};  ///< name of the file from writeMtl; empty: no material
 };
 
-// All three refuse an invalid surface (Error InvalidArgument), give the same bytes for the same surface, leave the
-// stream failed if it did not take everything, and return how many bytes they handed to it.
+// All writers below throw Error InvalidArgument for an invalid surface, give the same bytes for the same surface, leave
+// the stream failed if it did not take everything, and return the number of bytes handed to it.
 
-/// Wavefront OBJ: millimetres unless asked otherwise, +Y up like glTF, positions welded, crisp normals by separate
-/// normal indices, uv with its origin at the lower left. Text, nine significant digits, in any locale.
+/// Writes Wavefront OBJ: +Y up like glTF, welded positions, separate normal indices for crisp rims, uv with its origin
+/// at the lower left. Text with nine significant digits, in any locale.
 std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptions& options = {});
 
-/// The material of an OBJ: colour, index of refraction and transparency, and roughness and metal as many programs read
-/// them beside (Pr, Pm). Colours are linear.
+/// Writes the material of an OBJ: linear colour, index of refraction, transparency, and roughness and metallic as the
+/// common extensions Pr and Pm.
 std::uint64_t writeMtl(Material material, std::ostream& out);
 
-/// PLY, binary little-endian, floats: metres, z up, positions welded, normals of the liquid's side on the rim, texture
+/// Writes PLY, binary little-endian, floats: metres, z up, welded positions, on the rim the liquid's normals, texture
 /// coordinates s, t with their origin at the lower left, contact_angle in degrees if the surface has it.
 std::uint64_t writePly(const Surface& surface, std::ostream& out);
 
-/// STL, binary: millimetres unless asked otherwise, as slicers expect, z up; facet normals by the winding.
+/// Writes binary STL: z up, facet normals by the winding. Slicers expect millimetres.
 std::uint64_t writeStl(const Surface& surface, std::ostream& out, LengthUnit unit = LengthUnit::Millimetre);
 
 }  // namespace droplet

@@ -15,55 +15,57 @@
 
 namespace droplet {
 
-/// The formats a surface can be written in.
+/// File formats of a surface.
 enum class Format { Glb, Gltf, Obj, Ply, Stl };
 
-/// The format of that name, as in `glb` or of a file's extension, as in `.GLB`.
-/// @throws Error InvalidArgument, listing the names known
+/// Format with a name (`glb`) or a file extension (`.GLB`).
+/// @throws Error InvalidArgument, listing the known names
 Format formatNamed(std::string_view name);
 
-/// Lower-case name of a format, also its extension without the dot.
+/// Lower-case name of a format; also its file extension without the dot.
 const char* name(Format format);
 
-/// What beside the surface decides what a file says, in the formats that can say it.
+/// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {
-    Material material = Material::Water;            ///< of glTF, and of OBJ with material_file
-    std::optional<bool> closed = {};                ///< of glTF: isClosed(surface), where that is known already
-    LengthUnit unit = LengthUnit::Millimetre;       ///< of OBJ and STL
-    std::optional<std::string> material_file = {};  ///< of OBJ: the file that writeMtl made, by its name beside it
+    Material material = Material::Water;            ///< glTF, and OBJ with material_file
+    std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
+    LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
+    std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
 };
 
-/// Writes a surface to a stream in the given format; one without vertices, as of a frame without liquid, as a file that
-/// holds nothing.
+/// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
+/// without triangles.
 /// @return       bytes handed to the stream, which is left failed if it did not take everything
-/// @throws Error InvalidArgument as the writers of each format
+/// @throws Error InvalidArgument, as the writer of the format does
 std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format format, const WriteOptions& options = {});
 
-/// How an existing output is treated.
+/// Treatment of an existing file.
 struct OutputOptions {
-    bool no_clobber = false;  ///< refuse to replace an existing file; devices and pipes are not replaced
+    bool no_clobber = false;  ///< refuse to replace a file; devices and pipes are written to all the same
 };
 
-/// Throws what writing to `path` later would throw, where that can be known without writing: a missing or read-only
-/// folder, a directory in its place, an existing file that is read-only or must not be replaced.
+/// Finds, without writing, reasons why writing to `path` would fail: a missing or read-only folder, a directory in the
+/// file's place, an existing file that is read-only or must not be replaced.
 /// @throws Error OutputFailed
 void checkWritable(const std::filesystem::path& path, const OutputOptions& options = {});
 
-/// Writes a file whole or not at all: `write` fills a temporary file beside `path`, which is flushed, checked, closed
-/// and renamed over `path`. On any failure the temporary file is removed and what stood at `path` before stays.
+/// Writes a file completely or not at all: `write` fills a temporary file beside `path`, which is flushed, checked,
+/// closed and renamed to `path`. On any failure the temporary file is removed, and the old file at `path` stays.
 ///
-/// Where the file system knows files without a name, the temporary file has none until it is whole: even a killed
-/// process leaves nothing behind, but for the instant in which an older file is replaced. A link is followed and kept,
-/// an existing file's permissions are kept. With no_clobber a file that appears meanwhile is not replaced either.
+/// If the file system supports it, the temporary file has no name until it is complete: even a killed process leaves
+/// nothing behind, except in the instant in which an older file is replaced. Links are followed and kept, and so are an
+/// existing file's permissions. With no_clobber a file that appears meanwhile is not replaced either.
 /// Devices and pipes (/dev/full, /dev/stdout) are written to directly and checked.
-/// @param write  must leave its stream failed if not all was written
-/// @return       bytes written
-/// @throws Error OutputFailed, naming path and cause; whatever `write` throws
+/// @param path     file, device or pipe
+/// @param write    must leave its stream failed if not all was written
+/// @param options  treatment of an existing file
+/// @return         bytes written
+/// @throws Error   OutputFailed, naming path and cause; whatever `write` throws
 std::uint64_t writeWhole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
                          const OutputOptions& options = {});
 
-/// Removes the temporary files that have a name, for a handler of a signal that is about to end the process; from then
-/// on no write makes one. Safe in a handler of signals.
+/// Removes temporary files that have a name, and prevents new ones. For a signal handler that is about to end the
+/// process; async-signal-safe.
 void removeUnfinished() noexcept;
 
 }  // namespace droplet

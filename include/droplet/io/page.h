@@ -7,26 +7,28 @@
 
 namespace droplet {
 
-/// What a page shows.
+/// Content of a page.
 struct PageContent {
-    std::string title;   ///< in any characters; bytes that are not UTF-8 become U+FFFD. The download is named after it
-    std::string glb;     ///< the model, a whole GLB file of at most 256 MiB
-    std::string report;  ///< JSON as of writeReport or writeSequenceReport; its times and memory are left out
+    std::string title;   ///< UTF-8; other bytes become U+FFFD. The downloaded file gets this name
+    std::string glb;     ///< GLB file of at most 256 MiB
+    std::string report;  ///< JSON from writeReport or writeSequenceReport; times and memory are left out
 };
 
 /// Whether the library was built with the page (CMake's DROPLET_PAGE).
 bool pageIsBuiltIn() noexcept;
 
-/// Writes one HTML file that shows a droplet in a browser: to be turned and looked through, on several grounds, with
-/// the figures of its report, and to be downloaded. All that it needs is inside, three.js too; it works from disk and
-/// asks no network for anything. A model whose meshes have a morph target named `volume` can be filled and drained:
-/// weight w shows a fill of 1 + w, from and to what `fill_range` in the mesh's extras says, 0 to 2 if it says nothing.
-/// A model with an animation, as of Animation, is played, with the report of writeSequenceReport.
+/// Writes one HTML file that shows a droplet in a browser. The reader can turn the droplet, look through it, choose its
+/// ground, read the figures of its report, and download it. The file contains everything, three.js too; it works from
+/// disk and makes no network request. If the meshes have a morph target named `volume`, the reader can change the fill:
+/// weight w shows a fill of 1 + w, within `fill_range` in the mesh's extras, by default 0 to 2.
+/// A model with an animation, such as from Animation, is played; its report is that of writeSequenceReport.
 ///
-/// Guarantees: the same content gives the same bytes; no title and no report can end the element it stands in.
+/// Guarantees: the same content gives the same bytes; title and report are escaped.
 /// The stream is left failed if it did not take everything.
-/// @return       bytes handed to the stream
-/// @throws Error InvalidArgument if glb or report are not what they should be, or the page is not built in
+/// @param out      stream of bytes
+/// @param content  title, model and report
+/// @return         bytes handed to the stream
+/// @throws Error   InvalidArgument if glb is not a GLB file, report is not a JSON object, or the page is not built in
 std::uint64_t writePage(std::ostream& out, const PageContent& content);
 
 }  // namespace droplet

@@ -9,25 +9,26 @@
 
 namespace droplet {
 
-/// A surface from a file, and what of the file it does not hold.
+/// Surface from a file, with warnings about data that was ignored.
 struct ReadSurface {
-    Surface surface;
-    std::vector<std::string> warnings;  ///< a line each
+    Surface surface;                    ///< valid
+    std::vector<std::string> warnings;  ///< one line each
 };
 
-/// Reads a surface from a file as this library writes them: glTF 2.0 (.glb, .gltf), Wavefront OBJ, PLY (text or binary
-/// little-endian), STL (text or binary), by its extension. OBJ and STL are taken to be in millimetres, or what a file
-/// of ours says, glTF and OBJ to be y up. All triangles are read; other faces are refused, lines and points passed
-/// over.
+/// Reads a surface in one of the formats that this library writes: glTF 2.0 (.glb, .gltf), Wavefront OBJ, PLY (text or
+/// binary little-endian), STL (text or binary). The file extension decides. OBJ and STL are read in millimetres, unless
+/// a comment by this library states another unit; glTF and OBJ are y up. All triangles are read; faces with more
+/// corners are refused, lines and points ignored.
 ///
-/// Vertices at the very same place are welded. Missing normals are those of the triangles around a place, weighted by
-/// their angles there; STL's are the facets' own, by their winding. A PLY of ours has one normal for every place,
-/// on the rim the liquid's. Contact angles are read where glTF or PLY have them, texture coordinates from glTF.
-/// mean_height is 0. What moves in glTF is taken at rest, with a warning.
+/// Vertices at exactly the same place are welded. A missing normal is the mean over the triangles around the vertex,
+/// weighted by their angles there; STL has facet normals, by the winding. A PLY from this library has one normal per
+/// vertex, on the rim the liquid's. Contact angles are read from glTF and PLY, texture coordinates from glTF.
+/// mean_height is 0. Animations, skins and morph targets of glTF are ignored, with a warning.
 ///
 /// Guarantees: the surface is valid.
-/// @throws Error InvalidArgument for extensions of no known format; InvalidInput, naming the file, where it cannot be
-///               read, is damaged, has no triangles, numbers that are not finite, or beyond 2²⁶ triangles
+/// @param path   file to read
+/// @throws Error InvalidArgument for an unknown extension; InvalidInput, naming the file: it cannot be read, is
+///               damaged, has no triangles, numbers that are not finite, or more than 2²⁶ triangles
 ReadSurface readSurface(const std::filesystem::path& path);
 
 }  // namespace droplet

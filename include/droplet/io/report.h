@@ -20,117 +20,118 @@
 
 namespace droplet {
 
-/// How many stages there are.
+/// Number of stages.
 inline constexpr std::size_t kStageCount = static_cast<std::size_t>(Stage::Write) + 1;
 
-/// What was set, and in what.
+/// Text or glyph of the input, and its font.
 struct TypeReport {
-    std::string family;  ///< as the font says
-    std::string style;
-    std::size_t face_index = 0;
-    std::vector<std::pair<std::string, double>> axes;  ///< tags and values as given
-    std::optional<std::string> text;                   ///< empty where there is a glyph
-    std::optional<std::uint32_t> glyph;                ///< empty where there is a text
-    std::string glyph_name;
-    std::optional<char32_t> character;  ///< that the glyph stands for
-    std::vector<char32_t> missing;      ///< characters of the text that the font lacks
-    double em = 0.0;                    ///< [m]
+    std::string family;                                ///< from the font
+    std::string style;                                 ///< from the font
+    std::size_t face_index = 0;                        ///< within a font collection
+    std::vector<std::pair<std::string, double>> axes;  ///< tags and values, as given
+    std::optional<std::string> text;                   ///< empty for a glyph
+    std::optional<std::uint32_t> glyph;                ///< index in the font; empty for a text
+    std::string glyph_name;                            ///< from the font; empty for a text
+    std::optional<char32_t> character;                 ///< that the glyph represents
+    std::vector<char32_t> missing;                     ///< characters of the text that the font lacks
+    double em = 0.0;                                   ///< type size [m]
 };
 
-/// The picture and how it was read, or what was set in type.
+/// Input: a picture and how it was read, or a font with its text.
 struct InputReport {
-    std::string path;                ///< as given
-    std::optional<TypeReport> type;  ///< if the path is a font's: then what follows says nothing but specks_dropped
-    int width_px = 0;
-    int height_px = 0;
-    bool drawn = false;       ///< an SVG image, which has no pixels but those it was drawn with
-    bool own_size = false;    ///< whether its size is what it states itself
-    double pixel_size = 0.0;  ///< [m]
-    Channel channel = Channel::Luma;
-    bool inverted = false;
-    double threshold = 0.5;
-    double level_dry = 0.0;     ///< as in Mask
-    double level_liquid = 1.0;  ///< as in Mask
-    bool anti_aliased = false;
-    std::size_t specks_dropped = 0;
-    double largest_speck_px = 0.0;                   ///< [px²]
+    std::string path;                 ///< as given
+    std::optional<TypeReport> type;   ///< for a font; of the members below, only specks_dropped then has a meaning
+    int width_px = 0;                 ///< as in Mask [px]
+    int height_px = 0;                ///< as in Mask [px]
+    bool drawn = false;               ///< SVG image; it was drawn with the pixels above
+    bool own_size = false;            ///< the size is the one that the SVG image states
+    double pixel_size = 0.0;          ///< [m]
+    Channel channel = Channel::Luma;  ///< as in Mask
+    bool inverted = false;            ///< dark or transparent pixels are liquid
+    double threshold = 0.5;           ///< as in Mask
+    double level_dry = 0.0;           ///< as in Mask
+    double level_liquid = 1.0;        ///< as in Mask
+    bool anti_aliased = false;        ///< as in Outline
+    std::size_t specks_dropped = 0;   ///< footprints and dry spots that were too small
+    double largest_speck_px = 0.0;    ///< area of the largest speck dropped [px²]
     Segmentation segment = Segmentation::Threshold;  ///< as in Mask
     double segment_confidence = 1.0;                 ///< as in Mask
 };
 
-/// The file that was written.
+/// Output file.
 struct OutputReport {
-    std::string path;  ///< as given
-    Format format = Format::Glb;
-    std::uint64_t bytes = 0;
-    std::size_t vertices = 0;  ///< as the format counts them: distinct places, or more where normals need copies
-    std::size_t triangles = 0;
-    Topology topology;
+    std::string path;             ///< as given
+    Format format = Format::Glb;  ///< of the file
+    std::uint64_t bytes = 0;      ///< size of the file
+    std::size_t vertices = 0;     ///< as the format counts them; glTF has copies where normals differ
+    std::size_t triangles = 0;    ///< of the surface
+    Topology topology;            ///< of the surface
 };
 
-/// What the liquid stands on.
+/// Kind of ground.
 enum class GroundKind { Flat, Sphere, Cylinder, HeightMap };
 
-/// The ground; what a kind does not have is empty.
+/// Ground; members that its kind does not have are empty.
 struct GroundReport {
-    GroundKind kind = GroundKind::Flat;
-    std::optional<std::string> path;  ///< of a height map, as given
-    std::optional<double> depth;      ///< of a height map: white over black [m]
-    std::optional<double> radius;     ///< negative of a bowl or gutter [m]
-    std::optional<double> axis;       ///< of a cylinder, counter-clockwise from the picture's right [rad]
+    GroundKind kind = GroundKind::Flat;  ///< decides which members are set
+    std::optional<std::string> path;     ///< height map: its file, as given
+    std::optional<double> depth;         ///< height map: height of white above black [m]
+    std::optional<double> radius;        ///< sphere or cylinder; negative: bowl or gutter [m]
+    std::optional<double> axis;          ///< cylinder: counter-clockwise from the picture's right [rad]
 };
 
-/// The object the droplets were laid on, and how.
+/// Object under the droplets, with counts from OntoReport.
 struct ObjectReport {
-    std::string path;  ///< as given
-    std::size_t droplets_laid = 0;
-    std::size_t droplets_left_out = 0;
-    std::size_t flipped_charts = 0;
-    std::size_t overlapping_charts = 0;
-    double min_scale = 0.0;  ///< of object to picture, in length
-    double max_scale = 0.0;
+    std::string path;                    ///< as given
+    std::size_t droplets_laid = 0;       ///< droplets placed on the object
+    std::size_t droplets_left_out = 0;   ///< droplets that cannot be placed there
+    std::size_t flipped_charts = 0;      ///< as in OntoReport
+    std::size_t overlapping_charts = 0;  ///< as in OntoReport
+    double min_scale = 0.0;              ///< minimum of length on the object over length in the picture
+    double max_scale = 0.0;              ///< maximum of the same
 };
 
-/// The footprint's triangulation, all droplets together.
+/// Triangulation of all footprints together.
 struct MeshReport {
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    double min_angle = 0.0;  ///< [rad]
-    std::size_t holes = 0;
+    std::size_t vertices = 0;   ///< of all meshes
+    std::size_t triangles = 0;  ///< of all meshes
+    double min_angle = 0.0;     ///< smallest angle of a triangle [rad]
+    std::size_t holes = 0;      ///< dry spots
 };
 
-/// One droplet of the table.
+/// Figures of one droplet.
 struct DropletReport {
-    ShapeFigures figures;
-    std::size_t holes = 0;
+    ShapeFigures figures;                ///< of this droplet
+    std::size_t holes = 0;               ///< dry spots
     double pressure = 0.0;               ///< [Pa]
-    std::optional<Retention> retention;  ///< where Report::hysteresis is known
+    std::optional<Retention> retention;  ///< empty if Report::hysteresis is empty
 };
 
-/// What a run did and what came of it, in SI units and radians.
+/// Options, results and warnings of a run, in SI units and radians.
 struct Report {
-    InputReport input;
-    OutputReport output;
-    SolveOptions physics;
-    std::optional<FillRange> fill_range;  ///< where the surface can be filled and drained
-    std::optional<Hysteresis> hysteresis;
-    GroundReport ground;
-    std::optional<ObjectReport> onto;  ///< empty where there is no object
-    SolveReport solve;
-    MeshReport mesh;
-    ShapeFigures total;
-    std::optional<double> pressure;       ///< [Pa]; empty when droplets have pressures of their own
-    std::optional<Retention> retention;   ///< forces of all droplets together
-    std::vector<DropletReport> droplets;  ///< in the order of the meshes
-    std::vector<std::string> warnings;
-    std::size_t grave_warnings = 0;          ///< so many of the first of them are told even where only errors are
+    InputReport input;                       ///< picture or text
+    OutputReport output;                     ///< file written
+    SolveOptions physics;                    ///< liquid, gravity, fill and model
+    std::optional<FillRange> fill_range;     ///< empty if the surface cannot be refilled
+    std::optional<Hysteresis> hysteresis;    ///< empty if unknown
+    GroundReport ground;                     ///< below the liquid
+    std::optional<ObjectReport> onto;        ///< empty without an object
+    SolveReport solve;                       ///< of the solver
+    MeshReport mesh;                         ///< of the footprints
+    ShapeFigures total;                      ///< of all droplets together
+    std::optional<double> pressure;          ///< [Pa]; empty if every droplet has its own pressure
+    std::optional<Retention> retention;      ///< forces of all droplets together
+    std::vector<DropletReport> droplets;     ///< in the order of the meshes
+    std::vector<std::string> warnings;       ///< one line each; grave ones first
+    std::size_t grave_warnings = 0;          ///< number of warnings that --quiet does not silence
     std::array<double, kStageCount> time{};  ///< indexed by Stage [s]
     double time_total = 0.0;                 ///< [s]
     std::uint64_t peak_memory = 0;           ///< [bytes]
 };
 
-/// Writes a report as JSON, schema `droplet-shape.report/1`: every key always present, in a fixed order, numbers with
-/// all their digits, angles in degrees, the rest in SI units. Bytes of a path that are not UTF-8 become U+FFFD.
+/// Writes a report as JSON, schema `droplet-shape.report/1`: every key is always present, in a fixed order; numbers
+/// have all their digits; angles are in degrees, the rest in SI units. Bytes of a path that are not UTF-8 become
+/// U+FFFD.
 ///
 /// The stream is left failed if it did not take everything.
 /// @throws Error NoSuchDroplet if a number is not finite, naming its key; nothing is written then

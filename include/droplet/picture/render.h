@@ -15,87 +15,84 @@
 
 namespace droplet {
 
-/// Where a droplet is looked at from.
+/// Preset viewpoint.
 enum class View { ThreeQuarter, Top, Side };
 
-/// The view of that name: three-quarter, top, side.
+/// View with a name: three-quarter, top, side.
 /// @throws Error InvalidArgument
 View viewNamed(std::string_view name);
 
-/// Where the camera stands, seen from the droplet.
+/// Direction from the droplet to the camera.
 struct CameraPlace {
     double azimuth = 0.0;    ///< counter-clockwise from the picture's right, seen from above [rad]
     double elevation = 0.0;  ///< above the ground [rad] 0 … π/2
 };
 
-/// What shines on a droplet.
+/// Light on a droplet.
 enum class Lighting {
-    Studio,   ///< soft boxes in a room; they keep their places beside the camera
-    Uniform,  ///< radiance 1 from everywhere, unit light on all ground: for measuring
+    Studio,   ///< soft boxes in a room, fixed relative to the camera
+    Uniform,  ///< radiance 1 from all directions, for measurements
 };
 
-/// A box with edges along the axes [m].
+/// Box with edges along the axes [m].
 struct ViewBox {
-    Vec3 low;
-    Vec3 high;
+    Vec3 low;   ///< corner with the smallest coordinates
+    Vec3 high;  ///< corner with the largest coordinates
 };
 
-/// The smallest box around a surface and another box; of a surface without vertices, that box.
+/// Smallest box around a surface and another box; for a surface without vertices, that box.
 std::optional<ViewBox> around(const Surface& surface, const std::optional<ViewBox>& box = {});
 
-/// How a picture is taken.
+/// Options of a rendered picture.
 struct RenderOptions {
-    int width = 1280;  ///< [px] 1 … 8192
-    int height = 960;  ///< [px] 1 … 8192
-    View view = View::ThreeQuarter;
-    std::optional<CameraPlace> camera = {};  ///< in place of the view's
-    double azimuth = 0.0;                    ///< how far the droplet is turned, counter-clockwise seen from above [rad]
-    bool fits_any_turn = false;  ///< framed so that it fits at every azimuth, as the pictures of a turntable must be
-    int samples = 16;            ///< rays through a pixel where there is something to see, a quarter of it elsewhere
-                                 ///< 4 … 256
-    Look look;                   ///< of the liquid: lookOf(material)
-    Lighting lighting = Lighting::Studio;
-    std::optional<Environment> environment = {};  ///< shines in place of the studio, scaled so that level ground is as
-                                                  ///< bright; it stays beside the camera, too
-    Vec2 extent = {};                    ///< physical size of the image, centred at the origin [m]; > 0 with `ground`
-    std::optional<Picture> ground = {};  ///< what the droplet stands on; empty: a table with a fine ruling
-    std::optional<TexturedMesh> stand = {};  ///< what the droplet stands on if not the plane z = 0, uv as the droplet's
-    bool frames_stand = true;            ///< show all of the stand, an object then; otherwise the droplets, on ground
-    std::optional<ViewBox> framed = {};  ///< what the camera frames, and what gives the table its ruling and light, so
-                                         ///< that pictures of several surfaces can be compared; it must hold the
-                                         ///< surface. Empty: the surface
+    int width = 1280;                        ///< [px] 1 … 8192
+    int height = 960;                        ///< [px] 1 … 8192
+    View view = View::ThreeQuarter;          ///< of the camera
+    std::optional<CameraPlace> camera = {};  ///< replaces the view's direction
+    double azimuth = 0.0;                    ///< turn of the droplet, counter-clockwise seen from above [rad]
+    bool fits_any_turn = false;              ///< frame the droplet so that it fits at every azimuth, for a turntable
+    int samples = 16;                        ///< rays per pixel with detail; a quarter of it elsewhere. 4 … 256
+    Look look;                               ///< of the liquid: lookOf(material)
+    Lighting lighting = Lighting::Studio;    ///< Uniform ignores `environment`
+    std::optional<Environment> environment = {};  ///< light instead of the studio's, fixed relative to the camera and
+                                                  ///< scaled to the same brightness of level ground
+    Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
+    std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
+    std::optional<TexturedMesh> stand = {};  ///< ground instead of the plane z = 0, uv as the droplet's
+    bool frames_stand = true;                ///< true: the stand is an object, shown whole; false: ground
+    std::optional<ViewBox> framed = {};  ///< box for the camera, the ruling and the light, so that pictures of several
+                                         ///< surfaces are comparable; contains the surface. Empty: the surface's box
     std::optional<Paint> paint = {};     ///< opaque colours instead of the material
 
     /// @throws Error InvalidArgument
     void validate() const;
 };
 
-/// A picture of droplets as they would look, by tracing rays: refraction and reflection by Snell's and Fresnel's laws
-/// at the surface with its smooth normals, absorption along the way through the liquid (Beer and Lambert), a table or
-/// picture they stand on, and the light they gather there. The base touches the ground as a liquid does, without air
-/// between: what is below is seen through one surface.
+/// Renders droplets realistically by ray tracing: refraction and reflection by Snell's and Fresnel's laws with smooth
+/// normals, absorption in the liquid (Beer and Lambert), the ground, and the light that the droplets focus on it. The
+/// base touches the ground without air between: the ground is seen through one surface.
 ///
-/// Liquid on the plane z = 0 stands on ground without end; where a picture is given it covers the mask's extent, and
-/// beyond it is mirrored again and again, so that it goes on without a seam. On curved ground give `stand`, made by
-/// groundMesh, or nothing but the base is seen of it. With `paint` there is a legend, too, where the picture is at
-/// least 320 by 240.
+/// The plane z = 0 is endless ground. A picture on it covers the mask's extent and is mirrored repeatedly beyond, so it
+/// has no seams. For curved ground, set `stand` to groundMesh(…); otherwise only its part below the droplets is seen.
+/// With `paint`, pictures of at least 320 by 240 pixels have a legend.
 ///
-/// Guarantees: the same bytes for the same surface and options, at any number of threads. Floating-point modes of the
+/// Guarantees: the same bytes for the same surface and options, with any number of threads. Floating-point modes of the
 /// caller's threads are as before.
-/// @param surface  valid; closed or open; with `framed` it may be without triangles: then there is the ground alone
+/// @param surface  valid; closed or open; with `framed` it may have no triangles: then only the ground is drawn
+/// @param options  size, camera, light and ground
 /// @throws Error   InvalidArgument
 Picture render(const Surface& surface, const RenderOptions& options = {});
 
-/// The same without ground and backdrop, to lay over another picture: opaque where nothing is seen through the droplet,
-/// less where its ground would be, and dark where its shadow falls. Over black it is what the liquid mirrors, over
-/// white also what it lets pass of white ground, in sRGB levels. A stand stays, with the droplet's shadow on it;
-/// legends do not.
+/// Renders droplets without ground and backdrop, to put over another picture. Reflections are opaque, the liquid is
+/// transparent where the ground would be seen, and shadows are dark. Over black the layer shows what the liquid
+/// reflects, over white also the white ground seen through it, in sRGB levels. A stand is drawn, with the droplet's
+/// shadow on it; a legend is not. Arguments and guarantees as of render.
 Layer renderCutOut(const Surface& surface, const RenderOptions& options = {});
 
-/// Curved ground as a mesh to stand droplets on: its height field over the image's extent and a part of it around, as
-/// far as there is ground.
+/// Mesh of curved ground for RenderOptions::stand: its height field over the mask's extent and a margin, as far as the
+/// ground reaches.
 /// @param ground  not flat
-/// @param extent  of the image, centred at the origin [m]; both > 0
+/// @param extent  of the mask, centred at the origin [m]; both > 0
 /// @throws Error  InvalidArgument
 TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent);
 
