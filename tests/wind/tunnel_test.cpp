@@ -423,7 +423,7 @@ TEST(Sweep, RejectsFieldsOutOfRange)
     expect_refused("slopes[0]", [](TunnelSweep& s) { s.slopes[0] = -0.1; });
     expect_refused("hystereses[1]", [](TunnelSweep& s) { s.hystereses[1] = 2.5; });
     expect_refused("exclude each other", [](TunnelSweep& s) { s.model.wetting.falling_angle = 0.1; });
-    expect_refused("limit of 10000000", [](TunnelSweep& s) {
+    expect_refused("at most 10000000", [](TunnelSweep& s) {
         s.winds.assign(10'000, 1.0);
         s.volumes.assign(1000, 1e-9);
     });
