@@ -13,8 +13,8 @@
 namespace droplet {
 namespace {
 
-/// Pixels of the first level are means of four neighbours, which differ little, so their levels may be averaged in
-/// place of light: by their sum.
+/// Sums of four levels. Pixels of the first level are means of four neighbours, which differ little, so their levels
+/// may be averaged instead of their light.
 constexpr std::size_t kSums = 4 * 255 + 1;
 using Sums = std::array<float, kSums>;
 
@@ -30,13 +30,13 @@ const Sums& lightOfSums()
     return light;
 }
 
-/// How much of a highlight a level is: from four fifths up, by eye.
+/// Share of the boost at a level: it begins at four fifths, by eye.
 float highlight(float level)
 {
     return smoothstep(0.8F, 1.0F, level);
 }
 
-/// Lamps are few; where much of the picture is bright, that is daylight, which saturates nothing.
+/// Boost for a picture: lamps are few; a picture with much brightness shows daylight, without boost.
 float boostFor(const Picture& picture)
 {
     constexpr std::size_t kEvery = 8;
@@ -55,8 +55,8 @@ float boostFor(const Picture& picture)
 template <typename Work>
 void forRows(int rows, const Work& work)
 {
-    constexpr int kRowsWorthAThread = 16;
-    tbb::parallel_for(tbb::blocked_range<int>(0, rows, kRowsWorthAThread), [&](const auto& range) {
+    constexpr int kRowsPerBlock = 16;
+    tbb::parallel_for(tbb::blocked_range<int>(0, rows, kRowsPerBlock), [&](const auto& range) {
         for (int y = range.begin(); y < range.end(); ++y) {
             work(static_cast<std::size_t>(y));
         }
@@ -70,7 +70,7 @@ Highlights::Highlights(const Picture& picture, float exposure, std::optional<dou
 {
 }
 
-float Highlights::times(float level) const
+float Highlights::factor(float level) const
 {
     return exposure_ * (1.0F + boost_ * highlight(level));
 }
@@ -93,7 +93,7 @@ Backdrop::Backdrop(int width, int height, float half_width, float half_height)
 Backdrop::Level& Backdrop::addLevel(int width, int height, float across, float down)
 {
     levels_.push_back({width, height, across / 65536.0F, down / 65536.0F, light_.size()});
-    light_.resize(light_.size() + static_cast<std::size_t>(width) * static_cast<std::size_t>(height), four(0.0F));
+    light_.resize(light_.size() + static_cast<std::size_t>(width) * static_cast<std::size_t>(height), float4(0.0F));
     return levels_.back();
 }
 
@@ -103,7 +103,7 @@ void Backdrop::surround(const Environment& environment, const PictureFrame& fram
     is_all_around_ = is_all;
     light_.resize(levels_[picture_levels_ - 1].first + 1);
     levels_.resize(picture_levels_);
-    // As many pixels as there are, but for those that no droplet shows.
+    // Limit of the resolution: droplets do not show more.
     constexpr int kWidest = 4096;
     int every = 1;
     while (environment.width / every > kWidest) {
@@ -124,7 +124,7 @@ void Backdrop::surround(const Environment& environment, const PictureFrame& fram
             halve(levels_.size() - 1);
             continue;
         }
-        Four* const to = light_.data() + levels_.back().first;
+        Float4* const to = light_.data() + levels_.back().first;
         tbb::parallel_for(0, h, [&](int y) {
             for (int x = 0; x < w; ++x) {
                 Vec3f sum;
@@ -135,11 +135,11 @@ void Backdrop::surround(const Environment& environment, const PictureFrame& fram
                     }
                 }
                 const float share = exposure / count;
-                to[static_cast<std::ptrdiff_t>(y) * w + x] = Four{share * sum.x, share * sum.y, share * sum.z, 1.0F};
+                to[static_cast<std::ptrdiff_t>(y) * w + x] = Float4{share * sum.x, share * sum.y, share * sum.z, 1.0F};
             }
         });
     }
-    // Pixels of the picture and of what is around it, as angles.
+    // Levels of the panorama whose pixels have about the angle of the picture's.
     constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
     around_.clear();
     for (std::size_t k = 0; k < picture_levels_; ++k) {
@@ -158,13 +158,13 @@ PlaceInPicture Backdrop::placeAround(Vec3f direction, std::uint8_t level) const
     return {level16(static_cast<float>(place.across)), level16(static_cast<float>(place.down)), around_[level]};
 }
 
-void Backdrop::take(const Picture& picture, const Highlights& highlights)
+void Backdrop::setPicture(const Picture& picture, const Highlights& highlights)
 {
     const float* const light = lightOfSums().data();
-    // By its brightest channel, times which all light of a pixel is taken.
-    Sums times{};
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i] = highlights.times(static_cast<float>(i) / static_cast<float>(kSums - 1));
+    // Factor of a pixel's light by its brightest channel.
+    Sums factors{};
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        factors[i] = highlights.factor(static_cast<float>(i) / static_cast<float>(kSums - 1));
     }
     const auto width = static_cast<std::size_t>(picture.width);
     const auto height = static_cast<std::size_t>(picture.height);
@@ -172,7 +172,7 @@ void Backdrop::take(const Picture& picture, const Highlights& highlights)
     forRows(first.height, [&](std::size_t y) {
         const std::uint8_t* const upper = picture.rgb.data() + 3 * width * (2 * y);
         const std::uint8_t* const lower = 2 * y + 1 < height ? upper + 3 * width : upper;
-        Four* const to = light_.data() + y * static_cast<std::size_t>(first.width);
+        Float4* const to = light_.data() + y * static_cast<std::size_t>(first.width);
         for (std::size_t x = 0; x < static_cast<std::size_t>(first.width); ++x) {
             const std::size_t a = 6 * x;
             const std::size_t b = 2 * x + 1 < width ? a + 3 : a;
@@ -182,8 +182,8 @@ void Backdrop::take(const Picture& picture, const Highlights& highlights)
             const std::size_t red = sum(0);
             const std::size_t green = sum(1);
             const std::size_t blue = sum(2);
-            const float share = times[std::max({red, green, blue})];
-            to[x] = Four{share * light[red], share * light[green], share * light[blue], 1.0F};
+            const float share = factors[std::max({red, green, blue})];
+            to[x] = Float4{share * light[red], share * light[green], share * light[blue], 1.0F};
         }
     });
     for (std::size_t k = 1; k < picture_levels_; ++k) {
@@ -196,13 +196,13 @@ void Backdrop::halve(std::size_t number)
     const Level& from = levels_[number - 1];
     const Level& level = levels_[number];
     forRows(level.height, [&](std::size_t y) {
-        const Four* const upper = light_.data() + from.first + 2 * y * static_cast<std::size_t>(from.width);
-        const Four* const lower = 2 * y + 1 < static_cast<std::size_t>(from.height) ? upper + from.width : upper;
-        Four* const to = light_.data() + level.first + y * static_cast<std::size_t>(level.width);
+        const Float4* const upper = light_.data() + from.first + 2 * y * static_cast<std::size_t>(from.width);
+        const Float4* const lower = 2 * y + 1 < static_cast<std::size_t>(from.height) ? upper + from.width : upper;
+        Float4* const to = light_.data() + level.first + y * static_cast<std::size_t>(level.width);
         for (std::size_t x = 0; x < static_cast<std::size_t>(level.width); ++x) {
             const std::size_t a = 2 * x;
             const std::size_t b = a + 1 < static_cast<std::size_t>(from.width) ? a + 1 : a;
-            to[x] = four(0.25F) * ((upper[a] + upper[b]) + (lower[a] + lower[b]));
+            to[x] = float4(0.25F) * ((upper[a] + upper[b]) + (lower[a] + lower[b]));
         }
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The picture behind the glass as refracted rays meet it: linear light, halved again and again (L. Williams, "Pyramidal
-// Parametrics", SIGGRAPH 1983), for a droplet shows much of it on few pixels.
+// Picture behind the glass for refracted rays: a pyramid of linear light (L. Williams, "Pyramidal Parametrics",
+// SIGGRAPH 1983), as a droplet shows much of the picture on few pixels.
 #pragma once
 
 #include <algorithm>
@@ -16,22 +16,22 @@
 
 namespace droplet {
 
-/// Red, green, blue and one more, dealt with at once.
-using Four = float __attribute__((vector_size(16)));
+/// Four floats in one register: red, green, blue and another.
+using Float4 = float __attribute__((vector_size(16)));
 
-constexpr Four four(float value)
+constexpr Float4 float4(float value)
 {
-    return Four{value, value, value, value};
+    return Float4{value, value, value, value};
 }
 
-/// A place in the picture, or in what is around it, in 65536ths of its sides from the top left.
+/// Place in the picture or in the panorama around it, in 65536ths of its sides from the top left.
 struct PlaceInPicture {
     std::uint16_t x = 0;
     std::uint16_t y = 0;
-    std::uint8_t level = 0;  ///< of the backdrop
+    std::uint8_t level = 0;  ///< level of the backdrop
 };
 
-/// How the picture lies in the car's frame: x right, y ahead, z up.
+/// Axes of the picture in the car's frame: x right, y ahead, z up.
 struct PictureFrame {
     Vec3f right{1.0F, 0.0F, 0.0F};
     Vec3f ahead{0.0F, 1.0F, 0.0F};
@@ -40,38 +40,41 @@ struct PictureFrame {
     [[nodiscard]] Vec3f toCar(Vec3f v) const { return v.x * right + v.y * ahead + v.z * up; }
 };
 
-/// Linear light of a picture's pixels by their levels. Lamps saturate a picture; how bright they are is lost. Where
-/// light is gathered anew, they would look dull: they are taken for brighter, in their own hue.
+/// Factor from a picture's levels to light. Lamps saturate a picture, and their true brightness is lost; spread by blur
+/// or water they would look dull. So they count as brighter, in their own hue.
 class Highlights {
 public:
-    /// @param exposure  times which all light is taken, > 0
-    /// @param boost     as ViewOptions::highlight_boost
+    /// @param exposure  factor of all light, > 0
+    /// @param boost     ViewOptions::highlight_boost
     Highlights(const Picture& picture, float exposure, std::optional<double> boost);
 
-    /// Times which light is taken where its brightest channel has a level, of 1.
-    [[nodiscard]] float times(float level) const;
+    /// Factor for a pixel whose brightest channel has a level, from 0 to 1.
+    [[nodiscard]] float factor(float level) const;
 
 private:
     float exposure_;
     float boost_;
 };
 
+/// Pyramid of the picture behind the glass, and of the panorama around it.
 class Backdrop {
 public:
-    /// @param half_width, half_height  of the picture: tangents
+    /// @param half_width, half_height  tangents of half the picture's angles
     Backdrop(int width, int height, float half_width, float half_height);
 
-    /// @param highlights  of the picture
-    void take(const Picture& picture, const Highlights& highlights);
+    /// Sets the picture.
+    /// @param highlights  factors of this picture
+    void setPicture(const Picture& picture, const Highlights& highlights);
 
-    /// What directions beyond the picture meet instead of the picture mirrored, until the next time.
-    /// @param environment  valid; as bright as it is
-    /// @param frame        of the picture
-    /// @param is_all       directions within the picture meet it, too
+    /// Sets the panorama, which directions beyond the picture show instead of the mirrored picture.
+    /// @param environment  valid
+    /// @param frame        axes of the picture
+    /// @param exposure     factor of all light
+    /// @param is_all       true: directions within the picture show it, too
     void surround(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all);
 
-    /// Where a direction ends: x right, y ahead, z up.
-    /// @param level  of the picture
+    /// Place that a direction shows: x right, y ahead, z up.
+    /// @param level  level of the picture
     [[nodiscard]] PlaceInPicture placeOf(Vec3f direction, std::uint8_t level) const
     {
         const auto ahead = std::max(direction.y, 0.0F);
@@ -80,7 +83,7 @@ public:
             return placeAround(direction, level);
         }
         const auto across = [&](float side, float half) {
-            // Within the picture the tangent, beyond it its inverse.
+            // Within the picture linear in the tangent, beyond it in the inverse.
             const float tangent =
                 std::abs(side) <= half * ahead ? side / std::max(ahead, 1e-20F) : half * half * ahead / side;
             return 0.5F + 0.5F * tangent / half;
@@ -88,18 +91,18 @@ public:
         return {level16(across(direction.x, half_width_)), level16(1.0F - across(direction.z, half_height_)), level};
     }
 
-    /// The level whose pixels are so many of the picture's wide.
+    /// Level whose pixels are as wide as a number of the picture's pixels.
     [[nodiscard]] std::uint8_t levelOf(float pixels) const
     {
         const float level = std::round(std::log2(std::max(pixels, 1.0F)));
         return static_cast<std::uint8_t>(std::clamp(level, 1.0F, static_cast<float>(picture_levels_)) - 1.0F);
     }
 
-    /// Light from a place, linear between pixels; what is as bright as a picture can be is taken to be brighter.
-    [[nodiscard]] Four at(PlaceInPicture place) const
+    /// Light from a place, linear between pixels.
+    [[nodiscard]] Float4 at(PlaceInPicture place) const
     {
         const Level& own = levels_[place.level];
-        const Four* const light = light_.data() + own.first;
+        const Float4* const light = light_.data() + own.first;
         const float x = std::max(own.across * static_cast<float>(place.x) - 0.5F, 0.0F);
         const float y = std::max(own.down * static_cast<float>(place.y) - 0.5F, 0.0F);
         const int column = std::min(static_cast<int>(x), own.width - 1);
@@ -107,14 +110,14 @@ public:
         const float right = x - static_cast<float>(column);
         const float below = y - static_cast<float>(row);
         const std::size_t next = column + 1 < own.width ? 1 : 0;
-        const Four* const upper = light + static_cast<std::ptrdiff_t>(row) * own.width + column;
-        const Four* const lower = row + 1 < own.height ? upper + own.width : upper;
-        const Four above = upper[0] + four(right) * (upper[next] - upper[0]);
-        const Four under = lower[0] + four(right) * (lower[next] - lower[0]);
-        return above + four(below) * (under - above);
+        const Float4* const upper = light + static_cast<std::ptrdiff_t>(row) * own.width + column;
+        const Float4* const lower = row + 1 < own.height ? upper + own.width : upper;
+        const Float4 above = upper[0] + float4(right) * (upper[next] - upper[0]);
+        const Float4 under = lower[0] + float4(right) * (lower[next] - lower[0]);
+        return above + float4(below) * (under - above);
     }
 
-    /// The pixel of its level that a place lies in, among those of all levels.
+    /// Index of the pixel that contains a place, among the pixels of all levels.
     [[nodiscard]] std::uint32_t pixelAt(PlaceInPicture place) const
     {
         const Level& own = levels_[place.level];
@@ -123,18 +126,18 @@ public:
         return static_cast<std::uint32_t>(own.first) + static_cast<std::uint32_t>(row * own.width + column);
     }
 
-    [[nodiscard]] Four at(std::uint32_t pixel) const { return light_[pixel]; }
+    [[nodiscard]] Float4 at(std::uint32_t pixel) const { return light_[pixel]; }
 
-    /// Mean of all of the picture.
-    [[nodiscard]] Four mean() const { return light_[levels_[picture_levels_ - 1].first]; }
+    /// Mean light of the picture.
+    [[nodiscard]] Float4 mean() const { return light_[levels_[picture_levels_ - 1].first]; }
 
 private:
     struct Level {
         int width = 0;
         int height = 0;
-        float across = 0.0F;  ///< pixels in a 65536th of the picture
-        float down = 0.0F;
-        std::size_t first = 0;  ///< of its pixels
+        float across = 0.0F;    ///< pixels per 65536th of the picture's width
+        float down = 0.0F;      ///< pixels per 65536th of its height
+        std::size_t first = 0;  ///< index of its first pixel
     };
 
     static std::uint16_t level16(float share)
@@ -142,17 +145,17 @@ private:
         return static_cast<std::uint16_t>(std::clamp(65536.0F * share, 0.0F, 65535.0F));
     }
     [[nodiscard]] PlaceInPicture placeAround(Vec3f direction, std::uint8_t level) const;
-    /// Adds a level of so many pixels, black.
+    /// Adds a black level.
     Level& addLevel(int width, int height, float across, float down);
-    /// Makes a level from the one before it.
+    /// Computes a level from the one before it.
     void halve(std::size_t level);
 
     float half_width_;
     float half_height_;
-    std::vector<Level> levels_;  ///< the first is half the picture; then those of what is around it
-    std::vector<Four> light_;    ///< of all levels
+    std::vector<Level> levels_;  ///< the first has half the picture's size; then those of the panorama
+    std::vector<Float4> light_;  ///< pixels of all levels
     std::size_t picture_levels_ = 0;
-    std::vector<std::uint8_t> around_;  ///< for each level of the picture one with pixels about as large; empty: none
+    std::vector<std::uint8_t> around_;  ///< for each level of the picture, a similar one of the panorama; empty: none
     PictureFrame frame_;
     bool is_all_around_ = false;
 };

@@ -12,12 +12,12 @@
 namespace droplet {
 namespace {
 
-/// Sums over a row of bright pixels must not drown the dark ones.
+/// Type of sums over a row; in float, bright pixels would hide dark ones.
 using Sum = double __attribute__((vector_size(32)));
 
-constexpr int kBand = 64;  // rows that a thread works on
+constexpr int kBand = 64;  // rows in a block of work for one thread
 
-/// The pixel that is seen at one that may lie beyond the edges.
+/// Index of the pixel that the mirrored picture shows.
 int mirroredIndex(int at, int count)
 {
     const int period = 2 * count;
@@ -25,33 +25,33 @@ int mirroredIndex(int at, int count)
     return within < count ? within : period - 1 - within;
 }
 
-/// Half as wide and high, each pixel the mean of four.
+/// Halves a picture; each pixel is the mean of four.
 LightPicture halved(const LightPicture& from)
 {
     LightPicture to{(from.width + 1) / 2, (from.height + 1) / 2, {}};
     to.light.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
     tbb::parallel_for(tbb::blocked_range<int>(0, to.height, kBand), [&](const auto& rows) {
         for (int y = rows.begin(); y < rows.end(); ++y) {
-            const Four* const upper = from.light.data() + static_cast<std::ptrdiff_t>(2 * y) * from.width;
-            const Four* const lower = 2 * y + 1 < from.height ? upper + from.width : upper;
-            Four* const row = to.light.data() + static_cast<std::ptrdiff_t>(y) * to.width;
+            const Float4* const upper = from.light.data() + static_cast<std::ptrdiff_t>(2 * y) * from.width;
+            const Float4* const lower = 2 * y + 1 < from.height ? upper + from.width : upper;
+            Float4* const row = to.light.data() + static_cast<std::ptrdiff_t>(y) * to.width;
             for (int x = 0; x < to.width; ++x) {
                 const int left = 2 * x;
                 const int right = std::min(left + 1, from.width - 1);
-                row[x] = four(0.25F) * ((upper[left] + upper[right]) + (lower[left] + lower[right]));
+                row[x] = float4(0.25F) * ((upper[left] + upper[right]) + (lower[left] + lower[right]));
             }
         }
     });
     return to;
 }
 
-/// A picture `factor` times as large, linear between pixels.
+/// Enlarges a picture by a factor, linear between pixels.
 LightPicture enlarged(const LightPicture& from, int factor, int width, int height)
 {
     LightPicture to{width, height, {}};
     to.light.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     const float scale = 1.0F / static_cast<float>(factor);
-    // The pixel before a place, that behind it, and the share of that one.
+    // Pixels before and after a place, and the weight of the latter.
     const auto between = [&](int at, int count) {
         const float place = std::max(scale * (static_cast<float>(at) + 0.5F) - 0.5F, 0.0F);
         const int first = std::min(static_cast<int>(place), count - 1);
@@ -60,21 +60,21 @@ LightPicture enlarged(const LightPicture& from, int factor, int width, int heigh
     tbb::parallel_for(tbb::blocked_range<int>(0, height, kBand), [&](const auto& rows) {
         for (int y = rows.begin(); y < rows.end(); ++y) {
             const auto [top, bottom, below] = between(y, from.height);
-            const Four* const upper = from.light.data() + static_cast<std::ptrdiff_t>(top) * from.width;
-            const Four* const lower = from.light.data() + static_cast<std::ptrdiff_t>(bottom) * from.width;
+            const Float4* const upper = from.light.data() + static_cast<std::ptrdiff_t>(top) * from.width;
+            const Float4* const lower = from.light.data() + static_cast<std::ptrdiff_t>(bottom) * from.width;
             for (int x = 0; x < width; ++x) {
                 const auto [left, right, share] = between(x, from.width);
-                const Four above = upper[left] + four(share) * (upper[right] - upper[left]);
-                const Four under = lower[left] + four(share) * (lower[right] - lower[left]);
+                const Float4 above = upper[left] + float4(share) * (upper[right] - upper[left]);
+                const Float4 under = lower[left] + float4(share) * (lower[right] - lower[left]);
                 to.light[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
-                    above + four(below) * (under - above);
+                    above + float4(below) * (under - above);
             }
         }
     });
     return to;
 }
 
-/// A disc as rows of pixels: half the mean width of each, in pixels, from the upper to the lower.
+/// Half the mean width of a disc in each row of pixels, from top to bottom [px].
 std::vector<double> rowsOf(double radius)
 {
     // ∫ √(r² − y²) dy
@@ -90,7 +90,7 @@ std::vector<double> rowsOf(double radius)
     return rows;
 }
 
-/// Means over discs, exact in the share of every pixel's row that a disc covers.
+/// Means over discs; exact for the share of each row that a disc covers.
 LightPicture discMeans(const LightPicture& from, double radius)
 {
     const std::vector<double> half_widths = rowsOf(radius);
@@ -107,10 +107,10 @@ LightPicture discMeans(const LightPicture& from, double radius)
     tbb::parallel_for(0, (from.height + kBand - 1) / kBand, [&](int band) {
         const int top = band * kBand;
         const int bottom = std::min(top + kBand, from.height);
-        // Sums of each row up to each pixel.
+        // Prefix sums of each row.
         std::vector<Sum> sums(stride * static_cast<std::size_t>(bottom - top + 2 * reach));
         for (int y = top - reach; y < bottom + reach; ++y) {
-            const Four* const row =
+            const Float4* const row =
                 from.light.data() + static_cast<std::ptrdiff_t>(mirroredIndex(y, from.height)) * from.width;
             Sum* const up_to = sums.data() + stride * static_cast<std::size_t>(y - top + reach);
             up_to[0] = Sum{};
@@ -123,7 +123,7 @@ LightPicture discMeans(const LightPicture& from, double radius)
         for (int y = top; y < bottom; ++y) {
             std::fill(means.begin(), means.end(), Sum{});
             for (std::size_t k = 0; k < half_widths.size(); ++k) {
-                const double beyond = half_widths[k] - 0.5;  // the pixel's own sides
+                const double beyond = half_widths[k] - 0.5;  // without the pixel itself
                 const double whole = std::floor(beyond);
                 const double part = beyond - whole;
                 const Sum inner = Sum{1.0, 1.0, 1.0, 1.0} * (share * (1.0 - part));
@@ -138,7 +138,7 @@ LightPicture discMeans(const LightPicture& from, double radius)
                 }
             }
             std::transform(means.begin(), means.end(), to.light.begin() + static_cast<std::ptrdiff_t>(y) * from.width,
-                           [](const Sum& mean) { return __builtin_convertvector(mean, Four); });
+                           [](const Sum& mean) { return __builtin_convertvector(mean, Float4); });
         }
     });
     return to;
@@ -148,7 +148,7 @@ LightPicture discMeans(const LightPicture& from, double radius)
 
 LightPicture defocused(LightPicture sharp, float diameter)
 {
-    // A disc of many pixels is as smooth on fewer.
+    // A large disc is computed on a smaller picture, where it is still smooth.
     constexpr double kLargest = 12.0;
     double radius = 0.5 * static_cast<double>(diameter);
     if (radius < 0.05) {
@@ -165,8 +165,7 @@ LightPicture defocused(LightPicture sharp, float diameter)
     if (factor == 1) {
         return discMeans(sharp, radius);
     }
-    // Means of squares and linear passages spread light, too: their variance, a quarter of a pixel's square, and that
-    // of a disc, r²/4, add up.
+    // Halving and enlarging spread light, too: their variance, 1/4 px², adds to that of a disc, r²/4.
     return enlarged(discMeans(sharp, std::sqrt(radius * radius - 1.0)), factor, width, height);
 }
 

@@ -11,14 +11,14 @@ namespace droplet {
 struct LightPicture {
     int width = 0;
     int height = 0;
-    std::vector<Four> light;
+    std::vector<Float4> light;
 };
 
-/// A picture out of focus: every point's light is spread evenly over a disc, as by a lens with a round aperture; beyond
-/// its edges the picture is mirrored. Light is kept.
+/// Blurs a picture as a lens with a round aperture does: the light of every point is spread evenly over a disc. Beyond
+/// its edges the picture is mirrored.
 ///
-/// Guarantees: the same bytes at any number of threads.
-/// @param diameter  of the disc [px], ≥ 0
+/// Guarantees: light is conserved; the same bytes with any number of threads.
+/// @param diameter  diameter of the disc [px], ≥ 0
 LightPicture defocused(LightPicture sharp, float diameter);
 
 }  // namespace droplet

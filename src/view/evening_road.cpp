@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene to look at through water, so that the windshield has one when nobody brings a picture. Its sizes are a
-// country road's; its colours are chosen by eye.
+// Default background of the driver's view. Sizes are those of a country road; colours are chosen by eye.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,16 +13,16 @@
 #include "picture/tone.h"
 #include "require.h"
 #include "view/backdrop.h"
-#include "view/scattered.h"
+#include "view/hashed_number.h"
 
 namespace droplet {
 namespace {
 
-constexpr float kEye = 1.2F;         // of the driver over the road [m]
-constexpr float kLane = 3.5F;        // width [m]
-constexpr float kLineWidth = 0.15F;  // of paint [m]
-constexpr float kDash = 6.0F;        // length of paint, and twice that of gap [m]
-constexpr float kFarthest = 420.0F;  // at which a light is still one [m]
+constexpr float kEye = 1.2F;         // height of the eye over the road [m]
+constexpr float kLane = 3.5F;        // width of a lane [m]
+constexpr float kLineWidth = 0.15F;  // width of a painted line [m]
+constexpr float kDash = 6.0F;        // length of a painted dash; gaps are twice as long [m]
+constexpr float kFarthest = 420.0F;  // largest distance of a visible light [m]
 constexpr double kSpread = 0.009;    // radius of a light out of focus, over the picture's width
 
 /// Place in the picture: tangents of the angles to the right and up from straight ahead.
@@ -32,14 +31,14 @@ struct Tangents {
     float up = 0.0F;
 };
 
-/// A light out of focus.
+/// Light out of focus.
 struct Disc {
     Tangents at;
     float radius = 0.0F;
     Vec3f radiance;
 };
 
-/// A light's image in the wet road: narrow and long.
+/// Reflection of a light in the wet road: narrow and long.
 struct Streak {
     Tangents at;
     float width = 0.0F;
@@ -47,10 +46,10 @@ struct Streak {
     Vec3f radiance;
 };
 
-/// What stays as it is wherever the car is: sky, verges, road and the lines along it.
+/// Constant parts of the picture: sky, verges, road and the continuous lines.
 class Scenery {
 public:
-    /// @param spread  radius of a point's light, a tangent
+    /// @param spread  radius of the disc of a point of light, as a tangent
     explicit Scenery(float spread) : spread_(spread) {}
 
     [[nodiscard]] Vec3f seen(Tangents at) const
@@ -58,11 +57,11 @@ public:
         return mix(ground(at), sky(at), smoothstep(-0.6F * spread_, 0.6F * spread_, at.up - skyline(at.right)));
     }
 
-    /// Share of the paint's light beside a line along the road that is `across` to the right.
+    /// Share of paint at a place, for a line along the road `across` to the right.
     [[nodiscard]] float line(Tangents at, float across) const
     {
         const float depth = depthOf(at);
-        // Both square to the line, which runs to where the road meets the horizon: the lens blurs it all around.
+        // Distances are perpendicular to the line, which ends in the vanishing point: the lens blurs in all directions.
         const float slope = across / kEye;
         const float square = 1.0F / std::sqrt(1.0F + slope * slope);
         const float distance = square * std::abs(at.right + slope * at.up);
@@ -73,16 +72,16 @@ public:
 
     static float depthOf(Tangents at) { return std::min(kEye / std::max(-at.up, 1e-4F), kFarthest); }
 
-    /// Light of wet paint on road that has a light of its own.
+    /// Light of wet paint on a road with a given light.
     static Vec3f paintOn(Vec3f road) { return grey(0.16F) + 0.5F * road; }
 
 private:
-    /// How high what stands at the horizon reaches: hills, with trees on them.
+    /// Height of the horizon: hills with trees.
     static float skyline(float right)
     {
         const float hills = 0.010F + 0.009F * std::sin(5.1F * right + 0.6F) + 0.006F * std::sin(13.7F * right + 2.0F);
         const float trees = 0.004F * std::sin(57.0F * right) + 0.003F * std::sin(101.0F * right + 1.0F);
-        // The road's cutting leaves the sky open ahead; trees close by stand at its sides.
+        // The sky is open ahead; near trees stand at the sides.
         const float sides = 0.11F * smoothstep(0.16F, 0.5F, std::abs(right + 0.02F));
         return std::max(hills + trees, 0.0F) + sides * (1.0F + 0.25F * std::sin(31.0F * right));
     }
@@ -111,8 +110,7 @@ private:
         const float down = std::max(-at.up, 1e-4F);
         const float depth = depthOf(at);
         const float across = at.right * depth;
-        // Verges are dark; the wet road mirrors the sky.
-        // Far verges fade into what stands at the horizon.
+        // Verges are dark and fade into the horizon; the wet road mirrors the sky.
         const Vec3f verge = mix(kFarVerge, kNearVerge, 1.0F - std::exp(-down / 0.05F));
         const float mirror = 0.10F + 0.55F * smoothstep(6.0F, 120.0F, depth);
         Vec3f road = Vec3f{0.018F, 0.020F, 0.025F} + mirror * sky({0.6F * at.right, 0.55F * down});
@@ -126,25 +124,27 @@ private:
     float spread_;
 };
 
-/// What moves as the car does, as it is at one place.
+/// Lights and dashes as seen from one place of the road.
 class Lights {
 public:
-    /// @param pixel   a tangent
-    /// @param passed  how far the car comes while the shutter is open [m]
+    /// @param spread     radius of the disc of a point of light, as a tangent
+    /// @param pixel      width of a pixel, as a tangent
+    /// @param travelled  distance of the car from the start [m]
+    /// @param passed     distance that the car travels while the shutter is open [m]
     Lights(float spread, float pixel, double travelled, double passed)
         : travelled_(travelled), passed_(static_cast<float>(passed)), spread_(spread), pixel_(pixel)
     {
-        light();
+        addLights();
     }
 
     [[nodiscard]] const std::vector<Disc>& discs() const { return discs_; }
     [[nodiscard]] const std::vector<Streak>& streaks() const { return streaks_; }
 
-    /// Share of a depth that the dashes of the line in the road's middle cover.
+    /// Share of paint in the dashed middle line at a depth.
     [[nodiscard]] float dashes(float depth) const
     {
         constexpr float kPeriod = 3.0F * kDash;
-        // As much of the way as the lens blurs into one, less what is not painted of it.
+        // Mean over the length that the lens blurs.
         const float soft = 0.2F + spread_ * depth * depth / kEye;
         const auto painted = [](float way) {
             const float whole = std::floor(way / kPeriod);
@@ -164,25 +164,25 @@ public:
     }
 
 private:
-    /// The way since what comes again and again came last.
+    /// Distance since the last one of objects that repeat with a period.
     [[nodiscard]] float passed(double period, double times = 1.0) const
     {
         const double way = std::fmod(times * travelled_, period);
         return static_cast<float>(way < 0.0 ? way + period : way);
     }
 
-    /// A light in the open.
+    /// Lamp at a place of the road.
     struct Lamp {
         float across = 0.0F;  ///< [m]
         float height = 0.0F;  ///< [m]
         float depth = 0.0F;   ///< [m]
         float size = 0.0F;    ///< [m]
         Vec3f radiance;
-        float mirrored_share = 0.0F;  ///< by the road
-        float rate = 1.0F;            ///< at which it comes nearer, over the car's speed
+        float mirrored_share = 0.0F;  ///< share of light that the road mirrors
+        float rate = 1.0F;            ///< speed at which it comes nearer, over the car's speed
     };
 
-    /// Adds a lamp and what the road shows of it, at as many moments as its way takes while the shutter is open.
+    /// Adds a lamp and its reflection, at as many moments as its motion needs while the shutter is open.
     void add(const Lamp& lamp)
     {
         const float way = passed_ * lamp.rate;
@@ -202,7 +202,7 @@ private:
     void addOne(const Lamp& lamp)
     {
         const Tangents at{lamp.across / lamp.depth, (lamp.height - kEye) / lamp.depth};
-        // Out of focus a point's light is spread out; what is larger than that looks it.
+        // The lens spreads a point over a disc; larger lamps are larger.
         const float radius = std::hypot(spread_, lamp.size / lamp.depth);
         discs_.push_back({at, radius, lamp.radiance});
         if (lamp.mirrored_share > 0.0F) {
@@ -214,12 +214,12 @@ private:
         }
     }
 
-    void light()
+    void addLights()
     {
         const Vec3f sodium{1.60F, 0.78F, 0.20F};
         const Vec3f white{1.75F, 1.65F, 1.40F};
         const Vec3f red{1.50F, 0.06F, 0.04F};
-        // Lamps stand 36 m apart on both sides.
+        // Street lamps, 36 m apart on both sides.
         constexpr float kLamps = 36.0F;
         for (int k = 1; k < 12; ++k) {
             const float depth = kLamps * static_cast<float>(k) - passed(kLamps);
@@ -229,7 +229,7 @@ private:
                 add({-8.1F, 7.5F, depth + 0.5F * kLamps, 0.12F, dim * sodium, 0.12F});
             }
         }
-        // Cars ahead keep their distance; those that come are met at the sum of both speeds.
+        // Cars ahead keep their distance; oncoming cars approach at the sum of both speeds.
         constexpr float kTrain = 150.0F;
         for (const float depth : {21.0F, 52.0F, 96.0F}) {
             for (const float side : {-0.68F, 0.68F}) {
@@ -245,22 +245,22 @@ private:
                 add({-kLane + side, 0.7F, depth, 0.10F, near * white, 0.30F, kMet});
             }
         }
-        // A village: windows and signs at both sides, of all the colours that electric light has.
+        // A village: windows and signs at both sides, in the colours of electric light.
         constexpr std::uint32_t kWindows = 46;
         constexpr float kVillage = 320.0F;
         for (std::uint32_t k = 0; k < kWindows; ++k) {
             const float depth =
-                24.0F + std::fmod(kVillage * scattered(7 * k + 1) - passed(kVillage) + kVillage, kVillage);
+                24.0F + std::fmod(kVillage * hashedNumber(7 * k + 1) - passed(kVillage) + kVillage, kVillage);
             const float side = k % 2 == 0 ? 1.0F : -1.0F;
-            const float across = side * (9.0F + 16.0F * scattered(7 * k + 2)) - 1.7F;
-            const float warm = scattered(7 * k + 4);
+            const float across = side * (9.0F + 16.0F * hashedNumber(7 * k + 2)) - 1.7F;
+            const float warm = hashedNumber(7 * k + 4);
             const Vec3f tint = warm < 0.62F   ? Vec3f{1.10F, 0.62F, 0.24F}
                                : warm < 0.8F  ? Vec3f{0.85F, 0.90F, 1.05F}
                                : warm < 0.92F ? Vec3f{0.25F, 0.85F, 0.62F}
                                               : Vec3f{1.10F, 0.25F, 0.30F};
             const float dim = smoothstep(24.0F, 34.0F, depth) * (1.0F - smoothstep(200.0F, kVillage + 24.0F, depth));
-            add({across, 1.2F + 5.0F * scattered(7 * k + 3), depth, 0.25F,
-                 dim * (0.25F + 0.55F * scattered(7 * k + 5)) * tint, 0.0F});
+            add({across, 1.2F + 5.0F * hashedNumber(7 * k + 3), depth, 0.25F,
+                 dim * (0.25F + 0.55F * hashedNumber(7 * k + 5)) * tint, 0.0F});
         }
         // Traffic lights, far ahead.
         add({3.2F, 5.2F, 130.0F, 0.12F, {0.10F, 1.25F, 0.62F}, 0.15F, 0.0F});
@@ -275,7 +275,7 @@ private:
     std::vector<Streak> streaks_;
 };
 
-/// Levels of light as film takes it, in steps of 1/8192.
+/// Film response: levels of light in steps of 1/8192.
 class Film {
 public:
     Film() : levels_(kSteps * kBrightest + 1)
@@ -295,25 +295,25 @@ private:
     std::vector<std::uint8_t> levels_;
 };
 
-/// Pixels from `first` to before `last`.
+/// Range of pixels from `first` to before `last`.
 struct Run {
     int first = 0;
     int last = 0;
 };
 
-/// A row of pixels whose light is that of the scenery until it is touched.
+/// Row of pixels that copies the scenery's light only where it is changed.
 class LitRow {
 public:
     explicit LitRow(std::size_t width) : light_(width), touched_((width + kBlock - 1) / kBlock) {}
 
-    void begin(const Four* scenery)
+    void begin(const Float4* scenery)
     {
         scenery_ = scenery;
         std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
     }
 
-    /// Light to change within a run that is in the row.
-    Four* touch(Run run)
+    /// Light of the row, which may be changed within the run.
+    Float4* touch(Run run)
     {
         for (std::size_t b = static_cast<std::size_t>(run.first) / kBlock;
              b * kBlock < static_cast<std::size_t>(run.last); ++b) {
@@ -326,7 +326,7 @@ public:
         return light_.data();
     }
 
-    /// Writes the levels of what was touched.
+    /// Writes the levels of changed pixels.
     void develop(const Film& film, std::uint8_t* row) const
     {
         for (std::size_t b = 0; b < touched_.size(); ++b) {
@@ -340,14 +340,14 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 16;
-    std::vector<Four> light_;
+    std::vector<Float4> light_;
     std::vector<std::uint8_t> touched_;
-    const Four* scenery_ = nullptr;
+    const Float4* scenery_ = nullptr;
 };
 
-Four lightOf(Vec3f colour)
+Float4 lightOf(Vec3f colour)
 {
-    return Four{colour.x, colour.y, colour.z, 0.0F};
+    return Float4{colour.x, colour.y, colour.z, 0.0F};
 }
 
 }  // namespace
@@ -383,7 +383,7 @@ struct DefaultBackground::Content {
         return pixel * (0.5F * static_cast<float>(still.height) - static_cast<float>(y) - 0.5F);
     }
 
-    /// Pixels of the frame whose middles are within so much of a place.
+    /// Pixels whose middles are within `reach` of a place.
     [[nodiscard]] Run within(float right, float reach) const
     {
         const auto column = [&](float at) {
@@ -402,31 +402,31 @@ struct DefaultBackground::Content {
         }
         constexpr float kAcross = -0.5F * kLane;
         const Run run = within(kAcross / depth, 0.5F * kLineWidth / depth + spread * std::hypot(1.0F, kAcross / kEye));
-        Four* const at = row.touch(run);
+        Float4* const at = row.touch(run);
         for (int x = run.first; x < run.last; ++x) {
-            const Four paint = lightOf(Scenery::paintOn({at[x][0], at[x][1], at[x][2]}));
-            at[x] += four(share * scenery.line({rightOf(x), up}, kAcross)) * (paint - at[x]);
+            const Float4 paint = lightOf(Scenery::paintOn({at[x][0], at[x][1], at[x][2]}));
+            at[x] += float4(share * scenery.line({rightOf(x), up}, kAcross)) * (paint - at[x]);
         }
     }
 
     void paintStreak(LitRow& row, float up, const Streak& streak) const
     {
-        constexpr float kReach = 2.2F;  // beyond it there is less than a level
+        constexpr float kReach = 2.2F;  // beyond it the light is less than a level
         const float y = (up - streak.at.up) / streak.length;
         if (std::abs(y) > kReach) {
             return;
         }
         const Run run = within(streak.at.right, kReach * streak.width);
-        const Four light = four(std::exp(-2.0F * y * y)) * lightOf(streak.radiance);
-        // e^(−2x²) by its ratio from pixel to pixel, and that by its own.
+        const Float4 light = float4(std::exp(-2.0F * y * y)) * lightOf(streak.radiance);
+        // e^(−2x²) by its ratio from pixel to pixel, which itself has a constant ratio.
         const float step = pixel / streak.width;
         const float x = (rightOf(run.first) - streak.at.right) / streak.width;
         float share = std::exp(-2.0F * x * x);
         float ratio = std::exp(-2.0F * step * (2.0F * x + step));
         const float turn = std::exp(-4.0F * step * step);
-        Four* const at = row.touch(run);
+        Float4* const at = row.touch(run);
         for (int k = run.first; k < run.last; ++k) {
-            at[k] += four(share) * light;
+            at[k] += float4(share) * light;
             share *= ratio;
             ratio *= turn;
         }
@@ -440,22 +440,22 @@ struct DefaultBackground::Content {
             return;
         }
         const Run run = within(disc.at.right, disc.radius * std::sqrt(kReach * kReach - y * y));
-        const Four light = lightOf(disc.radiance);
-        Four* const at = row.touch(run);
+        const Float4 light = lightOf(disc.radiance);
+        Float4* const at = row.touch(run);
         for (int k = run.first; k < run.last; ++k) {
             const float x = (rightOf(k) - disc.at.right) / disc.radius;
             const float far2 = x * x + y * y;
-            // Lenses gather a little more light at the rim of what they do not focus.
-            at[k] += four((1.0F - smoothstep(0.88F, kReach, std::sqrt(far2))) * (0.8F + 0.35F * far2)) * light;
+            // Discs of a lens are a little brighter at the rim.
+            at[k] += float4((1.0F - smoothstep(0.88F, kReach, std::sqrt(far2))) * (0.8F + 0.35F * far2)) * light;
         }
     }
 
-    float pixel;   ///< a tangent
-    float spread;  ///< radius of a point's light, a tangent
+    float pixel;   ///< width of a pixel, as a tangent
+    float spread;  ///< radius of the disc of a point of light, as a tangent
     Scenery scenery;
     Film film;
-    std::vector<Four> light;  ///< of the scenery
-    Picture still;            ///< the scenery alone
+    std::vector<Float4> light;  ///< light of the scenery
+    Picture still;              ///< picture of the scenery
 };
 
 DefaultBackground::DefaultBackground(const ViewOptions& options)
@@ -476,8 +476,8 @@ Picture DefaultBackground::at(double travelled, double passed) const
     const Lights lights(content.spread, content.pixel, travelled, passed);
     Picture picture = content.still;
     const auto width = static_cast<std::size_t>(picture.width);
-    constexpr int kRowsWorthAThread = 8;
-    tbb::parallel_for(tbb::blocked_range<int>(0, picture.height, kRowsWorthAThread), [&](const auto& rows) {
+    constexpr int kRowsPerBlock = 8;
+    tbb::parallel_for(tbb::blocked_range<int>(0, picture.height, kRowsPerBlock), [&](const auto& rows) {
         LitRow row(width);
         for (int y = rows.begin(); y < rows.end(); ++y) {
             const float up = content.upOf(y);

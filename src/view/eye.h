@@ -12,11 +12,11 @@
 
 namespace droplet {
 
-/// The driver's eye: the rays of its pixels, and where they meet the glass.
+/// The driver's eye: rays of the pixels, and the places where they meet the glass.
 class Eye {
 public:
     /// @param options  valid
-    /// @throws Error   InvalidArgument: it looks beside the glass
+    /// @throws Error   InvalidArgument if the eye is not behind the glass or looks beside it
     Eye(const Glass& glass, const ViewOptions& options);
 
     [[nodiscard]] int width() const { return width_; }    ///< [px]
@@ -25,38 +25,38 @@ public:
     [[nodiscard]] float halfWidth() const { return half_width_; }
     /// Tangent across a pixel.
     [[nodiscard]] float tangent() const { return tangent_; }
-    /// A place of the glass as it is for the eye: x right, y to where it looks, z up.
+    /// Place of the glass in the eye's frame: x right, y ahead, z up.
     [[nodiscard]] GlassPlace seen(const GlassPlace& place) const
     {
         return {turned(place.point - position_), turned(place.normal), turned(place.across), turned(place.up)};
     }
 
-    /// How the frame lies in the car's frame.
+    /// Axes of the frame in the car's frame.
     [[nodiscard]] PictureFrame frame() const { return {toFloats(right_), toFloats(ahead_), toFloats(up_)}; }
 
-    /// Direction of a pixel's ray, unit, as it is for the eye.
+    /// Unit direction of a pixel's ray in the eye's frame.
     [[nodiscard]] Vec3f ray(int x, int y) const
     {
         return unit({tangent_ * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(width_)), 1.0F,
                      tangent_ * (0.5F * static_cast<float>(height_) - static_cast<float>(y) - 0.5F)});
     }
-    /// Direction of a place in the frame, not unit.
-    /// @param x, y  from its upper left corner [px]
+    /// Direction of a place in the frame; not a unit vector.
+    /// @param x, y  distance from the upper left corner [px]
     [[nodiscard]] Vec3f rayAt(float x, float y) const
     {
         return {tangent_ * (x - 0.5F * static_cast<float>(width_)), 1.0F,
                 tangent_ * (0.5F * static_cast<float>(height_) - y)};
     }
-    /// A pixel's number, row by row.
+    /// Index of a pixel, row by row.
     [[nodiscard]] std::size_t at(int x, int y) const
     {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
-    /// Where on the glass a pixel's middle is seen [m]; NaN beside it.
+    /// Place on the glass at the middle of a pixel [m]; NaN beside the glass.
     [[nodiscard]] Vec2f place(int x, int y) const { return places_[at(x, y)]; }
 
 private:
-    class Net;
+    class GlassMesh;
 
     [[nodiscard]] Vec3 turned(Vec3 v) const { return {dot(v, right_), dot(v, ahead_), dot(v, up_)}; }
 
@@ -68,7 +68,7 @@ private:
     Vec3 right_{1.0, 0.0, 0.0};
     Vec3 ahead_{0.0, 1.0, 0.0};
     Vec3 up_{0.0, 0.0, 1.0};
-    std::vector<Vec2f> places_;  ///< of each pixel
+    std::vector<Vec2f> places_;  ///< place of each pixel
 };
 
 }  // namespace droplet

@@ -6,12 +6,13 @@
 
 namespace droplet {
 
+/// Vector on the glass.
 struct Vec2f {
     float x = 0.0F;
     float y = 0.0F;
 };
 
-/// The glass at a place.
+/// Unit axes of the glass at a place.
 struct GlassFrame {
     Vec3f across;
     Vec3f up;

@@ -16,7 +16,7 @@
 namespace droplet {
 namespace {
 
-/// A droplet of either kind as the maps have it.
+/// Droplet of either kind, as drawn in the maps.
 struct Drop {
     Vec2 position;
     Vec2 along{1.0, 0.0};  ///< unit
@@ -28,21 +28,21 @@ struct Drop {
     [[nodiscard]] double reach() const { return shape.half_length + shape.silhouette(); }
 };
 
-/// The water over a place.
+/// Water at a place.
 struct Water {
     double thickness = 0.0;
-    Vec2 slope;       ///< of the outward unit normal, its parts along the glass
-    double up = 0.0;  ///< and out of it
+    Vec2 slope;       ///< components of the outward unit normal along the glass
+    double up = 0.0;  ///< component of the normal out of the glass
 };
 
-/// What a pixel holds, each times its share of the pixel's area.
+/// Sums over a pixel, each weighted by its share of the pixel's area.
 struct Pixel {
     double thickness = 0.0;
     double cover = 0.0;
     Vec2 slope;
     double up = 0.0;
-    double runs = 0.0;  ///< cover of what may run
-    Vec2 velocity;      ///< of that
+    double runs = 0.0;  ///< cover of running droplets
+    Vec2 velocity;      ///< sum of their velocities
 
     void add(const Water& water, double share)
     {
@@ -62,8 +62,7 @@ std::uint16_t signedLevel(double value)
     return unsignedLevel(0.5 * (value + 1.0));
 }
 
-/// The glass as rows of pixels, square but for what their number is rounded by, and places in them at which droplets
-/// are looked at.
+/// Nearly square pixels of the glass, and the sample places in them.
 class Raster {
 public:
     Raster(const Glass& glass, int width)
@@ -78,7 +77,7 @@ public:
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    /// First and last row that a droplet reaches into; the last before the first where there is none.
+    /// First and last row that a droplet reaches; last < first if there is none.
     [[nodiscard]] std::pair<int, int> rowsOf(const Drop& drop) const
     {
         const auto row = [&](double y) { return std::floor((top_ - y) / down_); };
@@ -86,13 +85,13 @@ public:
                 static_cast<int>(std::clamp(row(drop.position.y - drop.reach()), -1.0, height_ - 1.0))};
     }
 
-    /// Places across a pixel, so close that seven lie across the droplet.
+    /// Number of sample places across a pixel, so that at least seven lie across the droplet.
     [[nodiscard]] double placesAcross(const Drop& drop) const
     {
         return std::max(std::ceil(3.5 * std::max(pixel_, down_) / drop.shape.silhouette()), 2.0);
     }
 
-    /// Calls take(column, row, water) for all places at which there is some of the droplet.
+    /// Calls take(column, row, water) for all sample places on the droplet.
     template <typename Take>
     void forPlaces(const Drop& drop, std::pair<int, int> rows, const Take& take) const
     {
@@ -125,7 +124,7 @@ public:
                 }
                 const double up = std::sqrt(r2 - far2);
                 const Vec2 slope = end * drop.along + b * Vec2{-drop.along.y, drop.along.x};
-                // Where it overhangs its contact there is air below.
+                // Where the droplet overhangs its contact, there is air below it.
                 take(static_cast<int>(i / static_cast<std::int64_t>(n)),
                      static_cast<int>(j / static_cast<std::int64_t>(n)),
                      Water{std::min(up + shape.centre_height, 2.0 * up), (1.0 / shape.radius) * slope,
@@ -134,8 +133,8 @@ public:
         }
     }
 
-    /// All water of a droplet, in thicknesses of a pixel, over the sum of those that are looked at: the map has neither
-    /// more nor less than the glass, whatever falls between places or over the edge.
+    /// Scale of a droplet's thickness: its volume over the sum of its samples. So the map has exactly the water of the
+    /// glass, also for droplets between sample places or beyond the edge.
     [[nodiscard]] double shareOf(const Drop& drop) const
     {
         double sum = 0.0;
@@ -166,7 +165,7 @@ std::vector<Drop> dropsOf(const WindshieldState& state, const ShapeOptions& opti
     return drops;
 }
 
-/// Adds up what pixels hold and calls take(row, its pixels), in parallel, once for each row.
+/// Sums up the pixels and calls take(row, its pixels), in parallel, once for each row.
 template <typename Take>
 void forRows(const Raster& raster, const std::vector<Drop>& drops, const Take& take)
 {
@@ -174,7 +173,7 @@ void forRows(const Raster& raster, const std::vector<Drop>& drops, const Take& t
     const int height = raster.height();
     std::vector<double> shares(drops.size());
     tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t k) { shares[k] = raster.shareOf(drops[k]); });
-    // Bands of rows, each with the droplets that reach into it.
+    // Bands of rows, each with the droplets that reach it.
     constexpr int kBand = 32;
     const int bands = (height + kBand - 1) / kBand;
     std::vector<std::vector<std::uint32_t>> in_band(static_cast<std::size_t>(bands));
@@ -215,11 +214,11 @@ Raster rasterFor(const Glass& glass, const GlassMapOptions& options)
 {
     options.validate();
     Raster raster(glass, options.width);
-    require(raster.height() <= 8192, "height", raster.height(), "at most 8192: ask for less width");
+    require(raster.height() <= 8192, "height", raster.height(), "at most 8192: use a smaller width");
     return raster;
 }
 
-/// The mean normal of what a pixel holds, of length 1.
+/// Mean unit normal of a pixel.
 std::array<double, 3> normalOf(const Pixel& pixel)
 {
     const double up = pixel.up + std::max(1.0 - pixel.cover, 0.0);
@@ -253,7 +252,7 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     maps.thickness.levels.resize(pixels);
     maps.velocity.levels.resize(3 * pixels);
     forRows(raster, dropsOf(state, options.shape), [&](int row, std::span<const Pixel> held) {
-        // What rounding leaves over goes to the next wet pixel of the row, lest thin water vanish.
+        // The rounding error goes to the next wet pixel of the row; else thin water would vanish.
         double left_over = 0.0;
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
         for (const Pixel& pixel : held) {

@@ -11,27 +11,27 @@
 
 namespace droplet {
 
-/// A droplet about to be traced.
+/// Droplet to be traced, at one moment.
 struct RunningRays::Traced {
     Vec2f position;
-    Vec2f along;       ///< unit, of its motion
+    Vec2f along;       ///< unit direction of the motion
     GlassFrame frame;  ///< x along the motion
     Capsule capsule;
-    float wide = 0.0F;            ///< radius of what is seen of the ends [m]
-    std::uint8_t level = 0;       ///< of the backdrop
-    std::uint8_t calm_level = 0;  ///< where there is one ray a pixel
+    float wide = 0.0F;            ///< radius of the ends, seen from above [m]
+    std::uint8_t level = 0;       ///< level of the backdrop
+    std::uint8_t calm_level = 0;  ///< level of the backdrop with one ray per pixel
     int moment = 0;
-    bool is_passing = false;  ///< so many moments make up for one ray a pixel
-    int left = 0;             ///< pixels it may reach
+    bool is_passing = false;  ///< true: one ray per pixel suffices, as there are many moments
+    int left = 0;             ///< box of pixels that it may reach
     int right = -1;
     int top = 0;
     int bottom = -1;
 };
 
-void RunningRays::follow(const std::vector<RunningDroplet>& droplets)
+void RunningRays::update(const std::vector<RunningDroplet>& droplets)
 {
     std::vector<Drawn> next(droplets.size());
-    // What rests where it was is as it was; both are in the order of their ids.
+    // Unchanged droplets keep their rays; both lists are in the order of ids.
     auto before = drawn_.begin();
     for (std::size_t k = 0; k < droplets.size(); ++k) {
         const RunningDroplet& droplet = droplets[k];
@@ -42,11 +42,11 @@ void RunningRays::follow(const std::vector<RunningDroplet>& droplets)
             next[k] = std::move(*before);
         }
     }
-    constexpr std::size_t kWorthAThread = 32;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, droplets.size(), kWorthAThread), [&](const auto& range) {
+    constexpr std::size_t kDropletsPerBlock = 32;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, droplets.size(), kDropletsPerBlock), [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) {
             if (next[k].droplet.volume == 0.0) {
-                next[k] = drawn(droplets[k]);
+                next[k] = drawnOf(droplets[k]);
             }
         }
     });
@@ -61,13 +61,13 @@ void RunningRays::follow(const std::vector<RunningDroplet>& droplets)
     }
 }
 
-RunningRays::Drawn RunningRays::drawn(const RunningDroplet& droplet) const
+RunningRays::Drawn RunningRays::drawnOf(const RunningDroplet& droplet) const
 {
-    Drawn result{droplet, sight_.momentsOf(droplet.position, length(droplet.velocity)), {}};
+    Drawn result{droplet, scene_.momentsOf(droplet.position, length(droplet.velocity)), {}};
     for (int moment = 0; moment < result.moments; ++moment) {
         RunningDroplet there = droplet;
-        there.position = there.position + sight_.timeOf(moment, result.moments) * droplet.velocity;
-        Traced one = prepared(there);
+        there.position = there.position + scene_.timeOf(moment, result.moments) * droplet.velocity;
+        Traced one = prepare(there);
         one.moment = moment;
         constexpr int kManyMoments = 4;
         one.is_passing = result.moments >= kManyMoments;
@@ -76,16 +76,16 @@ RunningRays::Drawn RunningRays::drawn(const RunningDroplet& droplet) const
     return result;
 }
 
-RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
+RunningRays::Traced RunningRays::prepare(const RunningDroplet& droplet) const
 {
-    const ViewOptions& options = sight_.options;
-    const float tangent = sight_.eye.tangent();
+    const ViewOptions& options = scene_.options;
+    const float tangent = scene_.eye.tangent();
     Traced one;
-    const auto on_glass = sight_.glass.place(droplet.position);
+    const auto on_glass = scene_.glass.place(droplet.position);
     if (!on_glass) {
         return one;
     }
-    const GlassPlace place = sight_.eye.seen(*on_glass);
+    const GlassPlace place = scene_.eye.seen(*on_glass);
     const double speed = length(droplet.velocity);
     const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
     const RunningShape shape = runningShape(droplet.volume, speed, options.shape);
@@ -118,7 +118,7 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
             bottom = std::max(bottom, py);
         }
     }
-    constexpr float kRim = 2.0F;  // [px] of soft edge, and of the glass's bend
+    constexpr float kRim = 2.0F;  // [px]; for the soft edge and the curve of the glass
     const auto w = static_cast<float>(options.width);
     const auto h = static_cast<float>(options.height);
     if (rightmost < -kRim || leftmost > w + kRim || bottom < -kRim || top > h + kRim) {
@@ -128,11 +128,11 @@ RunningRays::Traced RunningRays::prepared(const RunningDroplet& droplet) const
     one.right = static_cast<int>(std::min(rightmost + kRim, w - 1.0F));
     one.top = static_cast<int>(std::max(top - kRim, 0.0F));
     one.bottom = static_cast<int>(std::min(bottom + kRim, h - 1.0F));
-    const Tiles& tiles = sight_.tiles;
+    const Tiles& tiles = scene_.tiles;
     const ViewTile& tile = tiles[tiles.number((one.left + one.right) / 2 / kTile, (one.top + one.bottom) / 2 / kTile)];
     const float diameter = tile.on_glass ? 2.0F * one.wide / tile.pixel : rightmost - leftmost;
-    one.level = sight_.levelFor(diameter);
-    one.calm_level = sight_.levelFor(diameter / static_cast<float>(options.samples));
+    one.level = scene_.levelFor(diameter);
+    one.calm_level = scene_.levelFor(diameter / static_cast<float>(options.samples));
     return one;
 }
 
@@ -140,7 +140,7 @@ void RunningRays::trace(const Traced& one, std::vector<Part>& parts) const
 {
     for (int r = one.top / kTile; r <= one.bottom / kTile && one.bottom >= 0; ++r) {
         for (int c = one.left / kTile; c <= one.right / kTile && one.right >= 0; ++c) {
-            const auto number = static_cast<std::uint32_t>(sight_.tiles.number(c, r));
+            const auto number = static_cast<std::uint32_t>(scene_.tiles.number(c, r));
             Part part{number, one.moment, {}};
             trace(one, c, r, part.rays);
             if (!part.rays.empty()) {
@@ -152,17 +152,17 @@ void RunningRays::trace(const Traced& one, std::vector<Part>& parts) const
 
 void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const
 {
-    const ViewOptions& options = sight_.options;
-    const ViewTile& tile = sight_.tiles[sight_.tiles.number(column, row)];
+    const ViewOptions& options = scene_.options;
+    const ViewTile& tile = scene_.tiles[scene_.tiles.number(column, row)];
     const auto ior = static_cast<float>(options.ior);
     const int n = options.samples;
     const float soft = one.is_passing ? tile.pixel : tile.pixel / static_cast<float>(n);
-    // In its middle a droplet is smooth: a ray a pixel does.
+    // In its middle a droplet is smooth: one ray per pixel suffices.
     const float calm = 0.6F * one.wide - tile.pixel;
     const auto beyond_line = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
     for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
         for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1); ++x) {
-            const Vec2f middle = sight_.eye.place(x, y);
+            const Vec2f middle = scene_.eye.place(x, y);
             if (std::isnan(middle.x)) {
                 continue;
             }
@@ -175,8 +175,8 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
             if (far2 > out * out) {
                 continue;
             }
-            const Vec3f inside = intoWater(toFrame(one.frame, sight_.eye.ray(x, y)), ior);
-            // A ray so far from the pixel's middle.
+            const Vec3f inside = intoWater(toFrame(one.frame, scene_.eye.ray(x, y)), ior);
+            // Adds a ray with an offset from the pixel's middle.
             const auto add = [&](float u, float v, bool is_whole) {
                 const float ex = dx + u * tile.right.x + v * tile.down.x;
                 const float ey = dy + u * tile.right.y + v * tile.down.y;
@@ -193,7 +193,7 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
                 found.cover = level8(cover);
                 found.is_whole = is_whole;
                 if (met.reflected < 1.0F) {
-                    found.place = sight_.backdrop.placeOf(fromFrame(one.frame, met.transmitted),
+                    found.place = scene_.backdrop.placeOf(fromFrame(one.frame, met.transmitted),
                                                           is_whole ? one.calm_level : one.level);
                     found.light = level8(1.0F - met.reflected);
                 }
@@ -204,7 +204,7 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
             } else {
                 for (int j = 0; j < n; ++j) {
                     for (int i = 0; i < n; ++i) {
-                        add(sight_.offset(i), sight_.offset(j), false);
+                        add(scene_.offset(i), scene_.offset(j), false);
                     }
                 }
             }

@@ -6,61 +6,60 @@
 #include <vector>
 
 #include "droplet/windshield/droplets.h"
-#include "view/sight.h"
+#include "view/view_scene.h"
 
 namespace droplet {
 
-/// What a ray through a droplet that may run shows.
+/// Ray through a running droplet.
 struct Ray {
     PlaceInPicture place;
-    std::uint8_t pixel = 0;  ///< of the tile
-    std::uint8_t light = 0;  ///< share of it that gets through, in 255ths
-    std::uint8_t cover = 0;  ///< of a ray's share of the pixel, in 255ths
-    bool is_whole = false;   ///< it stands for the whole pixel
+    std::uint8_t pixel = 0;  ///< pixel of the tile
+    std::uint8_t light = 0;  ///< share of light that is transmitted, in 255ths
+    std::uint8_t cover = 0;  ///< share that is covered of the ray's part of the pixel, in 255ths
+    bool is_whole = false;   ///< true: the only ray of its pixel
 };
 
-/// Rays through a droplet that reaches into a tile, at one of the moments at which it is looked at while the shutter is
-/// open.
+/// Rays through a droplet in a tile, at one moment while the shutter is open.
 struct RaysInTile {
     const std::vector<Ray>* rays = nullptr;
     int moment = 0;
-    int moments = 1;  ///< a power of two; 1: it is where it is all the time
+    int moments = 1;  ///< number of moments, a power of two; 1: the droplet does not move visibly
 };
 
-/// Rays through droplets that may run, kept as long as a droplet rests.
+/// Rays through running droplets, kept as long as a droplet rests.
 class RunningRays {
 public:
-    /// @param sight  must outlive this
-    explicit RunningRays(const Sight& sight) : sight_(sight), in_tiles_(sight.tiles.count()) {}
+    /// @param scene  must outlive this
+    explicit RunningRays(const ViewScene& scene) : scene_(scene), in_tiles_(scene.tiles.count()) {}
 
-    /// Brings the rays to the state of the droplets.
-    /// @param droplets  in the order of their ids
-    void follow(const std::vector<RunningDroplet>& droplets);
+    /// Updates the rays.
+    /// @param droplets  running droplets, in the order of their ids
+    void update(const std::vector<RunningDroplet>& droplets);
 
-    /// Those of each droplet that reaches into a tile, in the droplets' order and that of their moments.
+    /// Rays of each droplet in a tile, in the order of the droplets and of their moments.
     [[nodiscard]] const std::vector<RaysInTile>& inTile(std::size_t tile) const { return in_tiles_[tile]; }
 
 private:
     struct Traced;
-    /// A droplet's rays in a tile, those of a pixel one after another.
+    /// Rays of a droplet in a tile; rays of one pixel are adjacent.
     struct Part {
         std::uint32_t tile = 0;
         int moment = 0;
         std::vector<Ray> rays;
     };
-    /// A droplet as it is drawn.
+    /// Droplet with its rays.
     struct Drawn {
         RunningDroplet droplet;
         int moments = 1;
         std::vector<Part> parts;
     };
 
-    [[nodiscard]] Drawn drawn(const RunningDroplet& droplet) const;
-    [[nodiscard]] Traced prepared(const RunningDroplet& droplet) const;
+    [[nodiscard]] Drawn drawnOf(const RunningDroplet& droplet) const;
+    [[nodiscard]] Traced prepare(const RunningDroplet& droplet) const;
     void trace(const Traced& one, std::vector<Part>& parts) const;
     void trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const;
 
-    const Sight& sight_;
+    const ViewScene& scene_;
     std::vector<Drawn> drawn_;
     std::vector<std::vector<RaysInTile>> in_tiles_;
 };

@@ -11,7 +11,8 @@
 namespace droplet {
 namespace {
 
-std::uint64_t level16(float value)  // of −1 … 1
+/// Level from 0 to 65535 of a value from −1 to 1.
+std::uint64_t level16(float value)
 {
     return static_cast<std::uint64_t>(std::lround(32767.5F + 32767.5F * std::clamp(value, -1.0F, 1.0F)));
 }
@@ -59,7 +60,7 @@ StillMap::Box StillMap::boxOf(const StillCells& still, std::size_t cell) const
     const auto column = static_cast<double>(cell % still.columns);
     const std::size_t whole_rows = cell / still.columns;
     const auto row = static_cast<double>(whole_rows);
-    // A texel is the cell's in which its middle lies.
+    // A texel belongs to the cell that contains its middle.
     const auto edge = [&](double at, std::int64_t first, int max) {
         const auto texel = static_cast<std::int64_t>(std::ceil(at / texel_ - 0.5)) - first;
         return static_cast<int>(std::clamp<std::int64_t>(texel, 0, max));
@@ -84,7 +85,7 @@ bool StillMap::draw(const StillCells& still, std::size_t cell)
                  still.droplets(static_cast<std::size_t>(r) * still.columns + static_cast<std::size_t>(c))) {
                 const double contact = unit_radius_ * std::cbrt(droplet.volume);
                 const double sphere = contact / sine_;
-                // Cells beyond the next one are not looked at.
+                // Only neighbouring cells are searched.
                 const double wide = std::min(cosine_ < 0.0 ? sphere : contact, still.cell - texel_);
                 const double reach = wide + 0.5 * texel_;
                 const double x0 = droplet.position.x / texel_ - 0.5 - static_cast<double>(first_column_);
@@ -102,12 +103,13 @@ bool StillMap::draw(const StillCells& still, std::size_t cell)
                         if (cover <= 0.0) {
                             continue;
                         }
-                        const double inside = std::min(1.0, wide / std::max(far, 1e-12));  // of the rim, its normal
+                        const double inside =
+                            std::min(1.0, wide / std::max(far, 1e-12));  // beyond the rim, the rim's normal
                         const double up = std::sqrt(std::max(sphere * sphere - far * far * inside * inside, 0.0));
                         const Vec3f normal{static_cast<float>(x * inside / sphere),
                                            static_cast<float>(y * inside / sphere), static_cast<float>(up / sphere)};
                         Texel& texel = drawn[static_cast<std::size_t>((j - box.low) * width + i - box.left)];
-                        // Where it overhangs its contact there is air below.
+                        // Where the droplet overhangs its contact, there is air below it.
                         const double thickness = std::min(up - sphere * cosine_, 2.0 * up);
                         texel = std::max(texel, Texel(thickness, normal, static_cast<float>(cover),
                                                       static_cast<float>(wide / texel_)));
@@ -135,7 +137,7 @@ std::uint8_t StillMap::reachOf(const StillCells& still, std::size_t cell) const
     const double low = static_cast<double>(row) * still.cell;
     std::uint8_t bits = 0;
     for (const StillDroplet& droplet : still.droplets(cell)) {
-        // Two texels more: draw() decides by the middles of texels, and rounds.
+        // Two texels more, because draw() uses the middles of texels and rounds.
         const double reach = unit_radius_ / (cosine_ < 0.0 ? sine_ : 1.0) * std::cbrt(droplet.volume) + 2.0 * texel_;
         const bool to_left = droplet.position.x - reach < left;
         const bool to_right = droplet.position.x + reach > left + still.cell;
@@ -148,12 +150,12 @@ std::uint8_t StillMap::reachOf(const StillCells& still, std::size_t cell) const
     return bits;
 }
 
-std::vector<std::size_t> StillMap::follow(const StillCells& still)
+std::vector<std::size_t> StillMap::update(const StillCells& still)
 {
     const std::size_t count = std::size_t{still.columns} * still.rows;
     std::vector<std::uint8_t> stale(count, 0);
-    const bool anew = revisions_.size() != count;
-    if (anew) {
+    const bool is_new = revisions_.size() != count;
+    if (is_new) {
         std::fill(texels_.begin(), texels_.end(), Texel());
         revisions_.assign(count, 0);
         reaches_.assign(count, 0);
@@ -175,12 +177,12 @@ std::vector<std::size_t> StillMap::follow(const StillCells& still)
         for (std::int64_t c = std::max<std::int64_t>(left - 1, 0); c <= std::min<std::int64_t>(right + 1, columns - 1);
              ++c) {
             const auto cell = static_cast<std::size_t>(r * columns + c);
-            if (!anew && revisions_[cell] == still.revisions[cell]) {
+            if (!is_new && revisions_[cell] == still.revisions[cell]) {
                 continue;
             }
             revisions_[cell] = still.revisions[cell];
             const std::uint8_t reach = reachOf(still, cell);
-            int bits = reaches_[cell] | reach;  // of the droplets that were there, and of those that are
+            int bits = reaches_[cell] | reach;  // cells that former or present droplets reach
             reaches_[cell] = reach;
             for (std::int64_t j = r - 1; j <= r + 1; ++j) {
                 for (std::int64_t i = c - 1; i <= c + 1; ++i) {

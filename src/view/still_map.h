@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one map of all still droplets (thesis, section 3.2.2), kept up with them.
+// Map of all still droplets (thesis, section 3.2.2).
 #pragma once
 
 #include <cstddef>
@@ -12,56 +12,57 @@
 
 namespace droplet {
 
-/// A point of the map. Of droplets that overlap the thicker one is there, whatever their order: texels are compared as
-/// numbers, the thickness first.
+/// Point of the map. Where droplets overlap it shows the thicker one, in any order: texels are compared as numbers,
+/// thickness first.
 class Texel {
 public:
-    static constexpr double kThickest = 2e-3;  ///< [m]; what is thicker is so thick
+    static constexpr double kThickest = 2e-3;  ///< upper limit of the thickness [m]
 
     Texel() = default;
-    /// @param cover  share of the texel that the droplet takes, over 0 up to 1
-    /// @param radius of what is seen of it [texels]
+    /// @param cover   share of the texel that the droplet covers, in (0, 1]
+    /// @param radius  radius of the droplet, seen from above [texels]
     Texel(double thickness, Vec3f normal, float cover, float radius);
 
     [[nodiscard]] bool empty() const { return bits_ == 0; }
-    /// 0 … 255
+    /// Covered share, 0 … 255.
     [[nodiscard]] std::uint32_t cover() const { return static_cast<std::uint32_t>((bits_ >> 8) & 0xFFU); }
     [[nodiscard]] double thickness() const { return kThickest * static_cast<double>(bits_ >> 48) / 65535.0; }
-    /// Radius of what is seen of the droplet, in quarters of texels.
+    /// Radius of the droplet, seen from above, in quarters of texels.
     [[nodiscard]] std::uint8_t size() const { return static_cast<std::uint8_t>(bits_ & 0xFFU); }
-    /// Unit, out of the water.
+    /// Unit normal out of the water.
     [[nodiscard]] Vec3f normal() const;
 
     friend constexpr bool operator==(const Texel&, const Texel&) = default;
     friend constexpr bool operator<(const Texel& a, const Texel& b) { return a.bits_ < b.bits_; }
 
 private:
-    /// From the top: 16 bits of thickness, 16 each of the normal's x and y, 8 of cover, 8 of radius.
+    /// From the highest bit: 16 bits of thickness, 16 each of the normal's x and y, 8 of cover, 8 of radius.
     std::uint64_t bits_ = 0;
 };
 
-/// A window of the glass in texels.
+/// Window of the glass, with the size of its texels.
 struct MapWindow {
-    Vec2 low;            ///< corner [m]
-    Vec2 high;           ///< [m]
+    Vec2 low;            ///< lower left corner [m]
+    Vec2 high;           ///< upper right corner [m]
     double texel = 0.0;  ///< [m]
 };
 
+/// Map of still droplets; an update draws only cells that changed.
 class StillMap {
 public:
-    /// @param contact_angle  of the droplets [rad]
+    /// @param contact_angle  contact angle of the droplets [rad]
     StillMap(const MapWindow& window, double contact_angle);
 
-    /// Brings the map to the state of the droplets.
-    /// @return the cells within which something changed, in order
-    std::vector<std::size_t> follow(const StillCells& still);
+    /// Updates the map.
+    /// @return cells in which a texel changed, in order
+    std::vector<std::size_t> update(const StillCells& still);
 
     [[nodiscard]] std::size_t cellsDrawn() const { return drawn_; }
-    [[nodiscard]] float perMetre() const { return per_metre_; }  ///< texels
+    [[nodiscard]] float perMetre() const { return per_metre_; }  ///< texels per metre
     [[nodiscard]] int columns() const { return columns_; }
     [[nodiscard]] int rows() const { return rows_; }
     [[nodiscard]] const std::vector<Texel>& texels() const { return texels_; }
-    /// The texel at a place on the glass [m], bare beyond the window.
+    /// Texel at a place on the glass [m]; empty beyond the window.
     [[nodiscard]] Texel at(float x, float y) const
     {
         const float across = (x - low_x_) * per_metre_;
@@ -77,20 +78,21 @@ public:
     }
 
 private:
+    /// Box of texels.
     struct Box {
         int left = 0;
-        int right = 0;  ///< beyond the last
+        int right = 0;  ///< after the last column
         int low = 0;
-        int high = 0;  ///< beyond the last
+        int high = 0;  ///< after the last row
     };
 
     [[nodiscard]] Box boxOf(const StillCells& still, std::size_t cell) const;
     bool draw(const StillCells& still, std::size_t cell);
-    /// Into which of the eight cells around it a cell's droplets reach, a bit each, row by row.
+    /// One bit for each of the eight neighbours of a cell that its droplets reach, row by row.
     [[nodiscard]] std::uint8_t reachOf(const StillCells& still, std::size_t cell) const;
 
     double texel_;
-    std::int64_t first_column_;  ///< of the window, counted from the glass's corner
+    std::int64_t first_column_;  ///< first column of the window, counted from the glass's corner
     std::int64_t first_row_;
     int columns_ = 0;
     int rows_ = 0;
@@ -99,7 +101,7 @@ private:
     float per_metre_ = 0.0F;
     double sine_;
     double cosine_;
-    double unit_radius_;  ///< of contact, of a cap of 1 m³ [m]
+    double unit_radius_;  ///< contact radius of a cap of 1 m³ [m]
     std::vector<Texel> texels_;
     std::vector<std::uint32_t> revisions_;
     std::vector<std::uint8_t> reaches_;

@@ -11,7 +11,7 @@
 
 namespace droplet {
 
-/// Cells of the still droplets in which something changed.
+/// Cells of still droplets that changed.
 class StillSamples::ChangedCells {
 public:
     ChangedCells(const StillCells& still, const std::vector<std::size_t>& changed)
@@ -25,7 +25,7 @@ public:
         }
     }
 
-    /// Whether one is in a box [m].
+    /// Whether a changed cell overlaps a box [m].
     [[nodiscard]] bool reach(Vec2f low, Vec2f high) const
     {
         const int top = index(high.y, rows_);
@@ -53,19 +53,19 @@ private:
     std::vector<std::uint8_t> flags_;
 };
 
-StillSamples::StillSamples(const Sight& sight)
-    : sight_(sight), map_(sight.tiles.window(), sight.options.shape.contact_angle), samples_(sight.tiles.count())
+StillSamples::StillSamples(const ViewScene& scene)
+    : scene_(scene), map_(scene.tiles.window(), scene.options.shape.contact_angle), samples_(scene.tiles.count())
 {
 }
 
-void StillSamples::follow(const StillCells& still)
+void StillSamples::update(const StillCells& still)
 {
-    const std::vector<std::size_t> changed = map_.follow(still);
+    const std::vector<std::size_t> changed = map_.update(still);
     if (changed.empty()) {
         return;
     }
     const ChangedCells cells(still, changed);
-    const Tiles& tiles = sight_.tiles;
+    const Tiles& tiles = scene_.tiles;
     tbb::parallel_for(0, tiles.rows(), [&](int r) {
         for (int c = 0; c < tiles.columns(); ++c) {
             const ViewTile& tile = tiles[tiles.number(c, r)];
@@ -76,27 +76,27 @@ void StillSamples::follow(const StillCells& still)
     });
 }
 
-/// Makes samples anew of those pixels that see a cell that changed.
+/// Renews the samples of pixels that see a changed cell.
 void StillSamples::sample(int column, int row, const ChangedCells& cells)
 {
-    const ViewOptions& options = sight_.options;
-    const std::size_t number = sight_.tiles.number(column, row);
-    const ViewTile& tile = sight_.tiles[number];
+    const ViewOptions& options = scene_.options;
+    const std::size_t number = scene_.tiles.number(column, row);
+    const ViewTile& tile = scene_.tiles[number];
     std::vector<StillSample>& samples = samples_[number];
     const std::vector<StillSample> before = std::exchange(samples, {});
     samples.reserve(before.size() + kTilePixels);
     auto old = before.begin();
-    // A texel is the cell's in which its middle lies.
+    // A texel belongs to the cell that contains its middle, so it may extend beyond the cell.
     const float margin = 1.0F / map_.perMetre();
     const Vec2f half{0.5F * (std::abs(tile.right.x) + std::abs(tile.down.x)) + margin,
                      0.5F * (std::abs(tile.right.y) + std::abs(tile.down.y)) + margin};
     const auto ior = static_cast<float>(options.ior);
-    const float quarter = 0.25F / map_.perMetre();  // of a texel
-    std::uint8_t size = 0;                          // of the droplet met last, and the level for it
+    const float quarter = 0.25F / map_.perMetre();  // a quarter of a texel [m]
+    std::uint8_t size = 0;                          // size of the last droplet, and its level
     std::uint8_t level = 0;
     for (int y = row * kTile; y < std::min((row + 1) * kTile, options.height); ++y) {
         for (int x = column * kTile; x < std::min((column + 1) * kTile, options.width); ++x) {
-            const Vec2f middle = sight_.eye.place(x, y);
+            const Vec2f middle = scene_.eye.place(x, y);
             if (std::isnan(middle.x)) {
                 continue;
             }
@@ -111,14 +111,14 @@ void StillSamples::sample(int column, int row, const ChangedCells& cells)
             }
             for (int j = 0; j < options.samples; ++j) {
                 for (int i = 0; i < options.samples; ++i) {
-                    const float u = sight_.offset(i);
-                    const float v = sight_.offset(j);
+                    const float u = scene_.offset(i);
+                    const float v = scene_.offset(j);
                     const Texel seen = map_.at(middle.x + u * tile.right.x + v * tile.down.x,
                                                middle.y + u * tile.right.y + v * tile.down.y);
                     if (seen.empty()) {
                         continue;
                     }
-                    const Vec3f inside = intoWater(toFrame(tile.frame, sight_.eye.ray(x, y)), ior);
+                    const Vec3f inside = intoWater(toFrame(tile.frame, scene_.eye.ray(x, y)), ior);
                     const Interface out = intoAir(inside, seen.normal(), ior);
                     StillSample sample;
                     sample.pixel = pixel;
@@ -127,10 +127,10 @@ void StillSamples::sample(int column, int row, const ChangedCells& cells)
                     if (out.reflected < 1.0F) {
                         if (seen.size() != size) {
                             size = seen.size();
-                            level = sight_.levelFor(2.0F * quarter * static_cast<float>(size) / tile.pixel);
+                            level = scene_.levelFor(2.0F * quarter * static_cast<float>(size) / tile.pixel);
                         }
                         const Vec3f outside = fromFrame(tile.frame, out.transmitted);
-                        sample.outside = sight_.backdrop.pixelAt(sight_.backdrop.placeOf(outside, level));
+                        sample.outside = scene_.backdrop.pixelAt(scene_.backdrop.placeOf(outside, level));
                     }
                     samples.push_back(sample);
                 }

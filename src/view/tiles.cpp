@@ -92,9 +92,10 @@ Tiles::Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options)
     }
     if (!(finest < std::numeric_limits<float>::infinity())) {
         throw Error(ErrorCode::InvalidArgument,
-                    "eye_distance " + numberText(options.eye_distance) + ": nothing of the glass is seen from there");
+                    "eye_distance " + numberText(options.eye_distance) +
+                        ": the eye sees nothing of the glass; it must be nearer or look at the glass");
     }
-    // A texel for each ray; but no more than 128 MiB of them, and none finer than droplets have detail.
+    // One texel for each ray, but at most 128 MiB of texels, and none finer than the detail of droplets.
     constexpr double kMaxTexels = 16e6;
     constexpr double kFinest = 2e-5;
     const double area = (window_.high.x - window_.low.x) * (window_.high.y - window_.low.y);

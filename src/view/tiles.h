@@ -11,32 +11,32 @@
 
 namespace droplet {
 
-/// [px] a side: what a thread works on at a time; its light stays in the first cache.
+/// Side of a tile [px]. A thread works on one tile at a time; its light fits into the first cache.
 inline constexpr int kTile = 16;
 inline constexpr std::size_t kTilePixels = std::size_t{kTile} * kTile;
-static_assert(kTilePixels == 256, "a pixel's number in its tile is a byte");
+static_assert(kTilePixels == 256, "the index of a pixel in its tile must fit into a byte");
 
-/// A pixel's number in its tile.
+/// Index of a pixel in its tile.
 inline std::uint8_t pixelInTile(int x, int y)
 {
     return static_cast<std::uint8_t>((y % kTile) * kTile + x % kTile);
 }
 
-/// A square of the frame, and the glass that is seen through it.
+/// Square part of the frame, and the glass that is seen through it.
 struct ViewTile {
     bool on_glass = false;
-    GlassFrame frame;    ///< of the glass in its middle
-    Vec2f right;         ///< on the glass, a pixel to the right [m]
-    Vec2f down;          ///< and one down
-    float pixel = 0.0F;  ///< side of a square as large as a pixel's image on the glass [m]
-    Vec2f low;           ///< box of what is seen of the glass [m]
-    Vec2f high;
+    GlassFrame frame;    ///< axes of the glass in the tile's middle
+    Vec2f right;         ///< step on the glass of a pixel to the right [m]
+    Vec2f down;          ///< step on the glass of a pixel down [m]
+    float pixel = 0.0F;  ///< side of a square with the area of a pixel's image on the glass [m]
+    Vec2f low;           ///< lower left corner of the visible part of the glass [m]
+    Vec2f high;          ///< upper right corner of the visible part of the glass [m]
 };
 
-/// The frame's tiles, row by row.
+/// Tiles of the frame, row by row.
 class Tiles {
 public:
-    /// @throws Error InvalidArgument: nothing of the glass is seen
+    /// @throws Error InvalidArgument if the eye sees nothing of the glass
     Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options);
 
     [[nodiscard]] int columns() const { return columns_; }
@@ -48,7 +48,7 @@ public:
     }
     [[nodiscard]] const ViewTile& operator[](std::size_t number) const { return tiles_[number]; }
 
-    /// The part of the glass that is seen, and texels for it.
+    /// Visible part of the glass, with the size of its texels.
     [[nodiscard]] const MapWindow& window() const { return window_; }
 
 private:

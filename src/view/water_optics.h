@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How light comes to the driver's eye through water on the glass. Rays are followed backward, from the eye outward, in
-// a frame of the glass: x across, y up along it, z out of it into the wind.
+// Refraction by water on the glass. Rays are traced backward, from the eye outward, in a frame of the glass: x across,
+// y up along the glass, z out of it into the wind.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace droplet {
 
-/// Direction in water of a ray that comes from the cabin through the pane: a plate with parallel faces does not turn
-/// it, so Snell's law is that from air to water.
+/// Direction in water of a ray from the cabin. The pane has parallel faces and does not turn the ray, so Snell's law
+/// from air to water holds.
 /// @param direction  unit, z > 0
 inline Vec3f intoWater(Vec3f direction, float ior)
 {
@@ -20,9 +20,9 @@ inline Vec3f intoWater(Vec3f direction, float ior)
     return {x, y, std::sqrt(std::max(1.0F - x * x - y * y, 0.0F))};
 }
 
-/// What becomes of a ray inside water where it meets the air: as atInterface, with less to compute.
+/// Refraction of a ray from water into air: as atInterface(), but faster.
 /// @param normal  unit, out of the water
-/// @return        transmitted is unit to rounding
+/// @return        `transmitted` is a unit vector up to rounding
 inline Interface intoAir(Vec3f direction, Vec3f normal, float ior)
 {
     const float cosine = std::clamp(dot(direction, normal), 0.0F, 1.0F);
@@ -42,21 +42,21 @@ inline Interface intoAir(Vec3f direction, Vec3f normal, float ior)
     return {0.5F * (ad * ad + bc * bc) / (bd * bd), ior * direction + (far - ior * cosine) * normal};
 }
 
-/// A capsule, its line along x.
+/// Capsule with its axis along x.
 struct Capsule {
     float half_length = 0.0F;
     float radius = 0.0F;
     float centre_height = 0.0F;
 };
 
-/// The outward normal where a ray leaves a capsule that it begins in.
-/// @param from       on the glass, seen from the capsule's middle
+/// Outward normal where a ray leaves a capsule that it begins in.
+/// @param from       point on the glass, relative to the capsule's middle
 /// @param direction  unit
 inline Vec3f normalAtExit(const Capsule& capsule, Vec3f from, Vec3f direction)
 {
     const float z = from.z - capsule.centre_height;
     const float r2 = capsule.radius * capsule.radius;
-    // The cylinder around the line, y² + z² = r².
+    // The cylinder around the axis, y² + z² = r².
     const float a = direction.y * direction.y + direction.z * direction.z;
     const float b = from.y * direction.y + z * direction.z;
     const float c = from.y * from.y + z * z - r2;
@@ -65,7 +65,7 @@ inline Vec3f normalAtExit(const Capsule& capsule, Vec3f from, Vec3f direction)
     if (std::abs(x) <= capsule.half_length) {
         return unit({0.0F, from.y + t * direction.y, z + t * direction.z});
     }
-    // The sphere around the end of the line.
+    // The sphere around the end of the axis.
     const Vec3f own{from.x - std::copysign(capsule.half_length, x), from.y, z};
     const float along = dot(own, direction);
     const float way = std::sqrt(std::max(along * along - dot(own, own) + r2, 0.0F)) - along;

@@ -5,18 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "view/scattered.h"
+#include "view/hashed_number.h"
 
 namespace droplet {
 namespace {
 
 constexpr float kBladeHalf = 0.0045F;  // half the width of a blade in its middle [m]
-constexpr float kArmHalf = 0.0075F;    // and of an arm at its joint [m]
-constexpr float kFilmLasts = 0.75F;    // [s]
-constexpr float kWedgeLasts = 0.8F;    // [s]
-constexpr float kWidestBead = 0.007F;  // of pushed water [m]
+constexpr float kArmHalf = 0.0075F;    // half the width of an arm at its joint [m]
+constexpr float kFilmLasts = 0.75F;    // lifetime of a film [s]
+constexpr float kWedgeLasts = 0.8F;    // lifetime of a wedge [s]
+constexpr float kWidestBead = 0.007F;  // largest width of pushed water [m]
 
-/// A smooth random field from 0 to 1, and its slopes.
+/// Smooth random field from 0 to 1, and its derivatives.
 struct Field {
     float value = 0.0F;
     float by_u = 0.0F;
@@ -30,7 +30,7 @@ Field fieldAt(float u, float v, std::uint32_t seed)
     const auto corner = [&](float i, float j) {
         const auto a = static_cast<std::uint32_t>(static_cast<std::int32_t>(column + i));
         const auto b = static_cast<std::uint32_t>(static_cast<std::int32_t>(row + j));
-        return scattered(a * 0x9e3779b9U + b * 0x85ebca6bU + seed * 0xc2b2ae35U);
+        return hashedNumber(a * 0x9e3779b9U + b * 0x85ebca6bU + seed * 0xc2b2ae35U);
     };
     const float x = u - column;
     const float y = v - row;
@@ -55,13 +55,13 @@ float size(Vec2f v)
     return std::sqrt(v.x * v.x + v.y * v.y);
 }
 
-/// Share of a pixel that lies within an edge so far away, positive inside.
+/// Share of a pixel inside an edge, at a distance from it that is positive inside.
 float within(float distance, float pixel)
 {
     return std::clamp(distance / pixel + 0.5F, 0.0F, 1.0F);
 }
 
-/// How far a wiper is on its way from `first` to `last`, 0 … 1, at an angle; beyond where it never is.
+/// Progress of a wiper from `first` to `last` at an angle, 0 … 1; outside that range it never has this angle.
 float shareOfWay(const Wiper& wiper, float angle)
 {
     const auto first = static_cast<float>(wiper.first);
@@ -71,15 +71,15 @@ float shareOfWay(const Wiper& wiper, float angle)
     return turned / way;
 }
 
-/// A half-round bead of water on the glass.
-/// @param across  from its near edge, along its slope's direction [m]
+/// Half-round bead of water on the glass.
+/// @param across  distance from its near edge, in the given direction [m]
 WaterMet beadAt(float across, float width, Vec2f direction, float pixel)
 {
     if (width < 0.3e-3F || across < -pixel || across > width + pixel) {
         return {};
     }
     const float x = std::clamp(2.0F * across / width - 1.0F, -0.96F, 0.96F);
-    // Half an ellipse, 0.35 of its width high.
+    // Half an ellipse whose height is 0.35 of its width.
     const float slope = -0.7F * x / std::sqrt(1.0F - x * x);
     return {std::min(within(across, pixel), within(width - across, pixel)),
             {slope * direction.x, slope * direction.y},
@@ -99,43 +99,44 @@ WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
         const auto done =
             static_cast<float>(std::abs((angle - (is_there ? wiper.first : wiper.last)) / (wiper.last - wiper.first)));
         blade.forward = is_there == (wiper.last > wiper.first) ? 1.0F : -1.0F;
-        // The water is let go just before the blade turns.
+        // The blade releases the water just before it turns.
         blade.pushed = std::sqrt(done) * (1.0F - smoothstep(0.97F, 1.0F, done));
     }
     return blade;
 }
 
-void WiperView::follow(double time)
+void WiperView::update(double time)
 {
-    const ViewOptions& options = sight_.options;
+    const ViewOptions& options = scene_.options;
     if (options.wipers.empty()) {
         return;
     }
-    wipings_.clear();
+    states_.clear();
     moments_ = 1;
-    const Vec2 middle{0.5 * sight_.glass.width(), 0.5 * sight_.glass.height()};
+    const Vec2 middle{0.5 * scene_.glass.width(), 0.5 * scene_.glass.height()};
     for (const Wiper& wiper : options.wipers) {
         constexpr double kInstant = 1e-4;  // [s]
         const double turn = wiper.angleAt(time + 0.5 * kInstant) - wiper.angleAt(time - 0.5 * kInstant);
-        moments_ = std::max(moments_, sight_.momentsOf(middle, wiper.outer * std::abs(turn) / kInstant));
+        moments_ = std::max(moments_, scene_.momentsOf(middle, wiper.outer * std::abs(turn) / kInstant));
     }
     for (const Wiper& wiper : options.wipers) {
         const double since = time - wiper.start;
         const double strokes = std::floor(since / wiper.period);
-        Wiping one{wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}};
+        WiperState one{
+            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}};
         if (since <= 0.0) {
             one.since = -1.0;
         }
         for (int k = 0; k < moments_; ++k) {
-            one.blades.push_back(bladeAt(wiper, time + sight_.timeOf(k, moments_)));
+            one.blades.push_back(bladeAt(wiper, time + scene_.timeOf(k, moments_)));
         }
-        wipings_.push_back(std::move(one));
+        states_.push_back(std::move(one));
     }
-    // Tiles of which a part is as far from a pivot as a blade reaches.
-    tiles_.assign(sight_.tiles.count(), 0);
+    // Tiles with a part within reach of a blade.
+    tiles_.assign(scene_.tiles.count(), 0);
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
-        const ViewTile& tile = sight_.tiles[k];
-        for (const Wiping& one : wipings_) {
+        const ViewTile& tile = scene_.tiles[k];
+        for (const WiperState& one : states_) {
             const Vec2f pivot = toFloats2(one.wiper.pivot);
             const float x = std::clamp(pivot.x, tile.low.x, tile.high.x) - pivot.x;
             const float y = std::clamp(pivot.y, tile.low.y, tile.high.y) - pivot.y;
@@ -145,9 +146,9 @@ void WiperView::follow(double time)
     }
 }
 
-bool WiperView::isOthers(const Wiping& own, Vec2f place) const
+bool WiperView::isInOtherField(const WiperState& own, Vec2f place) const
 {
-    return std::any_of(wipings_.begin(), wipings_.end(), [&](const Wiping& other) {
+    return std::any_of(states_.begin(), states_.end(), [&](const WiperState& other) {
         const Vec2f pivot = toFloats2(other.wiper.pivot);
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const float far = size(from);
@@ -157,7 +158,7 @@ bool WiperView::isOthers(const Wiping& own, Vec2f place) const
     });
 }
 
-WaterMet WiperView::film(const Wiping& one, Vec2f from, float pixel) const
+WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
 {
     const Wiper& wiper = one.wiper;
     const float radius = size(from);
@@ -169,7 +170,7 @@ WaterMet WiperView::film(const Wiping& one, Vec2f from, float pixel) const
     if (share <= 0.0F || share >= 1.0F) {
         return {};
     }
-    // When the blade passed: there, and on its way back.
+    // Times at which the blade passed: forward, and on its way back.
     const auto stroke = static_cast<float>(wiper.stroke);
     const float there = stroke / (2.0F * std::numbers::pi_v<float>)*std::acos(1.0F - 2.0F * share);
     const auto since = static_cast<float>(one.since);
@@ -188,7 +189,7 @@ WaterMet WiperView::film(const Wiping& one, Vec2f from, float pixel) const
     if (age >= kFilmLasts) {
         return {};
     }
-    // Streaks along the blade's way, thick and thin.
+    // Streaks along the blade's motion, thick and thin.
     constexpr float kLong = 0.045F;
     constexpr float kWide = 0.0042F;
     const float along = angle * static_cast<float>(wiper.outer);
@@ -200,7 +201,7 @@ WaterMet WiperView::film(const Wiping& one, Vec2f from, float pixel) const
     }
     const float along_slope = (0.62F * thick.by_u + 0.38F * 2.1F * thin.by_u) / kLong;
     const float across_slope = (0.62F * thick.by_v + 0.38F * 2.7F * thin.by_v) / kWide;
-    // Its rims are steeper, as they draw back.
+    // The rims are steeper, as they recede.
     constexpr float kThick = 4.5e-5F;  // [m]
     const float scale = kThick * (0.35F + 0.65F * std::exp(-age / 0.3F)) * (1.0F + 1.2F * std::exp(-level / 0.05F));
     const Vec2f outward{from.x / radius, from.y / radius};
@@ -211,7 +212,7 @@ WaterMet WiperView::film(const Wiping& one, Vec2f from, float pixel) const
             false};
 }
 
-WaterMet WiperView::wedge(const Wiping& one, Vec2f from, float pixel) const
+WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel) const
 {
     const Wiper& wiper = one.wiper;
     const float radius = size(from);
@@ -220,7 +221,7 @@ WaterMet WiperView::wedge(const Wiping& one, Vec2f from, float pixel) const
     if (one.since < 0.0 || radius < inner || radius > outer) {
         return {};
     }
-    // Where it turned last, at the end of its way or back at its rest.
+    // Place of the last turn: at `last`, or back at `first`.
     const bool is_far = one.since >= 0.5 * wiper.stroke && one.since < wiper.stroke;
     const double turned = is_far                      ? 0.5 * wiper.stroke
                           : one.since >= wiper.stroke ? wiper.stroke
@@ -234,7 +235,7 @@ WaterMet WiperView::wedge(const Wiping& one, Vec2f from, float pixel) const
     const Vec2f along{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
     const Vec2f ahead{-way * along.y, way * along.x};
     const float beyond = from.x * ahead.x + from.y * ahead.y - kBladeHalf;
-    // It drains along the blade's line, the last of it from thick places, and is wider further out.
+    // The wedge drains along the blade's line, last at thick places, and is wider further out.
     const float left = age / kWedgeLasts;
     const float place = (radius - inner) / (outer - inner);
     const Field uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, 2 * one.stroke + (is_far ? 1U : 0U));
@@ -244,14 +245,14 @@ WaterMet WiperView::wedge(const Wiping& one, Vec2f from, float pixel) const
     return beadAt(beyond, width, ahead, pixel);
 }
 
-WaterMet WiperView::left(Vec2f place, float pixel) const
+WaterMet WiperView::waterLeft(Vec2f place, float pixel) const
 {
     WaterMet met;
-    for (const Wiping& one : wipings_) {
+    for (const WiperState& one : states_) {
         const Vec2f pivot = toFloats2(one.wiper.pivot);
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const WaterMet bead = wedge(one, from, pixel);
-        if (bead.cover > 0.0F && !isOthers(one, place)) {
+        if (bead.cover > 0.0F && !isInOtherField(one, place)) {
             return bead;
         }
         const WaterMet thin = film(one, from, pixel);
@@ -265,14 +266,14 @@ WaterMet WiperView::left(Vec2f place, float pixel) const
 WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
 {
     WiperMet met;
-    for (const Wiping& one : wipings_) {
+    for (const WiperState& one : states_) {
         const Wiper& wiper = one.wiper;
         const Blade& blade = one.blades[static_cast<std::size_t>(moment)];
         const Vec2f pivot = toFloats2(wiper.pivot);
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const float along = from.x * blade.along.x + from.y * blade.along.y;
         const float aside = from.y * blade.along.x - from.x * blade.along.y;
-        constexpr float kReach = 0.06F;  // of arm and water
+        constexpr float kReach = 0.06F;  // reach of arm and water [m]
         if (std::abs(aside) > kReach) {
             continue;
         }
@@ -283,7 +284,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const float taper = 0.55F + 0.45F * smoothstep(0.0F, 0.4F * (outer - inner), end);
         const float half = kBladeHalf * taper;
         const float on_blade = std::min(within(half - std::abs(aside), pixel), within(end, pixel));
-        // The arm comes from the pivot at the blade's side and meets it in its middle.
+        // The arm runs from the pivot beside the blade and meets it in its middle.
         const float joint = std::clamp(along / middle, 0.0F, 1.0F);
         const float arm_aside = aside + 0.028F * (1.0F - joint);
         const float arm_half = kArmHalf * (1.15F - 0.5F * joint);
@@ -292,7 +293,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const float cover = std::max(on_blade, on_arm);
         if (cover > met.cover) {
             met.cover = cover;
-            // Rubber is dark but for a gleam along one side; the arm is round.
+            // Rubber is dark except for a gleam along one side; the arm is round.
             const float across = on_blade >= on_arm ? aside / half : arm_aside / arm_half;
             const float gleam = std::exp(-12.0F * (across - 0.45F) * (across - 0.45F));
             met.shine = on_blade >= on_arm ? 0.25F + 2.2F * gleam : 0.35F + 2.8F * gleam;
@@ -300,7 +301,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         if (blade.forward != 0.0F && end > 0.0F) {
             const Vec2f ahead{-blade.forward * blade.along.y, blade.forward * blade.along.x};
             const Field uneven = fieldAt(along / 0.014F, 2.0F * blade.pushed, 2 * one.stroke + 5U);
-            const float fades = isOthers(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
+            const float fades = isInOtherField(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
             const float width =
                 kWidestBead * blade.pushed * fades * (0.35F + 0.65F * uneven.value) * smoothstep(0.0F, 0.03F, end);
             const WaterMet bead = beadAt(blade.forward * aside - half, width, ahead, pixel);

@@ -6,70 +6,72 @@
 #include <vector>
 
 #include "droplet/windshield/wipers.h"
-#include "view/sight.h"
+#include "view/view_scene.h"
 
 namespace droplet {
 
-/// Water on the glass that a ray meets.
+/// Water that a ray meets on the glass.
 struct WaterMet {
     float cover = 0.0F;    ///< share of the pixel
-    Vec2f slope;           ///< of its surface along the glass's x and y
+    Vec2f slope;           ///< slope of its surface along the glass's x and y
     bool is_bead = false;  ///< thick, like a droplet
 };
 
-/// What is seen of a wiper at one moment.
+/// Wiper that a ray meets at one moment.
 struct WiperMet {
-    float cover = 0.0F;  ///< share of the pixel that is blade or arm
-    float shine = 0.0F;  ///< light of it, over that of the cabin
-    WaterMet pushed;     ///< water ahead of the blade, before the glass is wiped
+    float cover = 0.0F;  ///< share of the pixel that blade or arm covers
+    float shine = 0.0F;  ///< its light over that of the cabin
+    WaterMet pushed;     ///< water ahead of the blade
 };
 
-/// Wipers as the driver sees them: blades and arms, the water that they push, the film that they leave, which breaks up
-/// into streaks and is gone within a second, and the wedge of water that lies for a while where a blade has turned, but
-/// where another blade passes. All of this is water that has been wiped: the balance knows no other.
+/// Visible wipers: blades and arms, the water that they push, and the water that they leave. The film that they leave
+/// breaks up into streaks and vanishes within a second. Where a blade has turned, a wedge of water remains for a while,
+/// unless another blade passes there. The water balance counts all of this as wiped.
 ///
 /// Shapes and sizes are chosen by eye, after blades and arms of cars.
 class WiperView {
 public:
-    /// @param sight  must outlive this
-    explicit WiperView(const Sight& sight) : sight_(sight) {}
+    /// @param scene  must outlive this
+    explicit WiperView(const ViewScene& scene) : scene_(scene) {}
 
-    /// What is seen from now on.
-    void follow(double time);
+    /// Moves the wipers to a time [s].
+    void update(double time);
 
-    /// Whether anything of the wipers may be seen in a tile; rough.
+    /// Whether wipers may be visible in a tile (upper bound).
     [[nodiscard]] bool reach(std::size_t tile) const { return !tiles_.empty() && tiles_[tile] != 0; }
-    /// At how many moments blades are looked at while the shutter is open.
+    /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
-    /// Water that stays where it is: film, and wedges.
+    /// Water that a wiper has left: films and wedges.
     /// @param pixel  size of a pixel's image on the glass [m]
-    [[nodiscard]] WaterMet left(Vec2f place, float pixel) const;
+    [[nodiscard]] WaterMet waterLeft(Vec2f place, float pixel) const;
+    /// Wiper at a place and moment.
     /// @param moment  0 … moments() − 1
     [[nodiscard]] WiperMet at(Vec2f place, float pixel, int moment) const;
 
 private:
-    /// A blade at a moment.
+    /// Blade at a moment.
     struct Blade {
-        Vec2f along;           ///< unit, from the pivot
-        float forward = 0.0F;  ///< 1 where its angle grows, −1 where it shrinks, 0 at rest
-        float pushed = 0.0F;   ///< how much of its stroke lies behind it, 0 … 1
+        Vec2f along;           ///< unit direction from the pivot
+        float forward = 0.0F;  ///< 1: its angle grows; −1: it shrinks; 0: at rest
+        float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
     };
-    struct Wiping {
+    /// Wiper at the present time.
+    struct WiperState {
         Wiper wiper;
-        double since = 0.0;  ///< of its period [s]
-        std::uint32_t stroke = 0;
-        std::vector<Blade> blades;  ///< of each moment
+        double since = 0.0;         ///< time since the begin of its period [s]
+        std::uint32_t stroke = 0;   ///< number of the stroke
+        std::vector<Blade> blades;  ///< blade at each moment
     };
 
     [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
-    [[nodiscard]] WaterMet film(const Wiping& one, Vec2f from, float pixel) const;
-    [[nodiscard]] WaterMet wedge(const Wiping& one, Vec2f from, float pixel) const;
-    /// Whether a place is in another wiper's field.
-    [[nodiscard]] bool isOthers(const Wiping& own, Vec2f place) const;
+    [[nodiscard]] WaterMet film(const WiperState& one, Vec2f from, float pixel) const;
+    [[nodiscard]] WaterMet wedge(const WiperState& one, Vec2f from, float pixel) const;
+    /// Whether a place is in the field of another wiper.
+    [[nodiscard]] bool isInOtherField(const WiperState& own, Vec2f place) const;
 
-    const Sight& sight_;
-    std::vector<Wiping> wipings_;
+    const ViewScene& scene_;
+    std::vector<WiperState> states_;
     std::vector<std::uint8_t> tiles_;
     int moments_ = 1;
 };

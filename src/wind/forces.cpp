@@ -2,9 +2,9 @@
 //
 // The thesis, chapter 3: hysteresis (3.2), wind drag (3.3), boundary layer (3.4), viscous dissipation (3.5).
 //
-// In (3.2) the scan lost the letter of the radius; it is the contact circle's, as in Furmidge's F = k · 2r γ (cos θ_r −
-// cos θ_a) with k = π/4, which holds for circular contact lines (ElSherbini and Jacobi, J. Colloid Interface Sci. 299
-// (2006) 841). In (3.4) the printed σ and δ are one symbol. In (3.5) R is the radius of the droplet: of its sphere.
+// In (3.2) the scan lost the symbol of the radius: it is the contact radius, as in Furmidge's F = k · 2r γ (cos θ_r −
+// cos θ_a) with k = π/4 for circular contact lines (ElSherbini and Jacobi, J. Colloid Interface Sci. 299 (2006) 841).
+// In (3.4) the printed σ and δ are the same symbol. In (3.5) R is the radius of the droplet's sphere.
 #include "droplet/wind/forces.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ bool atLeastZero(double value)
     return value >= 0.0 && std::isfinite(value);
 }
 
-/// θ − sin θ cos θ, without the cancellation that leaves a flat cap few digits.
+/// θ − sin θ cos θ, without the cancellation of a flat cap.
 double segment(double theta)
 {
     const double x = 2.0 * theta;
@@ -135,7 +135,7 @@ double drivingForce(const DropletForces& forces, double slope, double wind)
 double acceleration(const DropletForces& forces, double driving, double velocity)
 {
     if (velocity == 0.0) {
-        // Who begins to move has the friction of motion against it from then on.
+        // A droplet that begins to move has sliding friction from then on.
         return std::abs(driving) <= forces.retention
                    ? 0.0
                    : (driving - std::copysign(forces.sliding_friction, driving)) / forces.mass;
@@ -179,14 +179,13 @@ double wedgeViscosityFactor(double viscosity, double contact_angle, double radiu
 
 namespace {
 
-/// Winds of the measured band squared: U±² = U₀² (1 ± F/W), with the force F of retention and the weight W along the
-/// plane.
+/// Squares of the winds of the measured band: U±² = U₀² (1 ± F/W), with retention F and weight W along the plane.
 constexpr double kLowerSquare = kMeasuredStillBand.from * kMeasuredStillBand.from;
 constexpr double kUpperSquare = kMeasuredStillBand.to * kMeasuredStillBand.to;
 constexpr double kNeutralSquare = 0.5 * (kLowerSquare + kUpperSquare);
 
-/// The boundary layer in which a wind of √kNeutralSquare holds up the weight of a droplet lower than it: with n = ½ of
-/// every such droplet, since S y goes with V_d.
+/// Boundary layer in which a wind of √kNeutralSquare carries the weight of a droplet lower than the layer. With n = ½
+/// it carries every such droplet, as S y is proportional to V_d.
 double fittedBoundaryLayer(const ForcePreset& preset)
 {
     const ForceModel& model = preset.model;
@@ -239,7 +238,7 @@ const ForcePreset& forcePresetNamed(std::string_view name)
         }
         names += (names.empty() ? "" : ", ") + preset.name;
     }
-    throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is no preset known by name; known: " + names);
+    throw Error(ErrorCode::InvalidArgument, "preset is '" + std::string(name) + "', must be one of " + names);
 }
 
 }  // namespace droplet

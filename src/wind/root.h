@@ -7,9 +7,9 @@
 
 namespace droplet {
 
-/// The root of a continuous function between two points where its signs differ, or one of the two where it is 0, to
-/// the last digits. After Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
-/// function without using derivatives", Adv. Eng. Softw. 28 (1997) 145.
+/// Root of a continuous function, to the last digits, between two points where it is 0 or its signs differ. T. R.
+/// Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
+/// derivatives", Adv. Eng. Softw. 28 (1997) 145.
 template <typename Function>
 double rootBetween(double a, double b, const Function& function)
 {
@@ -18,7 +18,7 @@ double rootBetween(double a, double b, const Function& function)
     double c = a;
     double fc = fa;
     double share = 0.5;
-    constexpr int kMax = 200;  // bisections alone would need fewer
+    constexpr int kMax = 200;  // bisection alone would need fewer
     for (int i = 0; i < kMax && fa != 0.0 && fb != 0.0; ++i) {
         const double x = a + share * (b - a);
         const double fx = function(x);
@@ -39,7 +39,7 @@ double rootBetween(double a, double b, const Function& function)
         if (!(min < 0.5)) {
             break;
         }
-        // Inverse quadratic interpolation where it is known to be monotone, bisection elsewhere.
+        // Inverse quadratic interpolation if it is monotone, else bisection.
         const double xi = (a - b) / (c - b);
         const double phi = (fa - fb) / (fc - fb);
         share = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi

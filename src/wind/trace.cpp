@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// m v' = D(t) − W ∓ F − c v with the drag D of (3.3), the weight's part W, friction F and c of (3.5): linear between
-// events. Exponential quadrature (Hochbruck and Ostermann, "Exponential integrators", Acta Numer. 19 (2010) 209,
-// section 2.1) with nodes 0, ½ and 1: as Simpson's rule it is of fourth order though it interpolates by a parabola.
+// m v' = D(t) − W ∓ F − c v with the drag D of (3.3), the weight W along the slope, friction F and c of (3.5) is linear
+// between events. It is solved by exponential quadrature (Hochbruck and Ostermann, "Exponential integrators", Acta
+// Numer. 19 (2010) 209, section 2.1) with nodes 0, ½ and 1. Like Simpson's rule it interpolates by a parabola and is of
+// fourth order.
 #include "droplet/wind/trace.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ std::array<double, 5> phi(double z)
         }
         return f;
     }
-    // Nearer to 0 the differences cancel: φ₄ by its series Σ zʲ/(j+4)!, and the others up from it.
+    // Near 0 the differences cancel: φ₄ by its series Σ zʲ/(j+4)!, and the others from it.
     double term = 1.0 / 24.0;
     for (int j = 1; j <= 20; ++j) {
         f[4] += term;
@@ -58,14 +59,14 @@ struct Place {
     double velocity = 0.0;
 };
 
-/// A droplet that moves one way.
+/// Motion of a droplet in one direction.
 struct Sliding {
     const DropletForces* forces;
     double slope;
     const Gust* wind;
-    double direction;  ///< 1: up
+    double direction;  ///< 1: up the slope; −1: down
 
-    /// What accelerates it but for viscous drag [m/s²].
+    /// Acceleration without viscous drag [m/s²].
     [[nodiscard]] double push(double time) const
     {
         return (drivingForce(*forces, slope, wind->at(time)) - direction * forces->sliding_friction) / forces->mass;
@@ -76,7 +77,7 @@ struct Sliding {
         const double g0 = push(time);
         const double g1 = push(time + 0.5 * step);
         const double g2 = push(time + step);
-        // g0 + a s + b s² over the step, s from 0 to 1.
+        // The acceleration over the step is g0 + a s + b s², s from 0 to 1.
         const double a = -3.0 * g0 + 4.0 * g1 - g2;
         const double b = 2.0 * (g0 - 2.0 * g1 + g2);
         const auto f = phi(-forces->viscous / forces->mass * step);
@@ -85,12 +86,12 @@ struct Sliding {
     }
 };
 
-/// Times between which a gust rises or falls throughout.
-class Quarters {
+/// Times at which a gust turns; between them it rises or falls.
+class GustTurns {
 public:
-    explicit Quarters(const Gust& wind) : wind_(&wind) {}
+    explicit GustTurns(const Gust& wind) : wind_(&wind) {}
 
-    /// The next time after one at which the gust turns; the end if it is steady or does not until then.
+    /// First turn after a time; `end` if there is none before.
     [[nodiscard]] double after(double time, double end) const
     {
         if (wind_->amplitude == 0.0) {
@@ -114,7 +115,7 @@ public:
         : forces_(&forces), slope_(slope), wind_(&wind), options_(&options), motion_{0.0, options.velocity}
     {
         fastest_ = std::abs(motion_.velocity);
-        direction_ = motion_.velocity > 0.0 ? 1.0 : motion_.velocity < 0.0 ? -1.0 : letGo(0.0);
+        direction_ = motion_.velocity > 0.0 ? 1.0 : motion_.velocity < 0.0 ? -1.0 : releaseDirection(0.0);
         next_step_ = options.fixed_step.value_or(0.01 * (wind.amplitude == 0.0 ? options.duration : wind.period));
     }
 
@@ -133,8 +134,8 @@ public:
 private:
     [[nodiscard]] double driving(double time) const { return drivingForce(*forces_, slope_, wind_->at(time)); }
 
-    /// Which way a droplet at rest begins to move; 0: it is held.
-    [[nodiscard]] double letGo(double time) const
+    /// Direction in which a droplet at rest begins to move; 0: it is held.
+    [[nodiscard]] double releaseDirection(double time) const
     {
         const double force = driving(time);
         return std::abs(force) <= forces_->retention ? 0.0 : std::copysign(1.0, force);
@@ -143,7 +144,7 @@ private:
     void record()
     {
         const double force = driving(time_);
-        // Just let go, it has no speed yet but a direction.
+        // A droplet that was just released has no speed yet, but a direction.
         double rate = 0.0;
         if (direction_ != 0.0) {
             rate =
@@ -163,19 +164,19 @@ private:
         }
     }
 
-    /// At rest, until friction lets go.
+    /// Keeps the droplet at rest until friction releases it.
     void wait(double until)
     {
-        // Over a rise or fall of the wind the driving force rises or falls, and leaves what is held once at most.
-        const double to = Quarters(*wind_).after(time_, until);
-        if (letGo(to) != 0.0) {
+        // Between turns of the gust the driving force is monotone, so it exceeds the retention at most once.
+        const double to = GustTurns(*wind_).after(time_, until);
+        if (releaseDirection(to) != 0.0) {
             double held = time_;
             time_ = to;
             while (time_ - held > std::numeric_limits<double>::epsilon() * time_) {
                 const double middle = 0.5 * (held + time_);
-                (letGo(middle) == 0.0 ? held : time_) = middle;
+                (releaseDirection(middle) == 0.0 ? held : time_) = middle;
             }
-            direction_ = letGo(time_);
+            direction_ = releaseDirection(time_);
             trace_.events.push_back({time_, true});
         } else {
             time_ = to;
@@ -185,8 +186,8 @@ private:
     void slide(double until)
     {
         const Sliding sliding{forces_, slope_, wind_, direction_};
-        // A wind that turns may catch the droplet and let go again: no step goes over that.
-        const double room = Quarters(*wind_).after(time_, until) - time_;
+        // Where the gust turns, friction may stop and release the droplet: no step passes a turn.
+        const double room = GustTurns(*wind_).after(time_, until) - time_;
         double step = std::min(next_step_, room);
         if (wind_->amplitude == 0.0 && !options_->fixed_step) {
             step = room;
@@ -196,7 +197,7 @@ private:
             const Place half = sliding.after(motion_, time_, 0.5 * step);
             const Place twice = sliding.after(half, time_ + 0.5 * step, 0.5 * step);
             fastest_ = std::max({fastest_, std::abs(to.velocity), std::abs(twice.velocity)});
-            // Of fourth order: the halved steps have a 16th of the error.
+            // The method is of fourth order: halved steps have a 16th of the error.
             const double error = std::abs(to.velocity - twice.velocity) / 15.0;
             const double allowed = options_->tolerance * fastest_;
             constexpr double kSafety = 0.9;
@@ -212,7 +213,7 @@ private:
             }
             to = twice;
             if (!(direction_ * half.velocity > 0.0) && motion_.velocity != 0.0) {
-                step *= 0.5;  // caught, though it might move again by the step's end
+                step *= 0.5;  // it stops, but may move again before the step's end
                 to = half;
             }
         }
@@ -220,7 +221,7 @@ private:
         finish(sliding, step, to);
     }
 
-    /// Accepts a step, or the part of it until friction catches the droplet.
+    /// Accepts a step, or the part of it before friction stops the droplet.
     void finish(const Sliding& sliding, double step, Place to)
     {
         const double from = time_;
@@ -231,20 +232,20 @@ private:
         }
         const Place start = motion_;
         const auto speed = [&](double part) { return direction_ * sliding.after(start, from, part).velocity; };
-        // What was let go an instant ago has no speed yet: the stop is where it is lost again.
+        // A droplet that was just released has no speed yet: the stop is searched after it has some.
         const double beginning = start.velocity != 0.0 ? 0.0 : firstMoving(speed, step);
-        // Halved steps may see a stop where the whole one just does not.
+        // Halved steps may find a stop that the whole step does not.
         const double part = beginning < step && !(speed(step) > 0.0) ? rootBetween(beginning, step, speed) : step;
         motion_ = {sliding.after(start, from, part).position, 0.0};
         time_ = part > 0.0 ? from + part : std::nextafter(from, from + step);
-        const double onward = letGo(time_);
-        if (onward == 0.0) {
+        const double direction = releaseDirection(time_);
+        if (direction == 0.0) {
             trace_.events.push_back({time_, false});
         }
-        direction_ = onward;
+        direction_ = direction;
     }
 
-    /// A time at which the droplet has some speed, or the step's end.
+    /// Part of the step after which the droplet has some speed; the whole step if it has none.
     static double firstMoving(const std::function<double(double)>& speed, double step)
     {
         double part = 0.5 * step;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, section 3.1.4: the droplets' balance over winds (figure 3.5), beside what Hashimoto et al. (J. Surf.
-// Finish. Soc. Jpn 59 (2008) 907) measured (figure 3.3).
+// The thesis, section 3.1.4: balance of forces on droplets over the wind (figure 3.5), compared with measurements by
+// Hashimoto et al., J. Surf. Finish. Soc. Jpn 59 (2008) 907 (figure 3.3).
 //
-// A droplet runs down where W − D > F and climbs where D − W > F, with the weight's part W along the slope, the drag D
-// and the limit F of retention. Over the volume each of these is a power:
+// A droplet runs down if W − D > F and climbs if D − W > F, with the weight W along the slope, the drag D and the
+// retention F. Each is a power of the volume:
 //
-//   W ∝ V_d,  F ∝ V_d^(1/3),  D ∝ V_d^((2 + 2n)/3) below the boundary layer's edge, ∝ V_d^(2/3) above it,
+//   W ∝ V_d,  F ∝ V_d^(1/3),  D ∝ V_d^((2 + 2n)/3) below the boundary layer's edge, ∝ V_d^(2/3) above it.
 //
-// with a falling angle for every volume F ∝ V_d. So a balance divided by V_d^(1/3) is a + b V_d^p + c V_d^q on either
-// side of the edge, which turns at one volume at most, known in closed form: between those its sign changes once at
-// most, and bisection finds where.
+// With a falling angle for every volume, F ∝ V_d. So a balance divided by V_d^(1/3) is a + b V_d^p + c V_d^q on either
+// side of the edge. It turns at one volume at most, which has a closed form. Between these volumes its sign changes at
+// most once, and bisection finds the root.
 #include "droplet/wind/tunnel.h"
 
 #include <algorithm>
@@ -39,8 +39,8 @@ void requireAll(const std::string& field, const std::vector<double>& values, con
 
 constexpr double kFastestWind = 1e6;
 
-/// The wind over which drag is over a force [m/s].
-std::optional<double> windAgainst(const DropletForces& forces, double force)
+/// Wind whose drag equals a force [m/s]; empty if there is none.
+std::optional<double> windBalancing(const DropletForces& forces, double force)
 {
     const auto balance = [&](double wind) { return forces.drag * wind * wind - force; };
     if (!(balance(0.0) <= 0.0)) {
@@ -69,26 +69,26 @@ Thresholds thresholdsOf(const DropletForces& forces, double slope)
 {
     const double weight = forces.weight * std::sin(slope);
     Thresholds found;
-    found.upper = windAgainst(forces, weight + forces.retention);
+    found.upper = windBalancing(forces, weight + forces.retention);
     if (weight > forces.retention) {
-        found.lower = windAgainst(forces, weight - forces.retention);
+        found.lower = windBalancing(forces, weight - forces.retention);
     }
     return found;
 }
 
 namespace {
 
-/// Volumes of a range, its ends included, between which no balance of forces turns.
+/// Splits a range of volumes so that no balance of forces turns within a part; includes both ends.
 std::vector<double> turningVolumes(const ForceModel& model, const TunnelSetting& setting, const VolumeRange& range)
 {
-    // Everything at one volume tells the factors of the powers.
+    // The forces at 1 m³ are the factors of the powers.
     const DropletForces one = forcesOn(model, 1.0);
     const CapSize cap = capOf(1.0, model.wetting.contact_angle);
     const double weight = one.weight * std::sin(setting.slope);
     const double edge = std::pow(model.air.boundary_layer / cap.height, 3.0);
-    std::vector<double> volumes{range.from, range.to};
+    std::vector<double> volumes{range.min, range.max};
     const auto add = [&](double volume) {
-        if (volume > range.from && volume < range.to) {
+        if (volume > range.min && volume < range.max) {
             volumes.push_back(volume);
         }
     };
@@ -101,7 +101,7 @@ std::vector<double> turningVolumes(const ForceModel& model, const TunnelSetting&
     const double n = model.air.profile_exponent;
     const double slowed_drag =
         model.air.boundary_layer > 0.0 ? full_drag * std::pow(cap.height / model.air.boundary_layer, 2.0 * n) : 0.0;
-    // What goes with the volume: the weight, and retention if it does, on either side.
+    // Terms proportional to the volume: the weight, and the retention if it is, with either sign.
     const double retention = model.wetting.falling_angle ? one.retention : 0.0;
     for (const double held : {weight - retention, weight, weight + retention}) {
         // d/dV (D − W) V^(−1/3) = 0, with D = d V^e: V^(e − 1) = (2/3) w / ((e − 1/3) d).
@@ -121,7 +121,7 @@ std::vector<double> turningVolumes(const ForceModel& model, const TunnelSetting&
 
 std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSetting& setting, const VolumeRange& range)
 {
-    // Per V^(1/3), so that droplets of every size weigh alike.
+    // Divided by V^(1/3), so that droplets of all sizes have similar values.
     const auto beyond = [&](double direction) {
         return [&, direction](double log_volume) {
             const DropletForces forces = forcesOn(model, std::exp(log_volume));
@@ -133,7 +133,7 @@ std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSet
     const auto runs_down = beyond(-1.0);
     const std::vector<double> volumes = turningVolumes(model, setting, range);
     std::vector<RegimeChange> changes;
-    const auto look = [&](const auto& balance, Regime regime, double from, double to) {
+    const auto addChange = [&](const auto& balance, Regime regime, double from, double to) {
         const double a = std::log(from);
         const double b = std::log(to);
         const bool before = balance(a) > 0.0;
@@ -143,8 +143,8 @@ std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSet
         }
     };
     for (std::size_t i = 0; i + 1 < volumes.size(); ++i) {
-        look(climbs, Regime::Climbs, volumes[i], volumes[i + 1]);
-        look(runs_down, Regime::RunsDown, volumes[i], volumes[i + 1]);
+        addChange(climbs, Regime::Climbs, volumes[i], volumes[i + 1]);
+        addChange(runs_down, Regime::RunsDown, volumes[i], volumes[i + 1]);
     }
     std::sort(changes.begin(), changes.end(),
               [](const RegimeChange& a, const RegimeChange& b) { return a.volume < b.volume; });
@@ -153,7 +153,7 @@ std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSet
 
 std::optional<double> criticalVolume(const ForceModel& model, double slope)
 {
-    // Far beyond drops on either side.
+    // Far beyond the size of droplets at both ends.
     constexpr VolumeRange kAll{1e-30, 1e9};
     const std::vector<RegimeChange> changes = regimeChanges(model, {slope, 0.0}, kAll);
     return changes.empty() ? std::nullopt : std::optional(changes.front().volume);
@@ -182,67 +182,68 @@ void TunnelSweep::validate() const
     requireAll("hystereses", hystereses, "from 0 to 2", [](double v) { return v >= 0.0 && v <= 2.0; });
     if (!hystereses.empty() && model.wetting.falling_angle) {
         throw Error(ErrorCode::InvalidArgument,
-                    "hystereses and model.wetting.falling_angle exclude each other: both say what holds droplets");
+                    "hystereses and model.wetting.falling_angle exclude each other: both set the retention");
     }
     double rows = static_cast<double>(std::max<std::size_t>(1, hystereses.size()));
     for (const auto* values : {&volumes, &winds, &slopes}) {
         rows *= static_cast<double>(values->size());
     }
     if (rows > static_cast<double>(kMaxTunnelRows)) {
-        throw Error(ErrorCode::InvalidArgument, "a sweep of " + std::to_string(static_cast<long long>(rows)) +
-                                                    " rows is over the limit of " + std::to_string(kMaxTunnelRows));
+        throw Error(ErrorCode::InvalidArgument, "a sweep has " + std::to_string(static_cast<long long>(rows)) +
+                                                    " rows; at most " + std::to_string(kMaxTunnelRows) +
+                                                    " are allowed");
     }
 }
 
 namespace {
 
-/// Slope and hysteresis, which all volumes share.
-struct Bench {
+/// Slope and hysteresis, common to all volumes.
+struct Incline {
     ForceModel model;
     double slope = 0.0;
     std::optional<double> critical_volume;
 };
 
-std::vector<Bench> benchesOf(const TunnelSweep& what)
+std::vector<Incline> inclinesOf(const TunnelSweep& what)
 {
-    std::vector<Bench> benches;
+    std::vector<Incline> inclines;
     const std::vector<double> hystereses =
         what.hystereses.empty() ? std::vector<double>{what.model.wetting.hysteresis} : what.hystereses;
     for (const double hysteresis : hystereses) {
         for (const double slope : what.slopes) {
-            Bench bench{what.model, slope, {}};
-            bench.model.wetting.hysteresis = hysteresis;
-            benches.push_back(bench);
+            Incline incline{what.model, slope, {}};
+            incline.model.wetting.hysteresis = hysteresis;
+            inclines.push_back(incline);
         }
     }
-    forBlocks(benches.size(), [&](std::size_t begin, std::size_t end) {
+    forBlocks(inclines.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            benches[i].critical_volume = criticalVolume(benches[i].model, benches[i].slope);
+            inclines[i].critical_volume = criticalVolume(inclines[i].model, inclines[i].slope);
         }
     });
-    return benches;
+    return inclines;
 }
 
-TunnelCase caseOf(const Bench& bench, double volume)
+TunnelCase caseOf(const Incline& incline, double volume)
 {
-    const ForceModel& model = bench.model;
+    const ForceModel& model = incline.model;
     const std::optional<double> falling_angle = model.wetting.falling_angle;
     TunnelCase found;
     found.hysteresis = falling_angle ? hysteresisOf(model, *falling_angle, volume) : model.wetting.hysteresis;
-    found.slope = bench.slope;
+    found.slope = incline.slope;
     found.cap = capOf(volume, model.wetting.contact_angle);
     found.forces = forcesOn(model, found.cap);
-    found.thresholds = thresholdsOf(found.forces, bench.slope);
-    found.critical_volume = bench.critical_volume;
+    found.thresholds = thresholdsOf(found.forces, incline.slope);
+    found.critical_volume = incline.critical_volume;
     found.shedding_wind = sheddingWind(model, found.cap);
     return found;
 }
 
-TunnelRow rowOf(const TunnelCase& of, double wind)
+TunnelRow rowOf(const TunnelCase& tunnel_case, double wind)
 {
-    const double driving = drivingForce(of.forces, of.slope, wind);
-    return {of.forces.drag * wind * std::abs(wind), driving, acceleration(of.forces, driving, 0.0),
-            terminalVelocity(of.forces, driving), regimeOf(of.forces, driving)};
+    const double driving = drivingForce(tunnel_case.forces, tunnel_case.slope, wind);
+    return {tunnel_case.forces.drag * wind * std::abs(wind), driving, acceleration(tunnel_case.forces, driving, 0.0),
+            terminalVelocity(tunnel_case.forces, driving), regimeOf(tunnel_case.forces, driving)};
 }
 
 }  // namespace
@@ -250,13 +251,13 @@ TunnelRow rowOf(const TunnelCase& of, double wind)
 Tunnel sweep(const TunnelSweep& what)
 {
     what.validate();
-    const std::vector<Bench> benches = benchesOf(what);
+    const std::vector<Incline> inclines = inclinesOf(what);
     Tunnel tunnel;
     tunnel.winds = what.winds;
-    tunnel.cases.resize(benches.size() * what.volumes.size());
+    tunnel.cases.resize(inclines.size() * what.volumes.size());
     forBlocks(tunnel.cases.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            tunnel.cases[i] = caseOf(benches[i / what.volumes.size()], what.volumes[i % what.volumes.size()]);
+            tunnel.cases[i] = caseOf(inclines[i / what.volumes.size()], what.volumes[i % what.volumes.size()]);
         }
     });
     tunnel.rows.resize(tunnel.cases.size() * what.winds.size());

@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-/// Small droplets light, large ones deep: from one blue to another over the volumes' order.
+/// Colour of a curve: from light blue for the smallest droplet to dark blue for the largest.
 Colour shade(std::size_t index, std::size_t count)
 {
     constexpr std::array<std::array<double, 3>, 4> kRamp{
@@ -26,16 +26,16 @@ Colour shade(std::size_t index, std::size_t count)
     return colour;
 }
 
-/// Acceleration at rest just above or below a threshold and between them: what a curve needs to show its corners, and
-/// its jumps where less than all friction is left in motion.
-std::vector<Vec2> curveOf(const TunnelCase& of, const Scale& x, const Scale& y)
+/// Points of a curve, also just below and above each threshold: the curve has corners there, and jumps if sliding
+/// friction is less than retention.
+std::vector<Vec2> curveOf(const TunnelCase& tunnel_case, const Scale& x, const Scale& y)
 {
     constexpr int kParts = 160;
     std::vector<double> winds;
     for (int k = 0; k <= kParts; ++k) {
         winds.push_back(x.low + (x.high - x.low) * k / kParts);
     }
-    for (const auto& threshold : {of.thresholds.lower, of.thresholds.upper}) {
+    for (const auto& threshold : {tunnel_case.thresholds.lower, tunnel_case.thresholds.upper}) {
         if (threshold) {
             for (const double beside : {1.0 - 1e-9, 1.0 + 1e-9}) {
                 winds.push_back(std::clamp(*threshold * beside, x.low, x.high));
@@ -46,28 +46,30 @@ std::vector<Vec2> curveOf(const TunnelCase& of, const Scale& x, const Scale& y)
     std::vector<Vec2> points;
     points.reserve(winds.size());
     for (const double wind : winds) {
-        points.push_back({x.at(wind), y.at(acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0))});
+        points.push_back(
+            {x.at(wind),
+             y.at(acceleration(tunnel_case.forces, drivingForce(tunnel_case.forces, tunnel_case.slope, wind), 0.0))});
     }
     return points;
 }
 
-/// Heights near to those wished for, in their order, a pitch apart and within bounds.
-std::vector<double> spreadOut(std::vector<double> wished, double pitch, double top, double bottom)
+/// Moves heights apart to at least a pitch, within bounds and in their order.
+std::vector<double> spreadOut(std::vector<double> wanted, double pitch, double top, double bottom)
 {
-    // From the bottom up they are pushed apart, and from the top down pushed back.
+    // Each pass pushes overlapping neighbours apart, and all back within the bounds.
     for (int pass = 0; pass < 200; ++pass) {
-        for (std::size_t i = 1; i < wished.size(); ++i) {
-            const double overlap = pitch - (wished[i - 1] - wished[i]);
+        for (std::size_t i = 1; i < wanted.size(); ++i) {
+            const double overlap = pitch - (wanted[i - 1] - wanted[i]);
             if (overlap > 0.0) {
-                wished[i - 1] += 0.5 * overlap;
-                wished[i] -= 0.5 * overlap;
+                wanted[i - 1] += 0.5 * overlap;
+                wanted[i] -= 0.5 * overlap;
             }
         }
-        for (double& at : wished) {
+        for (double& at : wanted) {
             at = std::clamp(at, top, bottom);
         }
     }
-    return wished;
+    return wanted;
 }
 
 void drawCurves(Plot& plot, const Panel& panel, const Scale& x, const Scale& y)
@@ -79,7 +81,7 @@ void drawCurves(Plot& plot, const Panel& panel, const Scale& x, const Scale& y)
         plot.line(points, shade(v, count), 2.2);
         ends.push_back(points.back().y);
     }
-    // Names beside the curves' ends: those of every so many if there is no room for all.
+    // Names beside the ends of the curves; if there is no room for all, of every k-th curve.
     constexpr double kPitch = 15.0;
     const auto room = static_cast<std::size_t>((plot.bottom() - plot.top()) / kPitch);
     const std::size_t every = (count + room - 1) / room;
@@ -90,12 +92,12 @@ void drawCurves(Plot& plot, const Panel& panel, const Scale& x, const Scale& y)
         }
     }
     std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<double> wished;
-    wished.reserve(named.size());
+    std::vector<double> wanted;
+    wanted.reserve(named.size());
     for (const auto& [at, v] : named) {
-        wished.push_back(at);
+        wanted.push_back(at);
     }
-    const std::vector<double> places = spreadOut(wished, kPitch, plot.top(), plot.bottom());
+    const std::vector<double> places = spreadOut(wanted, kPitch, plot.top(), plot.bottom());
     for (std::size_t i = 0; i < named.size(); ++i) {
         const std::size_t v = named[i].second;
         plot.line({{plot.right() + 3.0, named[i].first}, {plot.right() + 13.0, places[i]}}, shade(v, count), 1.2);
@@ -116,9 +118,10 @@ Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const 
     const WindBand winds = windsOf(swept);
     double low = std::min(-1.0, options.min);
     double high = std::max(1.0, options.max);
-    for (const TunnelCase& of : tunnel.cases) {
+    for (const TunnelCase& tunnel_case : tunnel.cases) {
         for (const double wind : {winds.from, winds.to}) {
-            const double rate = acceleration(of.forces, drivingForce(of.forces, of.slope, wind), 0.0);
+            const double rate =
+                acceleration(tunnel_case.forces, drivingForce(tunnel_case.forces, tunnel_case.slope, wind), 0.0);
             low = std::min(low, rate);
             high = std::max(high, rate);
         }
@@ -132,21 +135,21 @@ Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const 
         const Scale y = plot.up(low, high, false);
         const auto x_ticks = ticksOf(x, 8.0);
         const auto y_ticks = ticksOf(y, 6.0);
-        // Of many layers together what one of this opacity is.
+        // All layers together have the opacity 0.55.
         const double layer = 1.0 - std::pow(0.45, 1.0 / static_cast<double>(panel.cases.size()));
-        for (const TunnelCase* of : panel.cases) {
-            const double from = std::clamp(of->thresholds.lower.value_or(x.low), x.low, x.high);
-            const double to = std::clamp(of->thresholds.upper.value_or(x.high), x.low, x.high);
+        for (const TunnelCase* tunnel_case : panel.cases) {
+            const double from = std::clamp(tunnel_case->thresholds.lower.value_or(x.low), x.low, x.high);
+            const double to = std::clamp(tunnel_case->thresholds.upper.value_or(x.high), x.low, x.high);
             plot.box(x.at(from), x.at(to), kStill, layer);
         }
-        plot.rulers(x, x_ticks, y, y_ticks, kGrid);
+        plot.gridLines(x, x_ticks, y, y_ticks, kGrid);
         plot.line({{plot.left(), y.at(0.0)}, {plot.right(), y.at(0.0)}}, kAxis, 1.2);
         if (options.measured) {
             plot.measured(x, *options.measured);
         }
         drawCurves(plot, panel, x, y);
         plot.axes(x, x_ticks, y, y_ticks);
-        plot.heads(captionOf(swept, *panel.cases.front()), "acceleration up the slope, m/s²");
+        plot.headings(captionOf(swept, *panel.cases.front()), "acceleration up the slope, m/s²");
         const auto remark = [&](const char* words, double at) {
             plot.text({words, {plot.left() + 9.0, at}, kSmallLetters, kSoft, Anchor::Start, false, true});
         };

@@ -13,25 +13,25 @@ namespace droplet {
 struct DropletScene::Content {
     Glass glass;
     DropletSceneOptions options;
-    DropletLives lives;
+    DropletHistories histories;
 
     void checkSize() const
     {
         if (options.animation == SceneAnimation::Texture) {
-            checkTexture(lives.max(), lives.frames());
+            checkTexture(histories.maxCount(), histories.frames());
             return;
         }
-        // JSON of a joint, and numbers of the keys; while a file is made, its JSON takes some fifteen times the memory.
+        // Bytes of a joint's JSON and of a sample's keys. In memory the JSON takes about fifteen times as much.
         constexpr std::uint64_t kJoint = 800;
         constexpr std::uint64_t kSample = 10;
         constexpr std::uint64_t kMax = std::uint64_t{1} << 27;
-        const std::uint64_t bytes = kSample * lives.samples() + kJoint * lives.max();
+        const std::uint64_t bytes = kSample * histories.samples() + kJoint * histories.maxCount();
         if (bytes >= kMax) {
             throw Error(
                 ErrorCode::InvalidArgument,
-                std::to_string(lives.frames()) + " frames of up to " + std::to_string(lives.max()) +
+                std::to_string(histories.frames()) + " frames of up to " + std::to_string(histories.maxCount()) +
                     " droplets would make a glTF file of about " + std::to_string(bytes) +
-                    " bytes; it must stay below 128 MiB: ask for less time, fewer frames a second or less rain");
+                    " bytes; it must be less than 128 MiB: use a shorter time, fewer frames per second or less rain");
         }
     }
 };
@@ -46,7 +46,7 @@ void DropletSceneOptions::validate() const
 DropletScene::DropletScene(const Glass& glass, const DropletSceneOptions& options)
 {
     options.validate();
-    content_ = std::make_unique<Content>(Content{glass, options, DropletLives(glass, options.shape)});
+    content_ = std::make_unique<Content>(Content{glass, options, DropletHistories(glass, options.shape)});
 }
 
 DropletScene::~DropletScene() = default;
@@ -55,17 +55,17 @@ DropletScene& DropletScene::operator=(DropletScene&&) noexcept = default;
 
 void DropletScene::add(const WindshieldState& state)
 {
-    content_->lives.add(state);
+    content_->histories.add(state);
     content_->checkSize();
 }
 
 std::uint64_t DropletScene::write(std::ostream& out) const
 {
-    if (content_->lives.frames() == 0) {
+    if (content_->histories.frames() == 0) {
         throw Error(ErrorCode::InvalidArgument, "a scene of droplets must have at least one frame");
     }
     const auto write = content_->options.animation == SceneAnimation::Texture ? writeSceneOfTexture : writeSceneOfNodes;
-    return write(content_->lives, content_->glass, content_->options, out);
+    return write(content_->histories, content_->glass, content_->options, out);
 }
 
 }  // namespace droplet

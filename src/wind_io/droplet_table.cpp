@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "wind_io/whole_nanoseconds.h"
+#include "wind_io/rounded_time.h"
 
 namespace droplet {
 namespace {
@@ -15,7 +15,8 @@ constexpr std::array<const char*, 10> kColumns{
     "frame",     "time_s",           "id",      "x_m", "y_m", "velocity_x_m_per_s", "velocity_y_m_per_s",
     "volume_m3", "contact_radius_m", "length_m"};
 
-/// @param format  std::chars_format of a number that is none of counting
+/// Appends a number.
+/// @param format  std::chars_format of a floating-point number
 template <typename Number, typename... Format>
 void append(std::string& row, Number number, Format... format)
 {
@@ -45,7 +46,7 @@ DropletTable::DropletTable(std::ostream& out, TableFormat format, const ShapeOpt
 void DropletTable::add(std::size_t frame, const WindshieldState& state, DropletRows which)
 {
     std::string rows;
-    const double time = wholeNanoseconds(state.time);
+    const double time = roundedTime(state.time);
     for (const RunningDroplet& droplet : state.droplets) {
         if (which == DropletRows::Moving && droplet.velocity == Vec2{}) {
             continue;

@@ -15,9 +15,9 @@ constexpr Colour kMeasured{176, 58, 46};
 
 constexpr double kPanelWidth = 560.0;
 constexpr double kPanelHeight = 440.0;
-constexpr double kGap = 28.0;     // between panels
-constexpr double kMargin = 26.0;  // of the page
-constexpr double kHead = 74.0;    // for the title
+constexpr double kGap = 28.0;     // space between panels
+constexpr double kMargin = 26.0;  // margin of the page
+constexpr double kHead = 74.0;    // height of the title
 
 std::string withMinus(const std::string& number)
 {
@@ -34,12 +34,12 @@ std::string written(double value, int digits)
 std::vector<Tick> ticksOf(const Scale& scale, double parts)
 {
     const double step = roundStep(scale.high - scale.low, parts);
-    const int behind = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
+    const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9);
     std::vector<Tick> ticks;
     const auto last = std::llround(std::floor(scale.high / step + 1e-6));
     for (auto k = std::llround(std::ceil(scale.low / step - 1e-6)); k <= last; ++k) {
         const double value = static_cast<double>(k) * step;
-        ticks.push_back({value, withMinus(fmt::format("{:.{}f}", value + 0.0, behind))});
+        ticks.push_back({value, withMinus(fmt::format("{:.{}f}", value + 0.0, decimals))});
     }
     return ticks;
 }
@@ -51,9 +51,10 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
     if (count > kMaxPanels) {
         throw Error(
             ErrorCode::InvalidArgument,
-            fmt::format("a chart of {} slopes and hystereses is over the limit of {} panels", count, kMaxPanels));
+            fmt::format("a chart of {} pairs of slope and hysteresis is too large; at most {} panels are allowed",
+                        count, kMaxPanels));
     }
-    // Of many slopes and many hystereses each slope has a row of its own.
+    // With many slopes and many hystereses each slope has its own row.
     const std::size_t slopes = swept.slopes.size();
     const bool is_table = slopes > 1 && count > slopes;
     const std::size_t columns = is_table ? count / slopes : count < 2 ? 1 : count < 5 ? 2 : 3;
@@ -76,19 +77,19 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
     return panels;
 }
 
-std::string captionOf(const TunnelSweep& swept, const TunnelCase& of)
+std::string captionOf(const TunnelSweep& swept, const TunnelCase& tunnel_case)
 {
-    std::string text = "slope " + written(of.slope / kDegree, 4) + "°, ";
+    std::string text = "slope " + written(tunnel_case.slope / kDegree, 4) + "°, ";
     if (const auto& falling_angle = swept.model.wetting.falling_angle) {
         return text + "falling angle " + written(*falling_angle / kDegree, 4) + "°";
     }
-    return text + "hysteresis " + written(of.hysteresis, 3);
+    return text + "hysteresis " + written(tunnel_case.hysteresis, 3);
 }
 
 WindBand windsOf(const TunnelSweep& swept)
 {
     const auto [min, max] = std::minmax_element(swept.winds.begin(), swept.winds.end());
-    // One wind alone makes no axis.
+    // A single wind gives no axis.
     return *max - *min > 1e-3 ? WindBand{*min, *max} : WindBand{0.0, std::max(16.0, 1.25 * *max)};
 }
 
@@ -112,8 +113,8 @@ Plot::Plot(Drawing& drawing, const Panel& panel, double right)
 {
 }
 
-void Plot::rulers(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y, const std::vector<Tick>& y_ticks,
-                  const Colour& colour)
+void Plot::gridLines(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y, const std::vector<Tick>& y_ticks,
+                     const Colour& colour)
 {
     for (const Tick& tick : x_ticks) {
         line({{x.at(tick.value), top_}, {x.at(tick.value), bottom_}}, colour, 1.0);
@@ -138,7 +139,7 @@ void Plot::axes(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y
     text({"wind along the slope, m/s", {right_, bottom_ + 35.0}, kLetters, kSoft, Anchor::End});
 }
 
-void Plot::heads(const std::string& caption, const std::string& ordinate)
+void Plot::headings(const std::string& caption, const std::string& ordinate)
 {
     text({caption, {left_ - 35.0, corner_.y + 10.0}, 9.5, kInk, Anchor::Start, true});
     text({ordinate, {left_ - 35.0, corner_.y + 29.0}, kLetters, kSoft});

@@ -11,7 +11,7 @@
 
 namespace droplet {
 
-// What the chart of accelerations and the map of regimes have in common.
+// Common parts of the acceleration chart and the regime map.
 
 inline constexpr Colour kInk{32, 38, 46};
 inline constexpr Colour kSoft{98, 106, 116};
@@ -22,15 +22,15 @@ inline constexpr Colour kStill{233, 180, 76};
 inline constexpr double kLetters = 8.5;
 inline constexpr double kSmallLetters = 7.5;
 
-/// A number with a minus, which a hyphen is not.
+/// Text of a number, with a true minus sign instead of a hyphen.
 std::string written(double value, int digits);
 
-/// Values on a page's axis.
+/// Scale of an axis.
 struct Scale {
     double low = 0.0;
     double high = 1.0;
-    double from = 0.0;  ///< where low lies on the page
-    double to = 1.0;
+    double from = 0.0;  ///< coordinate of `low` on the page
+    double to = 1.0;    ///< coordinate of `high` on the page
     bool logarithmic = false;
 
     [[nodiscard]] double at(double value) const
@@ -45,33 +45,33 @@ struct Tick {
     std::string text;
 };
 
-/// Round numbers, so far apart that about so many parts lie between them.
+/// Ticks at round numbers, with about `parts` intervals.
 std::vector<Tick> ticksOf(const Scale& scale, double parts);
 
-/// The part of a chart that a slope and a hysteresis have.
+/// Panel of a chart, for one slope and hysteresis.
 struct Panel {
     std::vector<const TunnelCase*> cases;  ///< by volume
-    Vec2 corner;                           ///< top left of its part of the page
+    Vec2 corner;                           ///< top left corner on the page
 };
 
-/// A panel for every slope and hysteresis, in a grid, of several of both a row for each slope, on a drawing that
-/// becomes as large as they need.
-/// @throws Error  InvalidArgument: over kMaxPanels
+/// Lays out a panel for every slope and hysteresis in a grid, and sets the size of the drawing. If there are several of
+/// both, each slope is a row.
+/// @throws Error  InvalidArgument if there are more than kMaxPanels
 std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Drawing& drawing);
 
-/// A panel's slope and hysteresis in words.
-std::string captionOf(const TunnelSweep& swept, const TunnelCase& of);
+/// Text with a panel's slope and hysteresis.
+std::string captionOf(const TunnelSweep& swept, const TunnelCase& tunnel_case);
 
-/// The winds an axis shows.
+/// Range of winds of an axis.
 WindBand windsOf(const TunnelSweep& swept);
 
-/// Writes what the whole chart is of.
+/// Draws the title of the chart.
 void title(Drawing& drawing, const TunnelSweep& swept, const ChartOptions& options);
 
-/// A panel's plot, in a drawing.
+/// Plot of a panel, inside a drawing.
 class Plot {
 public:
-    /// @param right  room beside the plot, for names
+    /// @param right  width of the space beside the plot, for names
     Plot(Drawing& drawing, const Panel& panel, double right);
 
     [[nodiscard]] Scale across(double low, double high) const { return {low, high, left_, right_, false}; }
@@ -98,14 +98,14 @@ public:
     }
     void text(Text text) { drawing_->marks.emplace_back(std::move(text)); }
 
-    /// Lines across the plot at the ticks.
-    void rulers(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y, const std::vector<Tick>& y_ticks,
-                const Colour& colour);
-    /// The axes with their ticks and numbers.
+    /// Draws grid lines at the ticks.
+    void gridLines(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y, const std::vector<Tick>& y_ticks,
+                   const Colour& colour);
+    /// Draws the axes with their ticks and numbers.
     void axes(const Scale& x, const std::vector<Tick>& x_ticks, const Scale& y, const std::vector<Tick>& y_ticks);
-    /// What stands above the plot.
-    void heads(const std::string& caption, const std::string& ordinate);
-    /// The measured band's edges, and what they are.
+    /// Draws the texts above the plot.
+    void headings(const std::string& caption, const std::string& ordinate);
+    /// Draws the edges of the measured band with their name.
     void measured(const Scale& x, const WindBand& band);
 
 private:

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 28U;  // years at 10 Hz
 
-/// From so many rows on, even intervals are a sampling, of which one can be missing.
-constexpr std::size_t kSampling = 10;
+/// Number of rows from which equal intervals count as sampling, in which a row can be missing.
+constexpr std::size_t kMinSampledRows = 10;
 
 using Fields = std::vector<std::string>;
 
@@ -35,7 +35,7 @@ std::string trimmed(std::string_view text)
     return std::string(text);
 }
 
-/// The fields of a line, without the quotes around them (RFC 4180, but for line breaks within quotes).
+/// Fields of a line without their quotes (RFC 4180, except line breaks within quotes).
 Fields fieldsOf(std::string_view line)
 {
     Fields fields(1);
@@ -59,8 +59,8 @@ Fields fieldsOf(std::string_view line)
     return fields;
 }
 
-/// A heading without what stands between its words: `Speed (km/h)` and `speed_km_per_h` are both `speedkmh`.
-std::string plain(const std::string& heading)
+/// Normalises a heading: `Speed (km/h)` and `speed_km_per_h` are both `speedkmh`.
+std::string normalised(const std::string& heading)
 {
     std::string letters;
     for (const char c : heading) {
@@ -79,12 +79,12 @@ struct Column {
     double unit = 1.0;
 };
 
-/// The first column whose heading is known.
+/// First column with a known heading.
 std::optional<Column> columnOf(const Fields& header, const std::vector<std::pair<std::string, double>>& known)
 {
     for (std::size_t c = 0; c < header.size(); ++c) {
         for (const auto& [heading, unit] : known) {
-            if (plain(header[c]) == heading) {
+            if (normalised(header[c]) == heading) {
                 return Column{c, unit};
             }
         }
@@ -92,7 +92,7 @@ std::optional<Column> columnOf(const Fields& header, const std::vector<std::pair
     return std::nullopt;
 }
 
-/// Reads the rows of one file and says which of them is wrong.
+/// Reads the rows of one file; errors name the row.
 class Reader {
 public:
     explicit Reader(std::string name) : name_(std::move(name)) {}
@@ -106,7 +106,7 @@ public:
         std::vector<std::size_t> rows;
         std::optional<Column> time;
         std::optional<Column> speed;
-        std::size_t empty = 0;  // the first empty line since the last row
+        std::size_t empty = 0;  // first empty line since the last row
         std::size_t headings = 0;
         for (std::size_t row = 1; !text.empty(); ++row) {
             const std::size_t end = text.find('\n');
@@ -132,8 +132,9 @@ public:
                 continue;
             }
             if (fields.size() > headings) {
-                refuse(row, "has " + std::to_string(fields.size()) + " cells, the header " + std::to_string(headings) +
-                                ": a decimal comma or an unquoted one makes two of one");
+                refuse(row, "has " + std::to_string(fields.size()) + " cells, the header has " +
+                                std::to_string(headings) +
+                                ": write decimals with a point, and quote fields that contain a comma");
             }
             if (empty != 0) {
                 refuse(empty, "is empty: the drive cycle has a gap");
@@ -141,8 +142,7 @@ public:
             const double at = numberOf(fields, time->index, "time", row) * time->unit;
             const double fast = numberOf(fields, speed->index, "speed", row) * speed->unit;
             if (!cycle.times.empty() && at <= cycle.times.back()) {
-                refuse(row,
-                       "time " + numberText(at) + " s does not come after " + numberText(cycle.times.back()) + " s");
+                refuse(row, "time " + numberText(at) + " s must be after " + numberText(cycle.times.back()) + " s");
             }
             if (fast < 0.0) {
                 refuse(row, "speed is " + numberText(fast) + " m/s; it must be at least 0");
@@ -181,7 +181,7 @@ private:
 
     void refuseGaps(const std::vector<double>& times, const std::vector<std::size_t>& rows) const
     {
-        if (times.size() < kSampling) {
+        if (times.size() < kMinSampledRows) {
             return;
         }
         std::vector<double> intervals;
@@ -199,8 +199,8 @@ private:
         }
         for (std::size_t i = 0; i < intervals.size(); ++i) {
             if (intervals[i] >= 1.5 * usual) {
-                refuse(rows[i + 1], "comes " + numberText(intervals[i]) +
-                                        " s after the one before, where rows come every " + numberText(usual) +
+                refuse(rows[i + 1], "is " + numberText(intervals[i]) +
+                                        " s after the previous row, but there is a row every " + numberText(usual) +
                                         " s: the drive cycle has a gap");
             }
         }

@@ -20,7 +20,7 @@ constexpr Colour kDown{62, 124, 177};
 constexpr Colour kUp{66, 153, 118};
 constexpr Colour kTorn{146, 98, 150};
 
-/// Volumes in µL: 1, 2, 5, 10 …, or powers of ten where those would crowd.
+/// Ticks in µL: 1, 2, 5, 10 …, or powers of ten over a wide range.
 std::vector<Tick> volumeTicks(const Scale& scale)
 {
     std::vector<Tick> ticks;
@@ -39,7 +39,7 @@ std::vector<Tick> volumeTicks(const Scale& scale)
     return ticks;
 }
 
-/// What the map shows of one volume, on the page.
+/// Edges of the regions at one volume, as coordinates on the page.
 struct Level {
     double y = 0.0;
     double lower = 0.0;  ///< U₋
@@ -57,10 +57,10 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
     for (int k = 0; k <= kLevels; ++k) {
         volumes.push_back(y.low * std::pow(y.high / y.low, static_cast<double>(k) / kLevels));
     }
-    // Corners: where edges meet the page's, and where they bend at the boundary layer's edge.
+    // Corners: where edges leave the plot, and where they bend at the edge of the boundary layer.
     for (const double wind : {x.low, x.high}) {
         for (const RegimeChange& change : regimeChanges(model, {slope, wind}, {y.low, y.high})) {
-            // A root's last digit may lie on either side.
+            // The rounded root may lie on either side.
             volumes.push_back(change.volume * (1.0 - 1e-9));
             volumes.push_back(change.volume * (1.0 + 1e-9));
         }
@@ -86,7 +86,7 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
     return levels;
 }
 
-/// What is between two edges, and what it is called.
+/// Region between two edges, with its name.
 struct Region {
     const char* name;
     const char* short_name;
@@ -108,15 +108,15 @@ void fill(Plot& plot, const std::vector<Level>& levels, const Region& region)
     plot.area(std::move(outline), region.colour, 0.3);
 }
 
-/// A name as it may be written.
+/// Text and size of a name.
 struct Lettering {
     const char* words;
     double size;
 };
 
-/// A region's name, near the middle of where it is widest, within it and clear of upright lines.
-/// @return  whether there is room for it
-bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& uprights,
+/// Writes the name of a region inside it, near the middle of its widest part and clear of vertical lines.
+/// @return  whether there was room
+bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, const std::vector<double>& verticals,
           const Lettering& as)
 {
     const double half_word = 0.5 * textWidth(as.words, as.size) + 6.0;
@@ -129,7 +129,7 @@ bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     if (widest < 2.0 * half_word) {
         return false;
     }
-    // Half the heights at which it is nearly as wide lie above the middle.
+    // The middle is the median of the heights where the region is nearly as wide.
     std::vector<double> heights;
     for (const Level& level : levels) {
         if (width(level) > 0.75 * widest) {
@@ -146,7 +146,7 @@ bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
             const double x = first + 6.0 * k;
             const bool fits = level.y > plot.top() + 28.0 && level.y < plot.bottom() - 14.0;
             const auto clear = [&](double line) { return std::abs(line - x) > half_word; };
-            const bool is_clear = std::all_of(uprights.begin(), uprights.end(), clear) &&
+            const bool is_clear = std::all_of(verticals.begin(), verticals.end(), clear) &&
                                   std::all_of(levels.begin(), levels.end(), [&](const Level& other) {
                                       return std::abs(other.y - level.y) > kHalfLine ||
                                              (x - half_word > region.from(other) && x + half_word < region.to(other));
@@ -169,7 +169,7 @@ bool name(Plot& plot, const std::vector<Level>& levels, const Region& region, co
     return true;
 }
 
-/// A line along levels that have it.
+/// Draws an edge along the levels that have it.
 template <typename Has>
 void drawEdge(Plot& plot, const std::vector<Level>& levels, double Level::*edge, const Has& has)
 {
@@ -184,14 +184,14 @@ void drawEdge(Plot& plot, const std::vector<Level>& levels, double Level::*edge,
     }
 }
 
-VolumeRange volumesOf(const TunnelSweep& swept, const TunnelCase& of)
+VolumeRange volumesOf(const TunnelSweep& swept, const TunnelCase& tunnel_case)
 {
-    // To twice the largest, and down to droplets too small to run, over two decades at least and four at most.
+    // Up to twice the largest volume, and down to droplets too small to run; two to four decades.
     const auto [min, max] = std::minmax_element(swept.volumes.begin(), swept.volumes.end());
     const double high = 2.0 * *max;
     double low = std::min(0.5 * *min, 1e-2 * high);
-    if (of.critical_volume) {
-        low = std::min(low, std::max(0.3 * *of.critical_volume, 1e-4 * high));
+    if (tunnel_case.critical_volume) {
+        low = std::min(low, std::max(0.3 * *tunnel_case.critical_volume, 1e-4 * high));
     }
     return {low, high};
 }
@@ -213,7 +213,7 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
         Plot plot(drawing, panel, 20.0);
         const VolumeRange volumes = volumesOf(swept, first);
         const Scale x = plot.across(winds.from, winds.to);
-        const Scale y = plot.up(volumes.from, volumes.to, true);
+        const Scale y = plot.up(volumes.min, volumes.max, true);
         const auto x_ticks = ticksOf(x, 8.0);
         const auto y_ticks = volumeTicks(y);
         const std::vector<Level> levels = levelsOf(model, first.slope, x, y);
@@ -229,28 +229,28 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
         for (const Region& region : regions) {
             fill(plot, levels, region);
         }
-        plot.rulers(x, x_ticks, y, y_ticks, {255, 255, 255});
+        plot.gridLines(x, x_ticks, y, y_ticks, {255, 255, 255});
         const auto before_shedding = [](double Level::*edge, bool Level::*has) {
             return [=](const Level& level) { return level.*has && level.*edge <= level.shedding; };
         };
         drawEdge(plot, levels, &Level::lower, before_shedding(&Level::lower, &Level::has_lower));
         drawEdge(plot, levels, &Level::upper, before_shedding(&Level::upper, &Level::has_upper));
         drawEdge(plot, levels, &Level::shedding, [](const Level& level) { return level.has_shedding; });
-        std::vector<double> uprights;
+        std::vector<double> verticals;
         if (options.measured) {
             plot.measured(x, *options.measured);
-            uprights = {x.at(options.measured->from), x.at(options.measured->to)};
+            verticals = {x.at(options.measured->from), x.at(options.measured->to)};
         }
         for (const Region& region : regions) {
             for (const Lettering& as : std::initializer_list<Lettering>{
                      {region.name, 10.5}, {region.name, kSmallLetters}, {region.short_name, kSmallLetters}}) {
-                if (name(plot, levels, region, uprights, as)) {
+                if (name(plot, levels, region, verticals, as)) {
                     break;
                 }
             }
         }
         plot.axes(x, x_ticks, y, y_ticks);
-        plot.heads(captionOf(swept, first), "volume, µL");
+        plot.headings(captionOf(swept, first), "volume, µL");
     }
     return drawing;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The forms a scene of droplets is written in.
+// Writers of droplet scenes.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +7,22 @@
 #include <iosfwd>
 
 #include "droplet/wind_io/droplet_scene.h"
-#include "wind_io/droplet_lives.h"
+#include "wind_io/droplet_histories.h"
 
 namespace droplet {
 
-/// Writes droplets as joints of skinned meshes. See SceneAnimation::Nodes.
-std::uint64_t writeSceneOfNodes(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options,
-                                std::ostream& out);
+/// Writes droplets as joints of skinned meshes; see SceneAnimation::Nodes.
+std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
+                                const DropletSceneOptions& options, std::ostream& out);
 
-/// Writes droplets as a texture. See SceneAnimation::Texture.
-/// @throws Error InvalidArgument: checkTexture
-std::uint64_t writeSceneOfTexture(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options,
-                                  std::ostream& out);
+/// Writes droplets as a texture; see SceneAnimation::Texture.
+/// @throws Error InvalidArgument as checkTexture()
+std::uint64_t writeSceneOfTexture(const DropletHistories& histories, const Glass& glass,
+                                  const DropletSceneOptions& options, std::ostream& out);
 
-/// Refuses what viewers have no textures for.
-/// @param slots  droplets at once, or more
-/// @throws Error InvalidArgument
+/// Rejects textures that are too large for viewers.
+/// @param slots  number of droplets at once, or more
+/// @throws Error InvalidArgument if the texture has too many rows
 void checkTexture(std::size_t slots, std::size_t frames);
 
 }  // namespace droplet

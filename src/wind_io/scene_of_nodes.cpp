@@ -13,25 +13,25 @@
 
 #include "io/axes.h"
 #include "io/gltf_model.h"
-#include "wind_io/droplet_nets.h"
+#include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
 namespace droplet {
 namespace {
 
-/// Droplets in a mesh, each with a joint of its own: few draw calls, and indices of joints fit into a byte.
+/// Number of droplets in a mesh, each with its own joint: few draw calls, and indices of joints fit into a byte.
 constexpr std::size_t kDropletsOfMesh = 62;
-constexpr std::size_t kAnchors = 2;
-/// Shorter rests stay with the run around them: another joint would cost more keys [frames].
+constexpr std::size_t kAnchors = 2;  // corners of the glass in each mesh
+/// Shorter rests are part of the run around them: another joint would cost more keys [frames].
 constexpr std::uint32_t kShortRest = 15;
-/// Runs are right to this share of a droplet's width across their way,
+/// Tolerance of a run across its path, over the width of the droplet.
 constexpr double kPlaceTolerance = 0.25;
-/// and along it to this time more [s].
+/// Additional tolerance of a run along its path [s].
 constexpr double kTimeTolerance = 5e-3;
 
-/// When a slot shows a droplet.
+/// Time in which a slot shows a droplet.
 struct Span {
-    const DropletLife* life = nullptr;
+    const DropletHistory* history = nullptr;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 };
@@ -47,53 +47,54 @@ Vec3 vectorOf(const std::array<float, 3>& v)
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-/// Whether a droplet is on its way from one sample to the next. What falls on one at rest may shift its middle.
+/// Whether a droplet runs from one sample to the next. Small shifts are not runs: rain on a droplet at rest shifts its
+/// centre.
 bool runs(const DropletPose& from, const DropletPose& to)
 {
     return from.moves || to.moves || length(vectorOf(to.place) - vectorOf(from.place)) > static_cast<double>(to.across);
 }
 
-void split(const DropletLife& life, Spans& spans)
+void split(const DropletHistory& history, Spans& spans)
 {
-    std::uint32_t done = life.begin();
-    std::optional<std::uint32_t> running;  // since when
-    std::uint32_t moved = 0;               // up to when
+    std::uint32_t done = history.begin();
+    std::optional<std::uint32_t> running;  // first frame of the run
+    std::uint32_t moved = 0;               // last frame with a motion
     const auto end_run = [&](std::uint32_t next) {
         if (running && next - moved >= kShortRest) {
-            spans.runs.push_back({&life, *running, moved});
+            spans.runs.push_back({&history, *running, moved});
             done = moved;
             running.reset();
         }
     };
-    for (std::size_t i = 1; i < life.samples.size(); ++i) {
-        const DropletPose& from = life.samples[i - 1].pose;
-        const DropletPose& to = life.samples[i].pose;
+    for (std::size_t i = 1; i < history.samples.size(); ++i) {
+        const DropletPose& from = history.samples[i - 1].pose;
+        const DropletPose& to = history.samples[i].pose;
         if (from.place == to.place || !runs(from, to)) {
             continue;
         }
-        const std::uint32_t frame = life.samples[i].frame;
+        const std::uint32_t frame = history.samples[i].frame;
         end_run(frame - 1);
         if (!running) {
             running = frame - 1 - done >= kShortRest ? frame - 1 : done;
             if (*running > done) {
-                spans.rests.push_back({&life, done, *running});
+                spans.rests.push_back({&history, done, *running});
             }
         }
         moved = frame;
     }
-    end_run(life.end);
+    end_run(history.end);
     if (running) {
-        spans.runs.push_back({&life, *running, life.end});
+        spans.runs.push_back({&history, *running, history.end});
     } else {
-        spans.rests.push_back({&life, done, life.end});
+        spans.rests.push_back({&history, done, history.end});
     }
 }
 
-Spans spansOf(const DropletLives& lives)
+Spans spansOf(const DropletHistories& histories)
 {
     Spans spans;
-    for (const DropletLife* life : lives.all()) {
-        split(*life, spans);
+    for (const DropletHistory* history : histories.all()) {
+        split(*history, spans);
     }
     for (std::vector<Span>* all : {&spans.rests, &spans.runs}) {
         std::stable_sort(all->begin(), all->end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
@@ -101,54 +102,55 @@ Spans spansOf(const DropletLives& lives)
     return spans;
 }
 
-/// Where a droplet is at the beginning of a frame.
+/// Place of a droplet at the beginning of a frame.
 struct Point {
     std::uint32_t frame = 0;
     Vec3 place;
 };
 
-/// The way of a run; straight and even between two points.
-std::vector<Point> wayOf(const Span& run)
+/// Path of a run; straight and with constant speed between two points.
+std::vector<Point> pathOf(const Span& run)
 {
-    std::vector<Point> way;
-    const auto go = [&](std::uint32_t frame) { way.push_back({frame, vectorOf(run.life->at(frame).place)}); };
-    go(run.begin);
-    for (const DropletSample& sample : run.life->samples) {
+    std::vector<Point> path;
+    const auto add = [&](std::uint32_t frame) { path.push_back({frame, vectorOf(run.history->at(frame).place)}); };
+    add(run.begin);
+    for (const DropletSample& sample : run.history->samples) {
         if (sample.frame > run.begin && sample.frame < run.end) {
-            if (sample.frame - 1 > way.back().frame) {
-                go(sample.frame - 1);  // until then it rested
+            if (sample.frame - 1 > path.back().frame) {
+                add(sample.frame - 1);  // it rested until then
             }
-            go(sample.frame);
+            add(sample.frame);
         }
     }
-    if (way.back().frame < run.end) {
-        // It goes on where it will rest, or ends where it was.
-        way.push_back({run.end, run.end < run.life->end ? vectorOf(run.life->at(run.end).place) : way.back().place});
+    if (path.back().frame < run.end) {
+        // The path ends at the next rest, or where the droplet was last.
+        path.push_back(
+            {run.end, run.end < run.history->end ? vectorOf(run.history->at(run.end).place) : path.back().place});
     }
-    return way;
+    return path;
 }
 
-/// The points that suffice. D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the number of points
-/// required to represent a digitized line", Cartographica 10 (1973) 112, over time.
-std::vector<Point> reduced(const std::vector<Point>& way, double tolerance, double frames_per_second)
+/// Points that suffice within the tolerances. D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the
+/// number of points required to represent a digitized line", Cartographica 10 (1973) 112, over time.
+std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, double frames_per_second)
 {
-    std::vector<bool> kept(way.size(), false);
+    std::vector<bool> kept(path.size(), false);
     kept.front() = true;
     kept.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, way.size() - 1}};
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, path.size() - 1}};
     while (!open.empty()) {
         const auto [first, last] = open.back();
         open.pop_back();
-        const double frames = way[last].frame - way[first].frame;
-        const Vec3 chord = way[last].place - way[first].place;
+        const double frames = path[last].frame - path[first].frame;
+        const Vec3 chord = path[last].place - path[first].place;
         const double size = length(chord);
         const Vec3 along = size > 0.0 ? (1.0 / size) * chord : Vec3{};
         const double longer = tolerance + kTimeTolerance * size * frames_per_second / std::max(frames, 1.0);
         double worst = 1.0;
         std::size_t split = 0;
         for (std::size_t i = first + 1; i < last; ++i) {
-            const double share = (way[i].frame - way[first].frame) / frames;
-            const Vec3 off = way[i].place - way[first].place - share * chord;
+            const double share = (path[i].frame - path[first].frame) / frames;
+            const Vec3 off = path[i].place - path[first].place - share * chord;
             const double ahead = dot(off, along);
             const double excess = std::max(length(off - ahead * along) / tolerance, std::abs(ahead) / longer);
             if (excess > worst) {
@@ -163,22 +165,22 @@ std::vector<Point> reduced(const std::vector<Point>& way, double tolerance, doub
         }
     }
     std::vector<Point> points;
-    for (std::size_t i = 0; i < way.size(); ++i) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
         if (kept[i]) {
-            points.push_back(way[i]);
+            points.push_back(path[i]);
         }
     }
     return points;
 }
 
-/// Calls take(frame, pose) for the begin of a span and where a droplet's size, a resting one's place or a running one's
-/// shape has changed since it was last called.
+/// Calls take(frame, pose) for the begin of a span and for each change since the last call: of the size, of the place
+/// of a droplet at rest, or of the shape of a running one.
 template <typename Take>
 void forChanges(const Span& span, bool running, const Take& take)
 {
-    DropletPose last = span.life->at(span.begin);
+    DropletPose last = span.history->at(span.begin);
     take(span.begin, last);
-    for (const DropletSample& sample : span.life->samples) {
+    for (const DropletSample& sample : span.history->samples) {
         if (sample.frame <= span.begin || sample.frame >= span.end) {
             continue;
         }
@@ -191,16 +193,16 @@ void forChanges(const Span& span, bool running, const Take& take)
     }
 }
 
-/// Numbers of an animation, and the accessors on them.
+/// Numbers of an animation, and their accessors.
 class Tracks {
 public:
-    /// @param view  the buffer's view that will hold them
+    /// @param view  index of the buffer view for the numbers
     Tracks(tinygltf::Model& model, int view) : model_(model), view_(view) {}
 
     int addTimes(const std::vector<float>& times)
     {
         const int accessor = addFloats(TINYGLTF_TYPE_SCALAR, times);
-        // As short as tells the float.
+        // The shortest decimal that is exact for a float.
         const auto shortest = [](float time) { return std::stod(fmt::format("{:.9g}", time)); };
         model_.accessors.back().minValues = {shortest(times.front())};
         model_.accessors.back().maxValues = {shortest(times.back())};
@@ -216,7 +218,7 @@ public:
         return accessor;
     }
 
-    /// Quaternions, to 2^-15.
+    /// Adds quaternions, rounded to 2^-15.
     int addTurns(const std::vector<std::array<float, 4>>& turns)
     {
         const int accessor = add(TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_VEC4, 4 * turns.size());
@@ -273,7 +275,7 @@ void append(std::vector<float>& numbers, Vec3 v)
     numbers.insert(numbers.end(), {toFloat(v.x), toFloat(v.y), toFloat(v.z)});
 }
 
-/// As they stand in JSON, to so many decimals.
+/// Rounds numbers for JSON.
 template <typename Numbers>
 std::vector<double> rounded(const Numbers& numbers, int decimals)
 {
@@ -285,39 +287,39 @@ std::vector<double> rounded(const Numbers& numbers, int decimals)
     return result;
 }
 
-/// A mesh of many droplets, each bound to the joint of its number; the last vertices are the anchors'.
-struct Herd {
-    Net net;
-    std::vector<std::size_t> joints;  ///< by vertex
+/// Mesh of many droplets, each bound to its own joint; the last vertices belong to the anchors.
+struct DropletGroup {
+    SceneMesh mesh;
+    std::vector<std::size_t> joints;  ///< joint of each vertex
 };
 
-Herd herdOf(const Net& droplet)
+DropletGroup groupOf(const SceneMesh& droplet)
 {
-    Herd herd;
+    DropletGroup group;
     for (std::size_t k = 0; k < kDropletsOfMesh; ++k) {
-        const auto first = static_cast<std::uint32_t>(herd.net.positions.size());
-        herd.net.positions.insert(herd.net.positions.end(), droplet.positions.begin(), droplet.positions.end());
-        herd.net.normals.insert(herd.net.normals.end(), droplet.normals.begin(), droplet.normals.end());
-        herd.joints.insert(herd.joints.end(), droplet.positions.size(), k);
+        const auto first = static_cast<std::uint32_t>(group.mesh.positions.size());
+        group.mesh.positions.insert(group.mesh.positions.end(), droplet.positions.begin(), droplet.positions.end());
+        group.mesh.normals.insert(group.mesh.normals.end(), droplet.normals.begin(), droplet.normals.end());
+        group.joints.insert(group.joints.end(), droplet.positions.size(), k);
         for (const auto& [a, b, c] : droplet.triangles) {
-            herd.net.triangles.push_back({first + a, first + b, first + c});
+            group.mesh.triangles.push_back({first + a, first + b, first + c});
         }
     }
-    // Viewers measure a mesh once, where its joints are then; of the glass's two corners no triangle is made.
+    // Viewers compute bounds once, from the first pose. The anchors extend them to two corners of the glass.
     for (std::size_t k = 0; k < kAnchors; ++k) {
-        herd.net.positions.emplace_back();
-        herd.net.normals.push_back({0.0, 0.0, 1.0});
-        herd.joints.push_back(kDropletsOfMesh + k);
+        group.mesh.positions.emplace_back();
+        group.mesh.normals.push_back({0.0, 0.0, 1.0});
+        group.joints.push_back(kDropletsOfMesh + k);
     }
-    return herd;
+    return group;
 }
 
 class SceneOfNodes {
 public:
-    SceneOfNodes(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options)
-        : frames_(lives.frames()), options_(options), pane_(glassNet(glass))
+    SceneOfNodes(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
+        : frames_(histories.frames()), options_(options), pane_(glassMesh(glass))
     {
-        const Spans spans = spansOf(lives);
+        const Spans spans = spansOf(histories);
         model_ = makeBareModel(options.material, meanRadius(spans), true);
         scene_.nodes.push_back(addGlass(model_, pane_));
         tinygltf::Node all;
@@ -339,13 +341,13 @@ public:
             anchor.translation = rounded(std::array{up.x, up.y, up.z}, 5);
             anchors_.push_back(addNode(std::move(anchor), root_));
         }
-        resting_ = herdOf(capNet(options.shape.contact_angle, {.around = 12, .rings = 3}));
-        running_ = herdOf(capNet(options.shape.contact_angle, {.around = 16, .rings = 5}));
-        // Views come first: the tracks' is the last one in the buffer.
-        const int resting = spans.rests.empty() ? -1 : addHerd(resting_, "droplets at rest");
-        const int running = spans.runs.empty() ? -1 : addHerd(running_, "droplets on their way");
+        resting_ = groupOf(capMesh(options.shape.contact_angle, {.around = 12, .rings = 3}));
+        running_ = groupOf(capMesh(options.shape.contact_angle, {.around = 16, .rings = 5}));
+        // The view of the animation is the last one in the buffer.
+        const int resting = spans.rests.empty() ? -1 : addGroup(resting_, "droplets at rest");
+        const int running = spans.runs.empty() ? -1 : addGroup(running_, "droplets on their way");
         if (!written_.empty()) {
-            // They change nothing, but some readers cannot do without.
+            // Identity matrices, which some readers require.
             bind_ = addArray(model_, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, kDropletsOfMesh + kAnchors);
         }
         model_.animations.emplace_back().name = "rain";
@@ -368,9 +370,9 @@ public:
     std::uint64_t write(std::ostream& out) const
     {
         return writeBinary(out, model_, [&](ByteStream& bytes) {
-            writeNet(pane_, bytes);
-            for (const Herd* herd : written_) {
-                writeHerd(*herd, bytes);
+            writeMesh(pane_, bytes);
+            for (const DropletGroup* group : written_) {
+                writeGroup(*group, bytes);
             }
             for (std::size_t k = 0; !written_.empty() && k < kDropletsOfMesh + kAnchors; ++k) {
                 bytes.f32(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
@@ -384,13 +386,13 @@ public:
 private:
     [[nodiscard]] float timeOf(std::uint32_t frame) const { return toFloat(frame / options_.frames_per_second); }
 
-    /// How thick liquid is, to viewers: they do not scale it with joints.
+    /// Thickness of the liquid for viewers, which do not scale it with joints.
     static double meanRadius(const Spans& spans)
     {
         double sum = 0.0;
         for (const std::vector<Span>* all : {&spans.rests, &spans.runs}) {
             for (const Span& span : *all) {
-                sum += static_cast<double>(span.life->at(span.begin).restRadius());
+                sum += static_cast<double>(span.history->at(span.begin).restRadius());
             }
         }
         const std::size_t count = spans.rests.size() + spans.runs.size();
@@ -405,34 +407,34 @@ private:
         return number;
     }
 
-    int addHerd(const Herd& herd, const char* name)
+    int addGroup(const DropletGroup& group, const char* name)
     {
-        const int mesh = addNet(model_, herd.net, name, 0);
+        const int mesh = addMesh(model_, group.mesh, name, 0);
         const auto add_bytes = [&](bool normalised) {
             const int accessor = addArray(model_, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                                          TINYGLTF_TYPE_VEC4, herd.joints.size());
+                                          TINYGLTF_TYPE_VEC4, group.joints.size());
             model_.accessors.back().normalized = normalised;
             return accessor;
         };
         auto& attributes = model_.meshes.back().primitives.front().attributes;
         attributes["JOINTS_0"] = add_bytes(false);
         attributes["WEIGHTS_0"] = add_bytes(true);
-        written_.push_back(&herd);
+        written_.push_back(&group);
         return mesh;
     }
 
-    static void writeHerd(const Herd& herd, ByteStream& bytes)
+    static void writeGroup(const DropletGroup& group, ByteStream& bytes)
     {
-        writeNet(herd.net, bytes);
-        for (const std::size_t joint : herd.joints) {
+        writeMesh(group.mesh, bytes);
+        for (const std::size_t joint : group.joints) {
             bytes.u8(joint, 0, 0, 0);
         }
-        for (std::size_t i = 0; i < herd.joints.size(); ++i) {
+        for (std::size_t i = 0; i < group.joints.size(); ++i) {
             bytes.u8(255, 0, 0, 0);
         }
     }
 
-    /// Shows joints, so many to a mesh.
+    /// Adds nodes that show the joints, kDropletsOfMesh in each.
     void show(std::vector<int> joints, int mesh, int parent)
     {
         while (joints.size() % kDropletsOfMesh != 0) {
@@ -455,14 +457,14 @@ private:
         }
     }
 
-    /// A joint as it is in the first frame.
+    /// Adds a joint in the pose of the first frame.
     int addJoint(const Span& span, int parent, Vec3 place, bool turns)
     {
         tinygltf::Node joint;
         if (span.begin > 0) {
             joint.scale = {0.0, 0.0, 0.0};
         } else {
-            const DropletPose& pose = span.life->at(0);
+            const DropletPose& pose = span.history->at(0);
             joint.translation = rounded(std::array{place.x, place.y, place.z}, 5);
             if (turns) {
                 joint.rotation = rounded(pose.turn, 4);
@@ -474,7 +476,7 @@ private:
         return addNode(std::move(joint), parent);
     }
 
-    /// Droplets that face one way, to kFacing.
+    /// Droplets at rest with the same normal, to kFacing.
     struct Facing {
         std::array<float, 4> turn{};
         Vec3 normal;
@@ -485,7 +487,7 @@ private:
     {
         std::vector<Facing> facings;
         for (const Span& rest : rests) {
-            const DropletPose& pose = rest.life->at(rest.begin);
+            const DropletPose& pose = rest.history->at(rest.begin);
             const Vec3 normal = pose.normal();
             auto facing = std::find_if(facings.begin(), facings.end(),
                                        [&](const Facing& one) { return dot(one.normal, normal) > std::cos(kFacing); });
@@ -502,7 +504,7 @@ private:
             const int parent = addNode(std::move(node), root_);
             const auto [x, y, z, w] = facing.turn;
             const std::array<float, 4> back{-x, -y, -z, w};
-            for (const std::vector<std::size_t>& slot : pooled(facing.spans, 0)) {
+            for (const std::vector<std::size_t>& slot : assignSlots(facing.spans, 0)) {
                 std::vector<float> times;
                 std::vector<float> places;
                 std::vector<float> sizes;
@@ -529,7 +531,7 @@ private:
                 }
                 const Span& first = facing.spans[slot.front()];
                 const int joint =
-                    addJoint(first, parent, turnedBy(back, vectorOf(first.life->at(first.begin).place)), false);
+                    addJoint(first, parent, turnedBy(back, vectorOf(first.history->at(first.begin).place)), false);
                 joints.push_back(joint);
                 if (times.size() > 1) {
                     const int input = tracks_->addTimes(times);
@@ -547,10 +549,10 @@ private:
     void addRuns(const std::vector<Span>& runs, int mesh)
     {
         std::vector<int> joints;
-        for (const std::vector<std::size_t>& slot : pooled(runs, 1)) {
+        for (const std::vector<std::size_t>& slot : assignSlots(runs, 1)) {
             std::vector<float> times;
             std::vector<float> places;
-            std::vector<float> changes;  // times of turns and sizes
+            std::vector<float> changes;  // times of rotations and sizes
             std::vector<std::array<float, 4>> turns;
             std::vector<float> sizes;
             const auto change = [&](std::uint32_t frame, const DropletPose& pose) {
@@ -565,21 +567,21 @@ private:
             };
             const Span& first = runs[slot.front()];
             if (first.begin > 0) {
-                hide(0, first.life->at(first.begin));
+                hide(0, first.history->at(first.begin));
             }
             for (const std::size_t number : slot) {
                 const Span& run = runs[number];
-                const auto tolerance = kPlaceTolerance * static_cast<double>(run.life->at(run.begin).across);
-                for (const Point& point : reduced(wayOf(run), tolerance, options_.frames_per_second)) {
+                const auto tolerance = kPlaceTolerance * static_cast<double>(run.history->at(run.begin).across);
+                for (const Point& point : reduced(pathOf(run), tolerance, options_.frames_per_second)) {
                     times.push_back(timeOf(point.frame));
                     append(places, point.place);
                 }
                 forChanges(run, true, change);
                 if (run.end < frames_) {
-                    hide(run.end, run.life->at(run.end - 1));
+                    hide(run.end, run.history->at(run.end - 1));
                 }
             }
-            const int joint = addJoint(first, root_, vectorOf(first.life->at(first.begin).place), true);
+            const int joint = addJoint(first, root_, vectorOf(first.history->at(first.begin).place), true);
             joints.push_back(joint);
             tracks_->animate(joint, "translation", tracks_->addTimes(times),
                              tracks_->addFloats(TINYGLTF_TYPE_VEC3, places), "LINEAR");
@@ -592,24 +594,24 @@ private:
 
     std::uint32_t frames_;
     DropletSceneOptions options_;
-    Net pane_;
-    Herd resting_;
-    Herd running_;
-    std::vector<const Herd*> written_;
+    SceneMesh pane_;
+    DropletGroup resting_;
+    DropletGroup running_;
+    std::vector<const DropletGroup*> written_;
     tinygltf::Model model_;
     tinygltf::Scene scene_;
     int root_ = 0;
-    int bind_ = -1;  ///< accessor of inverse bind matrices
+    int bind_ = -1;  ///< accessor of the inverse bind matrices
     std::vector<int> anchors_;
     std::optional<Tracks> tracks_;
 };
 
 }  // namespace
 
-std::uint64_t writeSceneOfNodes(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options,
-                                std::ostream& out)
+std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
+                                const DropletSceneOptions& options, std::ostream& out)
 {
-    return SceneOfNodes(lives, glass, options).write(out);
+    return SceneOfNodes(histories, glass, options).write(out);
 }
 
 }  // namespace droplet

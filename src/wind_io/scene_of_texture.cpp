@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// docs/formats.md, "Droplets in a texture", has the texture's layout.
+// The layout of the texture: docs/formats.md, "Droplets in a texture".
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,15 +12,15 @@
 #include "droplet/error.h"
 #include "droplet/picture/picture.h"
 #include "io/gltf_model.h"
-#include "wind_io/droplet_nets.h"
+#include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
 namespace droplet {
 namespace {
 
-/// What viewers' graphics processors take, across and down.
+/// Largest side of a texture that graphics processors of viewers support.
 constexpr std::size_t kLargestSide = 8192;
-constexpr std::size_t kTexels = 4;  ///< of a droplet in a frame
+constexpr std::size_t kTexels = 4;  ///< texels of a droplet in a frame
 constexpr std::size_t kMaxColumns = kLargestSide / kTexels;
 
 std::size_t blocksOf(std::size_t slots)
@@ -28,17 +28,17 @@ std::size_t blocksOf(std::size_t slots)
     return std::max<std::size_t>((slots + kMaxColumns - 1) / kMaxColumns, 1);
 }
 
-/// Of numbers that become integers.
+/// Range of numbers that are stored as integers.
 struct Range {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
 
-    void take(float number)
+    void include(float number)
     {
         low = std::min(low, static_cast<double>(number));
         high = std::max(high, static_cast<double>(number));
     }
-    /// The same, but not empty.
+    /// The range, extended if it is empty or has no width.
     [[nodiscard]] Range widened() const
     {
         return low < high ? *this : low > high ? Range{1.0, 2.0} : Range{low, low + std::max(std::abs(low), 1e-3)};
@@ -47,35 +47,35 @@ struct Range {
 
 class SceneOfTexture {
 public:
-    SceneOfTexture(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options)
-        : frames_(lives.frames()),
+    SceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
+        : frames_(histories.frames()),
           options_(options),
-          pane_(glassNet(glass)),
-          cap_(capNet(options.shape.contact_angle, {.around = 16, .rings = 5}))
+          pane_(glassMesh(glass)),
+          cap_(capMesh(options.shape.contact_angle, {.around = 16, .rings = 5}))
     {
         struct Span {
-            const DropletLife* life;
+            const DropletHistory* history;
             std::uint32_t begin;
             std::uint32_t end;
         };
         std::vector<Span> spans;
-        for (const DropletLife* life : lives.all()) {
-            spans.push_back({life, life->begin(), life->end});
-            for (const DropletSample& sample : life->samples) {
+        for (const DropletHistory* history : histories.all()) {
+            spans.push_back({history, history->begin(), history->end});
+            for (const DropletSample& sample : history->samples) {
                 for (std::size_t i = 0; i < 3; ++i) {
-                    places_[i].take(sample.pose.place[i]);
+                    places_[i].include(sample.pose.place[i]);
                 }
-                sizes_.take(sample.pose.along);
-                sizes_.take(sample.pose.across);
-                radii_ += static_cast<double>(sample.pose.restRadius());
+                sizes_.include(sample.pose.along);
+                sizes_.include(sample.pose.across);
+                mean_radius_ += static_cast<double>(sample.pose.restRadius());
             }
         }
-        radii_ /= static_cast<double>(std::max<std::size_t>(lives.samples(), 1));
+        mean_radius_ /= static_cast<double>(std::max<std::size_t>(histories.samples(), 1));
         for (Range& range : places_) {
             range = range.widened();
         }
         sizes_ = sizes_.widened();
-        const auto slots = pooled(spans, 1);  // an empty frame tells one droplet from the next
+        const auto slots = assignSlots(spans, 1);  // an empty frame separates one droplet from the next
         slots_ = slots.size();
         const std::size_t blocks = blocksOf(slots_);
         checkTexture(slots_, frames_);
@@ -86,7 +86,7 @@ public:
         picture.rgb.assign(3 * kTexels * columns_ * blocks * frames_, 0);
         for (std::size_t slot = 0; slot < slots_; ++slot) {
             for (const std::size_t number : slots[slot]) {
-                draw(*spans[number].life, slot, picture);
+                draw(*spans[number].history, slot, picture);
             }
         }
         std::ostringstream png;
@@ -97,13 +97,13 @@ public:
 
     std::uint64_t write(std::ostream& out) const
     {
-        tinygltf::Model model = makeBareModel(options_.material, radii_, true);
+        tinygltf::Model model = makeBareModel(options_.material, mean_radius_, true);
         tinygltf::Scene scene;
         scene.nodes.push_back(addGlass(model, pane_));
         tinygltf::Node node;
         node.name = "droplets";
-        node.mesh = addNet(model, cap_, "droplet", 0);
-        node.scale = {0.0, 0.0, 0.0};  // until a shader has put it where droplets are
+        node.mesh = addMesh(model, cap_, "droplet", 0);
+        node.scale = {0.0, 0.0, 0.0};  // invisible without the shader that places the droplets
         node.extras = mapping();
         scene.nodes.push_back(static_cast<int>(model.nodes.size()));
         model.nodes.push_back(std::move(node));
@@ -111,7 +111,7 @@ public:
         model.defaultScene = 0;
 
         addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, png_.size());
-        model.accessors.pop_back();  // pictures have views alone
+        model.accessors.pop_back();  // pictures have a view, but no accessor
         tinygltf::Image image;
         image.name = "droplets";
         image.mimeType = "image/png";
@@ -129,26 +129,26 @@ public:
         texture.source = 0;
         model.textures.push_back(std::move(texture));
         return writeBinary(out, model, [&](ByteStream& bytes) {
-            writeNet(pane_, bytes);
-            writeNet(cap_, bytes);
+            writeMesh(pane_, bytes);
+            writeMesh(cap_, bytes);
             bytes.text(png_);
         });
     }
 
 private:
-    void draw(const DropletLife& life, std::size_t slot, Picture& picture) const
+    void draw(const DropletHistory& history, std::size_t slot, Picture& picture) const
     {
         const std::size_t row = static_cast<std::size_t>(frames_) * (slot / columns_);
-        DropletPose shown = life.samples.front().pose;
-        for (std::size_t i = 0; i < life.samples.size(); ++i) {
-            const DropletPose& pose = life.samples[i].pose;
-            if (!shown.looksLike(pose)) {  // what stays the same takes no bytes
+        DropletPose shown = history.samples.front().pose;
+        for (std::size_t i = 0; i < history.samples.size(); ++i) {
+            const DropletPose& pose = history.samples[i].pose;
+            if (!shown.looksLike(pose)) {  // unchanged bytes compress better
                 shown = pose;
             }
             shown.place = pose.place;
             const auto bytes = bytesOf(shown);
-            const std::uint32_t end = i + 1 < life.samples.size() ? life.samples[i + 1].frame : life.end;
-            for (std::uint32_t frame = life.samples[i].frame; frame < end; ++frame) {
+            const std::uint32_t end = i + 1 < history.samples.size() ? history.samples[i + 1].frame : history.end;
+            for (std::uint32_t frame = history.samples[i].frame; frame < end; ++frame) {
                 const std::size_t texel = (row + frame) * kTexels * columns_ + kTexels * (slot % columns_);
                 std::copy(bytes.begin(), bytes.end(), picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * texel));
             }
@@ -201,11 +201,11 @@ private:
 
     std::uint32_t frames_;
     DropletSceneOptions options_;
-    Net pane_;
-    Net cap_;
+    SceneMesh pane_;
+    SceneMesh cap_;
     std::array<Range, 3> places_;
     Range sizes_;
-    double radii_ = 0.0;  ///< mean [m]
+    double mean_radius_ = 0.0;  ///< mean radius of the droplets [m]
     std::size_t slots_ = 0;
     std::size_t columns_ = 0;
     std::string png_;
@@ -219,15 +219,16 @@ void checkTexture(std::size_t slots, std::size_t frames)
     if (rows > kLargestSide) {
         throw Error(ErrorCode::InvalidArgument, std::to_string(frames) + " frames of up to " + std::to_string(slots) +
                                                     " droplets would make a texture of " + std::to_string(rows) +
-                                                    " rows; it may have " + std::to_string(kLargestSide) +
-                                                    ": ask for less time, fewer frames a second or less rain");
+                                                    " rows; at most " + std::to_string(kLargestSide) +
+                                                    " are allowed: use a shorter time, fewer frames per second or "
+                                                    "less rain");
     }
 }
 
-std::uint64_t writeSceneOfTexture(const DropletLives& lives, const Glass& glass, const DropletSceneOptions& options,
-                                  std::ostream& out)
+std::uint64_t writeSceneOfTexture(const DropletHistories& histories, const Glass& glass,
+                                  const DropletSceneOptions& options, std::ostream& out)
 {
-    return SceneOfTexture(lives, glass, options).write(out);
+    return SceneOfTexture(histories, glass, options).write(out);
 }
 
 }  // namespace droplet

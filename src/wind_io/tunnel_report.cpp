@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The names are the contract of the schemas droplet-shape.wind-tunnel/1 and droplet-shape.wind-trace/1: keys may be
-// added, none renamed or left out.
+// Keys are a contract, schemas droplet-shape.wind-tunnel/1 and droplet-shape.wind-trace/1: add keys, do not rename or
+// remove any.
 #include "droplet/wind_io/tunnel_report.h"
 
 #include <tbb/parallel_for.h>
@@ -24,12 +24,12 @@ Json orNull(const std::optional<double>& value, double unit = 1.0)
     return value ? Json(*value / unit) : Json();
 }
 
-std::optional<double> criticalRadius(const TunnelCase& of)
+std::optional<double> criticalRadius(const TunnelCase& tunnel_case)
 {
-    if (!of.critical_volume) {
+    if (!tunnel_case.critical_volume) {
         return std::nullopt;
     }
-    return of.cap.contact_radius * std::cbrt(*of.critical_volume / of.cap.volume);
+    return tunnel_case.cap.contact_radius * std::cbrt(*tunnel_case.critical_volume / tunnel_case.cap.volume);
 }
 
 std::optional<double> ratioOf(const Thresholds& thresholds)
@@ -37,7 +37,7 @@ std::optional<double> ratioOf(const Thresholds& thresholds)
     return thresholds.lower && thresholds.upper ? std::optional(*thresholds.upper / *thresholds.lower) : std::nullopt;
 }
 
-/// What all cases of a run share.
+/// Parameters that are common to all cases of a run.
 Json parameters(const TunnelRun& run)
 {
     const ForceModel& model = run.swept.model;
@@ -60,29 +60,29 @@ Json parameters(const TunnelRun& run)
     return json;
 }
 
-Json caseOf(const TunnelRun& run, const TunnelCase& of)
+Json caseOf(const TunnelRun& run, const TunnelCase& tunnel_case)
 {
-    const auto distance = run.measured ? distanceFrom(*run.measured, of.thresholds) : std::nullopt;
-    Json json = {{"hysteresis", of.hysteresis},
-                 {"slope_deg", of.slope / kDegree},
-                 {"volume_m3", of.cap.volume},
-                 {"contact_radius_m", of.cap.contact_radius},
-                 {"height_m", of.cap.height},
-                 {"frontal_area_m2", of.cap.frontal_area},
-                 {"mass_kg", of.forces.mass},
-                 {"weight_along_slope_n", of.forces.weight * std::sin(of.slope)},
-                 {"retention_n", of.forces.retention},
-                 {"sliding_friction_n", of.forces.sliding_friction},
-                 {"drag_per_wind_squared_n_s2_per_m2", of.forces.drag},
-                 {"viscous_n_s_per_m", of.forces.viscous}};
-    json["lower_threshold_m_per_s"] = orNull(of.thresholds.lower);
-    json["upper_threshold_m_per_s"] = orNull(of.thresholds.upper);
-    json["threshold_ratio"] = orNull(ratioOf(of.thresholds));
+    const auto distance = run.measured ? distanceFrom(*run.measured, tunnel_case.thresholds) : std::nullopt;
+    Json json = {{"hysteresis", tunnel_case.hysteresis},
+                 {"slope_deg", tunnel_case.slope / kDegree},
+                 {"volume_m3", tunnel_case.cap.volume},
+                 {"contact_radius_m", tunnel_case.cap.contact_radius},
+                 {"height_m", tunnel_case.cap.height},
+                 {"frontal_area_m2", tunnel_case.cap.frontal_area},
+                 {"mass_kg", tunnel_case.forces.mass},
+                 {"weight_along_slope_n", tunnel_case.forces.weight * std::sin(tunnel_case.slope)},
+                 {"retention_n", tunnel_case.forces.retention},
+                 {"sliding_friction_n", tunnel_case.forces.sliding_friction},
+                 {"drag_per_wind_squared_n_s2_per_m2", tunnel_case.forces.drag},
+                 {"viscous_n_s_per_m", tunnel_case.forces.viscous}};
+    json["lower_threshold_m_per_s"] = orNull(tunnel_case.thresholds.lower);
+    json["upper_threshold_m_per_s"] = orNull(tunnel_case.thresholds.upper);
+    json["threshold_ratio"] = orNull(ratioOf(tunnel_case.thresholds));
     json["distance_from_measured"] = {{"lower_share", distance ? Json(distance->lower) : Json()},
                                       {"upper_share", distance ? Json(distance->upper) : Json()}};
-    json["critical_volume_m3"] = orNull(of.critical_volume);
-    json["critical_radius_m"] = orNull(criticalRadius(of));
-    json["shedding_wind_m_per_s"] = orNull(of.shedding_wind);
+    json["critical_volume_m3"] = orNull(tunnel_case.critical_volume);
+    json["critical_radius_m"] = orNull(criticalRadius(tunnel_case));
+    json["shedding_wind_m_per_s"] = orNull(tunnel_case.shedding_wind);
     return json;
 }
 
@@ -114,7 +114,7 @@ Json runOf(const TunnelRun& run)
     return json;
 }
 
-// ---------------------------------------------------------------------------------------------------- the tables
+// ---------------------------------------------------------------------------------------------------- CSV tables
 
 void append(std::string& line, double value)
 {
@@ -136,12 +136,12 @@ void appendCells(std::string& line, const Values&... values)
     ((append(line, values), line += ','), ...);
 }
 
-/// `# air.density_kg_per_m3 = 1.204`, one for every leaf.
-void writeRemarks(std::ostream& out, const Json& json, const std::string& prefix)
+/// Writes a line such as `# air.density_kg_per_m3 = 1.204` for every value.
+void writeComments(std::ostream& out, const Json& json, const std::string& prefix)
 {
     for (const auto& [key, value] : json.items()) {
         if (value.is_object()) {
-            writeRemarks(out, value, prefix + key + ".");
+            writeComments(out, value, prefix + key + ".");
         } else {
             out << "# " << prefix << key << " = " << (value.is_string() ? value.get<std::string>() : value.dump())
                 << '\n';
@@ -149,36 +149,37 @@ void writeRemarks(std::ostream& out, const Json& json, const std::string& prefix
     }
 }
 
-constexpr const char* kHead =
+constexpr const char* kHeader =
     "preset,hysteresis,slope_deg,volume_m3,contact_radius_m,height_m,frontal_area_m2,mass_kg,weight_along_slope_n,"
     "retention_n,viscous_n_s_per_m,lower_threshold_m_per_s,upper_threshold_m_per_s,wind_m_per_s,drag_n,driving_n,"
     "acceleration_m_per_s2,terminal_velocity_m_per_s,regime\n";
 
-/// Lines of a table: long runs of them are put into words side by side.
+/// Writes the lines of a table; blocks of lines are formatted in parallel.
 void writeRows(std::ostream& out, const TunnelRun& run)
 {
     const Tunnel& tunnel = run.tunnel;
     const std::size_t winds = tunnel.winds.size();
-    constexpr std::size_t kLines = 4096;
-    constexpr std::size_t kAtOnce = 64;
-    const std::size_t parts = (tunnel.rows.size() + kLines - 1) / kLines;
-    std::vector<std::string> texts(kAtOnce);
-    for (std::size_t first = 0; first < parts; first += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, parts - first);
+    constexpr std::size_t kLinesPerBlock = 4096;
+    constexpr std::size_t kBlocksAtOnce = 64;
+    const std::size_t blocks = (tunnel.rows.size() + kLinesPerBlock - 1) / kLinesPerBlock;
+    std::vector<std::string> texts(kBlocksAtOnce);
+    for (std::size_t first = 0; first < blocks; first += kBlocksAtOnce) {
+        const std::size_t count = std::min(kBlocksAtOnce, blocks - first);
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
             std::string& text = texts[k];
             text.clear();
             std::string shared;
-            const std::size_t begin = (first + k) * kLines;
-            const std::size_t end = std::min(tunnel.rows.size(), begin + kLines);
+            const std::size_t begin = (first + k) * kLinesPerBlock;
+            const std::size_t end = std::min(tunnel.rows.size(), begin + kLinesPerBlock);
             for (std::size_t i = begin; i < end; ++i) {
                 if (i == begin || i % winds == 0) {
-                    const TunnelCase& of = tunnel.cases[i / winds];
+                    const TunnelCase& tunnel_case = tunnel.cases[i / winds];
                     shared = run.preset + ",";
-                    appendCells(shared, of.hysteresis, of.slope / kDegree, of.cap.volume, of.cap.contact_radius,
-                                of.cap.height, of.cap.frontal_area, of.forces.mass,
-                                of.forces.weight * std::sin(of.slope), of.forces.retention, of.forces.viscous,
-                                of.thresholds.lower, of.thresholds.upper);
+                    appendCells(shared, tunnel_case.hysteresis, tunnel_case.slope / kDegree, tunnel_case.cap.volume,
+                                tunnel_case.cap.contact_radius, tunnel_case.cap.height, tunnel_case.cap.frontal_area,
+                                tunnel_case.forces.mass, tunnel_case.forces.weight * std::sin(tunnel_case.slope),
+                                tunnel_case.forces.retention, tunnel_case.forces.viscous, tunnel_case.thresholds.lower,
+                                tunnel_case.thresholds.upper);
                 }
                 const TunnelRow& row = tunnel.rows[i];
                 text += shared;
@@ -194,7 +195,7 @@ void writeRows(std::ostream& out, const TunnelRun& run)
     }
 }
 
-Json traced(const TraceRun& run)
+Json traceHeader(const TraceRun& run)
 {
     Json json = {{"schema", "droplet-shape.wind-trace/1"}, {"version", kVersion}};
     json.update(parameters(run.run));
@@ -214,9 +215,9 @@ void writeTunnelCsv(std::ostream& out, const std::vector<TunnelRun>& runs)
 {
     out << "# droplet-shape wind-tunnel " << kVersion << '\n';
     for (const TunnelRun& run : runs) {
-        writeRemarks(out, parameters(run), "");
+        writeComments(out, parameters(run), "");
     }
-    out << kHead;
+    out << kHeader;
     for (const TunnelRun& run : runs) {
         writeRows(out, run);
     }
@@ -234,10 +235,10 @@ void writeTunnelJson(std::ostream& out, const std::vector<TunnelRun>& runs)
 void writeTraceCsv(std::ostream& out, const TraceRun& run)
 {
     out << "# droplet-shape wind-tunnel " << kVersion << '\n';
-    Json shared = traced(run);
+    Json shared = traceHeader(run);
     shared.erase("schema");
     shared.erase("version");
-    writeRemarks(out, shared, "");
+    writeComments(out, shared, "");
     for (const MotionEvent& event : run.motion.events) {
         std::string line = event.moves ? "# moves_at_s = " : "# caught_at_s = ";
         append(line, event.time);
@@ -259,7 +260,7 @@ void writeTraceCsv(std::ostream& out, const TraceRun& run)
 
 void writeTraceJson(std::ostream& out, const TraceRun& run)
 {
-    Json json = traced(run);
+    Json json = traceHeader(run);
     json["steps"] = run.motion.steps;
     json["steps_rejected"] = run.motion.rejected;
     json["events"] = Json::array();

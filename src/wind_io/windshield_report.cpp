@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The names are the contract of the schema droplet-shape.windshield/1: keys may be added, none renamed or left out.
+// Keys are a contract, schema droplet-shape.windshield/1: add keys, do not rename or remove any.
 #include "droplet/wind_io/windshield_report.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "droplet/version.h"
 #include "io/report_sections.h"
-#include "wind_io/whole_nanoseconds.h"
+#include "wind_io/rounded_time.h"
 
 namespace droplet {
 namespace {
@@ -55,7 +55,7 @@ ReportJson forcesSection(const ForceModel& forces)
 ReportJson rowOf(const BalanceRow& row)
 {
     const WaterBalance& b = row.balance;
-    return {{"time_s", wholeNanoseconds(row.time)},
+    return {{"time_s", roundedTime(row.time)},
             {"speed_m_per_s", row.speed},
             {"rained_m3", b.rained},
             {"on_glass_still_m3", b.on_glass_still},

@@ -7,7 +7,7 @@
 
 namespace droplet {
 
-void CarriedSum::add(double term)
+void CompensatedSum::add(double term)
 {
     const double total = sum + term;
     carry += std::abs(sum) >= std::abs(term) ? (sum - total) + term : (term - total) + sum;
@@ -16,7 +16,7 @@ void CarriedSum::add(double term)
 
 double WaterBalance::residual() const
 {
-    CarriedSum difference;
+    CompensatedSum difference;
     for (const double term : {rained, -on_glass_still, -on_glass_running, -left, -wiped}) {
         difference.add(term);
     }
@@ -25,11 +25,11 @@ double WaterBalance::residual() const
 
 WaterBalance balanceOf(const WindshieldState& state)
 {
-    CarriedSum still;
+    CompensatedSum still;
     for (const StillDroplet& d : state.still.all()) {
         still.add(d.volume);
     }
-    CarriedSum running;
+    CompensatedSum running;
     for (const RunningDroplet& d : state.droplets) {
         running.add(d.volume);
     }

@@ -8,11 +8,11 @@
 
 namespace droplet {
 
-/// How all caps of one contact angle relate to the cap of 1 m³.
+/// Sizes of caps with one contact angle, scaled from the cap of 1 m³.
 class CapScale {
 public:
     explicit CapScale(double contact_angle)
-        : unit_(capOf(1.0, contact_angle)), wide_(contact_angle > 0.5 * std::numbers::pi), reach_(reach(unit_))
+        : unit_(capOf(1.0, contact_angle)), overhangs_(contact_angle > 0.5 * std::numbers::pi), reach_(reach(unit_))
     {
     }
 
@@ -21,8 +21,8 @@ public:
         const double s = std::cbrt(volume);
         return {volume, s * unit_.radius, s * unit_.contact_radius, s * unit_.height, s * s * unit_.frontal_area};
     }
-    /// Half the width seen from above: caps of more than 90° bulge over their rims.
-    [[nodiscard]] double reach(const CapSize& cap) const { return wide_ ? cap.radius : cap.contact_radius; }
+    /// Half the width seen from above: caps of more than 90° overhang their rims.
+    [[nodiscard]] double reach(const CapSize& cap) const { return overhangs_ ? cap.radius : cap.contact_radius; }
     [[nodiscard]] double volumeOfHeight(double height) const
     {
         const double s = height / unit_.height;
@@ -33,7 +33,7 @@ public:
 
 private:
     CapSize unit_;
-    bool wide_ = false;
+    bool overhangs_ = false;
     double reach_ = 0.0;
 };
 

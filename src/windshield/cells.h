@@ -10,7 +10,7 @@
 
 namespace droplet {
 
-/// Square cells over the rolled out glass, from its lower left corner on.
+/// Grid of square cells over the unrolled glass, from its lower left corner.
 struct Cells {
     double width = 0.0;  ///< [m]
     std::uint32_t columns = 0;
@@ -26,13 +26,13 @@ struct Cells {
     }
 
     [[nodiscard]] std::size_t count() const { return std::size_t{columns} * rows; }
-    /// Where a place falls, in cells; beyond the edge, the last one there.
+    /// Column of a position; beyond the edge, the last one there.
     [[nodiscard]] std::uint32_t column(double x) const { return index(x, columns); }
     [[nodiscard]] std::uint32_t row(double y) const { return index(y, rows); }
     [[nodiscard]] std::size_t number(Vec2 p) const { return std::size_t{row(p.y)} * columns + column(p.x); }
 
-    /// Calls visit(first, last) with the numbers of cells of every row that anything within `radius` of the straight
-    /// way from a to b may lie in, and a few more.
+    /// Calls visit(first, last) for every row with the range of cells that are within `radius` of the segment from a to
+    /// b; includes a few more.
     template <class Visit>
     void visitAround(Vec2 a, Vec2 b, double radius, const Visit& visit) const
     {
@@ -41,19 +41,19 @@ struct Cells {
         if (high < 0.0 || low > static_cast<double>(rows) * width) {
             return;
         }
-        const Vec2 way = b - a;
+        const Vec2 along = b - a;
         const std::uint32_t top = row(high);
         for (std::uint32_t r = row(low); r <= top; ++r) {
             double from = 0.0;
             double to = 1.0;
-            if (way.y != 0.0) {
-                const double enters = (static_cast<double>(r) * width - radius - a.y) / way.y;
-                const double leaves = (static_cast<double>(r + 1) * width + radius - a.y) / way.y;
+            if (along.y != 0.0) {
+                const double enters = (static_cast<double>(r) * width - radius - a.y) / along.y;
+                const double leaves = (static_cast<double>(r + 1) * width + radius - a.y) / along.y;
                 from = std::clamp(std::min(enters, leaves), 0.0, 1.0);
                 to = std::clamp(std::max(enters, leaves), 0.0, 1.0);
             }
-            const double x0 = a.x + from * way.x;
-            const double x1 = a.x + to * way.x;
+            const double x0 = a.x + from * along.x;
+            const double x1 = a.x + to * along.x;
             const double left = std::min(x0, x1) - radius;
             const double right = std::max(x0, x1) + radius;
             if (right >= 0.0 && left <= static_cast<double>(columns) * width) {

@@ -39,7 +39,7 @@ void DriveCycle::validate() const
     }
     for (std::size_t i = 0; i < times.size(); ++i) {
         if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
-            refuse("times[" + std::to_string(i) + "] is " + numberText(times[i]) + " s; times must rise");
+            refuse("times[" + std::to_string(i) + "] is " + numberText(times[i]) + " s; times must ascend");
         }
         if (!(speeds[i] >= 0.0) || !std::isfinite(speeds[i])) {
             refuse("speeds[" + std::to_string(i) + "] is " + numberText(speeds[i]) +

@@ -25,7 +25,7 @@ Vec3 unit(Vec3 a)
     return (1.0 / length(a)) * a;
 }
 
-/// A direction along the tangent plane, in the place's own directions.
+/// Components of a vector along the tangents of a place.
 Vec2 along(const GlassPlace& place, Vec3 a)
 {
     return {dot(a, place.across), dot(a, place.up)};
@@ -44,8 +44,8 @@ struct Glass::Shape {
     [[nodiscard]] virtual const Cylinder* cylinder() const { return nullptr; }
 };
 
-struct Glass::Bent final : Glass::Shape {
-    explicit Bent(const Cylinder& cylinder)
+struct Glass::CylinderShape final : Glass::Shape {
+    explicit CylinderShape(const Cylinder& cylinder)
         : form(cylinder),
           normal{0.0, std::sin(cylinder.slope), std::cos(cylinder.slope)},
           up{0.0, -std::cos(cylinder.slope), std::sin(cylinder.slope)}
@@ -77,18 +77,18 @@ struct Glass::Bent final : Glass::Shape {
     [[nodiscard]] const Cylinder* cylinder() const override { return &form; }
 
     Cylinder form;
-    Vec3 normal;  // in the middle
+    Vec3 normal;  // normal in the middle
     Vec3 up;
 };
 
-struct Glass::Meshed final : Glass::Shape {
+struct Glass::MeshShape final : Glass::Shape {
     struct Facet {
-        std::array<Vec2, 3> flat;  // on the rolled out glass
+        std::array<Vec2, 3> flat;  // corners on the unrolled glass
         std::array<Vec3, 3> points;
         std::array<Vec3, 3> normals;
-        Vec3 across;           // of the nearest isometry, in the facet's plane
-        double handed = 1.0;   // 1 where across, then up, is as the driver sees it
-        double inverse = 0.0;  // of the doubled area on the rolled out glass
+        Vec3 across;           // x direction of the nearest isometry, in the facet's plane
+        double handed = 1.0;   // 1 if (across, up) has the orientation that the driver sees; else −1
+        double inverse = 0.0;  // inverse of the doubled area on the unrolled glass
     };
 
     struct Found {
@@ -96,11 +96,11 @@ struct Glass::Meshed final : Glass::Shape {
         std::array<double, 3> weights{};
     };
 
-    /// Which facet holds a position: the first in the object's order.
+    /// First facet, in the object's order, that contains a position.
     [[nodiscard]] std::optional<Found> find(Vec2 p) const
     {
-        // As near a side as this in the triangle's heights counts as within, so that no seam lets a droplet through.
-        constexpr double kHair = 1e-9;
+        // Points this close outside a side, relative to the triangle's height, count as inside: seams have no gaps.
+        constexpr double kSeamTolerance = 1e-9;
         if (!(p.x >= 0.0 && p.y >= 0.0 && p.x <= size.x && p.y <= size.y)) {
             return std::nullopt;
         }
@@ -112,7 +112,7 @@ struct Glass::Meshed final : Glass::Shape {
             const double w1 = f.inverse * cross(p - f.flat[0], f.flat[2] - f.flat[0]);
             const double w2 = f.inverse * cross(f.flat[1] - f.flat[0], p - f.flat[0]);
             const double w0 = 1.0 - w1 - w2;
-            if (std::min({w0, w1, w2}) >= -kHair) {
+            if (std::min({w0, w1, w2}) >= -kSeamTolerance) {
                 return Found{&f, {w0, w1, w2}};
             }
         }
@@ -139,16 +139,16 @@ struct Glass::Meshed final : Glass::Shape {
         return place;
     }
 
-    /// Cells, about as many as facets, and what lies in each.
-    void index()
+    /// Builds cells, about as many as facets, with a list of the facets in each.
+    void buildCells()
     {
-        const double many = std::sqrt(static_cast<double>(facets.size()));
-        columns = rows = static_cast<std::size_t>(std::ceil(many));
+        const double per_side = std::sqrt(static_cast<double>(facets.size()));
+        columns = rows = static_cast<std::size_t>(std::ceil(per_side));
         cell = {size.x / static_cast<double>(columns), size.y / static_cast<double>(rows)};
         const auto visit = [this](const auto& put) {
             for (std::uint32_t f = 0; f < facets.size(); ++f) {
                 const auto& [a, b, c] = facets[f].flat;
-                // A little more than the hair that counts as within.
+                // The margin is a little more than the tolerance of find().
                 const auto low = [](double v, double step) {
                     return static_cast<std::size_t>(std::max(0.0, v / step - 1e-6));
                 };
@@ -179,7 +179,7 @@ struct Glass::Meshed final : Glass::Shape {
     Vec2 cell;
     std::size_t columns = 0;
     std::size_t rows = 0;
-    std::vector<std::uint32_t> first;  // of members, for each cell
+    std::vector<std::uint32_t> first;  // index of each cell's first member
     std::vector<std::uint32_t> members;
 };
 
@@ -196,7 +196,7 @@ Glass::Glass(const Cylinder& cylinder)
             "from 0 to pi/2");
     width_ = cylinder.width;
     height_ = cylinder.height;
-    shape_ = std::make_shared<Bent>(cylinder);
+    shape_ = std::make_shared<CylinderShape>(cylinder);
 }
 
 Glass::Glass(const TexturedMesh& object, const Developed& developed)
@@ -204,7 +204,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     object.validate();
     const double ahead = length(developed.ahead);
     if (!(ahead > 0.0) || !std::isfinite(ahead)) {
-        throw Error(ErrorCode::InvalidArgument, "glass.ahead must be a direction");
+        throw Error(ErrorCode::InvalidArgument, "glass.ahead must be finite and not zero");
     }
     if (!(developed.scale >= 0.0) || !std::isfinite(developed.scale)) {
         throw Error(ErrorCode::InvalidArgument,
@@ -214,10 +214,10 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     const Vec2 y = (1.0 / ahead) * developed.ahead;
     const auto turned = [y](Vec3 a) { return Vec3{y.y * a.x - y.x * a.y, y.x * a.x + y.y * a.y, a.z}; };
 
-    auto mesh = std::make_shared<Meshed>();
+    auto mesh = std::make_shared<MeshShape>();
     double seen_from_outside = 0.0;
     for (const Triangle& t : object.triangles) {
-        Meshed::Facet f;
+        MeshShape::Facet f;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 uv = object.uvs[t[k]];
             f.flat[k] = {scale * uv.x, -scale * uv.y};
@@ -238,7 +238,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     const double mirror = seen_from_outside > 0.0 ? -1.0 : 1.0;
     Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 high{-low.x, -low.y};
-    for (Meshed::Facet& f : mesh->facets) {
+    for (MeshShape::Facet& f : mesh->facets) {
         for (Vec2& p : f.flat) {
             p.x *= mirror;
             low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -247,7 +247,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     }
     min_stretch_ = std::numeric_limits<double>::infinity();
     max_stretch_ = 0.0;
-    for (Meshed::Facet& f : mesh->facets) {
+    for (MeshShape::Facet& f : mesh->facets) {
         for (Vec2& p : f.flat) {
             p = p - low;
         }
@@ -256,8 +256,8 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
         f.inverse = 1.0 / cross(p, q);
         const Vec3 a = f.points[1] - f.points[0];
         const Vec3 b = f.points[2] - f.points[0];
-        // J = (X_x, X_y); the isometry nearest to it is J (JᵀJ)^(−½), and of 2 × 2 matrices √G = (G + √det G) / √(tr G
-        // + 2 √det G). Its first column is X_x (G_yy + d) − X_y G_xy, up to a factor.
+        // J = (X_x, X_y); the isometry nearest to it is J (JᵀJ)^(−½). For 2 × 2 matrices √G = (G + √det G) / √(tr G
+        // + 2 √det G). Up to a factor, its first column is X_x (G_yy + d) − X_y G_xy.
         const Vec3 xx = f.inverse * (q.y * a - p.y * b);
         const Vec3 xy = f.inverse * (p.x * b - q.x * a);
         const double gxx = dot(xx, xx);
@@ -275,7 +275,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
     mesh->size = high - low;
     width_ = mesh->size.x;
     height_ = mesh->size.y;
-    mesh->index();
+    mesh->buildCells();
     shape_ = std::move(mesh);
 }
 
@@ -309,7 +309,7 @@ Vec2 windAlong(const GlassPlace& place, double speed, WindAlongGlass how)
 {
     const Vec2 projected = along(place, {0.0, -speed, 0.0});
     const double size = std::sqrt(dot(projected, projected));
-    // A wind square on the glass has nowhere to turn to; what rounding leaves of it is no direction.
+    // A wind perpendicular to the glass has no projection; the rounding errors of it are not a direction.
     if (how == WindAlongGlass::Projected || size <= 1e-9 * std::abs(speed)) {
         return projected;
     }

@@ -7,19 +7,19 @@
 
 namespace droplet {
 
-Vec2 pushOn(std::uint64_t id, double time, const Fluctuation& fluctuation, std::uint64_t seed)
+Vec2 fluctuationOf(std::uint64_t id, double time, const Fluctuation& fluctuation, std::uint64_t seed)
 {
     if (fluctuation.acceleration == 0.0) {
         return {};
     }
-    const RandomStream chance(seed, Chance::Fluctuation, id);
-    const double since = time / fluctuation.interval + chance.uniform(0);
+    const RandomStream random(seed, RandomPurpose::Fluctuation, id);
+    const double since = time / fluctuation.interval + random.uniform(0);
     const double begun = std::floor(since);
     const double passed = since - begun;
     const auto number = static_cast<std::uint64_t>(begun);
     const auto push = [&](std::uint64_t k) {
-        // Both components from one draw, of variance 1 each.
-        const std::uint64_t bits = chance.bits(k + 1);
+        // One draw gives both components, each with variance 1.
+        const std::uint64_t bits = random.bits(k + 1);
         const auto component = [](std::uint64_t half) {
             return std::numbers::sqrt3 * (static_cast<double>(half) * 0x1p-31 - 1.0);
         };
@@ -30,7 +30,7 @@ Vec2 pushOn(std::uint64_t id, double time, const Fluctuation& fluctuation, std::
     return (fluctuation.acceleration / std::sqrt(a * a + b * b)) * (a * push(number) + b * push(number + 1));
 }
 
-Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
+MotionStep advance(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
 {
     const bool at_rest = velocity == Vec2{};
     if (at_rest && sizeOf(driving) <= forces.retention) {
@@ -39,7 +39,7 @@ Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
     const double m = forces.mass;
     const double x = forces.viscous * dt / m;
     const double decay = std::exp(-x);
-    // ∫ e^(−x s) ds and ∫∫ of it over [0, 1].
+    // Single and double integral of e^(−x s) over [0, 1].
     const double once = x > 0.0 ? -std::expm1(-x) / x : 1.0;
     const double twice =
         x > 0.02 ? (1.0 - once) / x : 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0)));
@@ -47,7 +47,7 @@ Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt)
     const double speed = sizeOf(free);
     const double loss = once * dt / m * forces.sliding_friction;
     if (speed <= loss) {
-        // When it stops, as if its speed fell evenly.
+        // Share of dt until the stop, for a speed that falls linearly.
         const double begins = sizeOf(velocity);
         const double share = begins > 0.0 ? begins / (begins + (loss - speed)) : 0.0;
         return {(0.5 * share * dt) * velocity, {}};

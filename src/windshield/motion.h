@@ -10,22 +10,24 @@
 
 namespace droplet {
 
-/// Without the care for the ends of double's range, where nothing here comes, that std::hypot takes.
+/// Length of a vector; faster than std::hypot, which also handles overflow.
 inline double sizeOf(Vec2 a)
 {
     return std::sqrt(dot(a, a));
 }
 
-/// The pushes on one droplet [m/s²].
-Vec2 pushOn(std::uint64_t id, double time, const Fluctuation& fluctuation, std::uint64_t seed);
+/// Random acceleration of one droplet at a time [m/s²].
+Vec2 fluctuationOf(std::uint64_t id, double time, const Fluctuation& fluctuation, std::uint64_t seed);
 
-struct Moved {
-    Vec2 way;
+/// Displacement of a droplet in a step, and its velocity afterwards.
+struct MotionStep {
+    Vec2 displacement;
     Vec2 velocity;
 };
 
-/// m dv/dt = F − F_k v/|v| − c v for dt with constant F: exact along a line, friction against the velocity at the end;
-/// what would turn around within dt stops, and starts again in the next step if friction does not hold it.
-Moved moved(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt);
+/// Solves m dv/dt = F − F_k v/|v| − c v over dt with constant F: exact along a line, with friction against the velocity
+/// at the end. A droplet that would reverse within dt stops; in the next step it starts again if friction does not hold
+/// it.
+MotionStep advance(const DropletForces& forces, Vec2 driving, Vec2 velocity, double dt);
 
 }  // namespace droplet

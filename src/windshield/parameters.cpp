@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-/// Still droplets take 213 bytes for every 16 mm²: at most 1.33 GB.
+/// Limit of the glass's area: still droplets take 213 bytes per 16 mm², so at most 1.33 GB.
 constexpr double kMaxArea = 100.0;  // [m²]
 
 }  // namespace

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thesis, figures 3.10 to 3.12 and section 3.2.3. It tells wind, hysteresis and glass; it does not tell δ and C_D,
-// nor the rain. δ/C_D is the one that the measured still band of figure 3.3 asks for (wind/forces.h), with C_D = 1: a
-// layer thicker than any droplet is high, "thick" as figure 3.12 has it. Then a wind of 10.2 m/s neither lets droplets
-// down a slope of 45° nor drives them up, and
+// The thesis, figures 3.10 to 3.12 and section 3.2.3. It gives wind, hysteresis and glass, but not δ, C_D or the rain.
+// δ/C_D follows from the measured still band of figure 3.3 (wind/forces.h), with C_D = 1. This layer is thicker than
+// the height of any droplet: "thick", as figure 3.12 says. Then a wind of 10.2 m/s cancels gravity on a slope of 45°.
 //
-//     11.3 m/s   gravity is overcome by g sin 45° · 0.23: hysteresis 0.5 holds all below 8 mm across, 0.05 those
-//                below 3 mm
-//     15 m/s     by g sin 45° · 1.2: hysteresis 0.5 holds those below 4 mm
+//     11.3 m/s   the wind exceeds gravity by g sin 45° · 0.23: hysteresis 0.5 holds droplets below 8 mm across,
+//                0.05 those below 3 mm
+//     15 m/s     the wind exceeds gravity by g sin 45° · 1.2: hysteresis 0.5 holds droplets below 4 mm
 #include "droplet/windshield/presets.h"
 
 #include "droplet/error.h"

@@ -22,7 +22,7 @@ constexpr double kFastest = 9.65;  // [m/s]
 constexpr double kSlowed = 10.3;   // [m/s]
 constexpr double kFall = 600.0;    // [1/m]
 
-/// The diameter that falls at a speed, 0 ≤ speed; infinity where none does.
+/// Diameter with a terminal speed, ≥ 0; infinity if there is none.
 double diameterAt(double speed)
 {
     return speed < kFastest ? std::log(kSlowed / (kFastest - speed)) / kFall : std::numeric_limits<double>::infinity();
@@ -34,12 +34,13 @@ double integral(double k, double from, double to)
     return from < to ? std::exp(-k * from) * -std::expm1(-k * (to - from)) / k : 0.0;
 }
 
-/// ∫ N dD and ∫ N v dD.
-double met(const RaindropSizes& sizes, double from, double to)
+/// Raindrops per volume of air: ∫ N dD.
+double numberOf(const RaindropSizes& sizes, double from, double to)
 {
     return sizes.slope > 0.0 ? sizes.intercept * integral(sizes.slope, from, to) : 0.0;
 }
-double fallen(const RaindropSizes& sizes, double from, double to)
+/// Rate at which raindrops fall on a floor: ∫ N v dD.
+double fallRateOf(const RaindropSizes& sizes, double from, double to)
 {
     from = std::max(from, diameterAt(0.0));
     return sizes.slope > 0.0 ? sizes.intercept * (kFastest * integral(sizes.slope, from, to) -
@@ -47,8 +48,8 @@ double fallen(const RaindropSizes& sizes, double from, double to)
                              : 0.0;
 }
 
-/// e^(−x) Σ xᵏ/k!, k ≤ 3: the share of water in diameters over x/Λ, for D³ N is a gamma density of shape 4.
-double waterOver(double x)
+/// Share of the water in diameters above x/Λ: e^(−x) Σ xᵏ/k!, k ≤ 3, as D³ N is a gamma density of shape 4.
+double waterAbove(double x)
 {
     return std::exp(-x) * (1.0 + x * (1.0 + x / 2.0 * (1.0 + x / 3.0)));
 }
@@ -72,7 +73,7 @@ double RaindropSizes::waterContent() const
 
 double RaindropSizes::waterShare(double min, double max) const
 {
-    return slope > 0.0 ? waterOver(slope * min) - waterOver(slope * max) : 0.0;
+    return slope > 0.0 ? waterAbove(slope * min) - waterAbove(slope * max) : 0.0;
 }
 
 RaindropSizes raindropSizes(double rainfall)
@@ -96,9 +97,9 @@ double terminalSpeed(double diameter)
 void RaindropRange::validate() const
 {
     if (!(min > 0.0 && max > min && std::isfinite(max))) {
-        throw Error(ErrorCode::InvalidArgument, "raindrops.least and greatest are " + numberText(min / kMillimetre) +
+        throw Error(ErrorCode::InvalidArgument, "raindrops.min and raindrops.max are " + numberText(min / kMillimetre) +
                                                     " and " + numberText(max / kMillimetre) +
-                                                    " mm; they must be above 0 and rise");
+                                                    " mm; they must be above 0 and ascend");
     }
 }
 
@@ -121,7 +122,7 @@ double RainImpacts::rate(double min, const Exposure& exposure) const
     double from = std::max(min, range.min);
     double to = range.max;
     const double wall = speed * exposure.forward;
-    // One of the two may turn the surface's back to the rain: raindrops of one speed then run along it.
+    // One of the two terms may be negative: raindrops of one speed then move parallel to the surface.
     if (exposure.upward > 0.0 && wall < 0.0) {
         from = std::max(from, diameterAt(-wall / exposure.upward));
     } else if (exposure.upward < 0.0 && wall > 0.0) {
@@ -129,19 +130,19 @@ double RainImpacts::rate(double min, const Exposure& exposure) const
     } else if (exposure.upward <= 0.0 && wall <= 0.0) {
         return 0.0;
     }
-    return from < to ? exposure.upward * fallen(sizes, from, to) + wall * met(sizes, from, to) : 0.0;
+    return from < to ? exposure.upward * fallRateOf(sizes, from, to) + wall * numberOf(sizes, from, to) : 0.0;
 }
 
 double RainImpacts::bound() const
 {
-    return fallen(sizes, range.min, range.max) + speed * met(sizes, range.min, range.max);
+    return fallRateOf(sizes, range.min, range.max) + speed * numberOf(sizes, range.min, range.max);
 }
 
 RaindropSampler::RaindropSampler(const RainImpacts& impacts)
     : impacts_(impacts),
-      floor_share_(fallen(impacts.sizes, impacts.range.min, impacts.range.max) / impacts.bound()),
-      fallen_(fallen(impacts.sizes, impacts.range.min, impacts.range.max)),
-      met_(-std::expm1(-impacts.sizes.slope * (impacts.range.max - impacts.range.min)))
+      floor_share_(fallRateOf(impacts.sizes, impacts.range.min, impacts.range.max) / impacts.bound()),
+      floor_rate_(fallRateOf(impacts.sizes, impacts.range.min, impacts.range.max)),
+      in_range_(-std::expm1(-impacts.sizes.slope * (impacts.range.max - impacts.range.min)))
 {
 }
 
@@ -150,18 +151,18 @@ double RaindropSampler::diameter(double which, double u) const
     const RaindropSizes& sizes = impacts_.sizes;
     const auto [min, max] = impacts_.range;
     if (which >= floor_share_) {
-        return std::min(min - std::log1p(-u * met_) / sizes.slope, max);
+        return std::min(min - std::log1p(-u * in_range_) / sizes.slope, max);
     }
-    // Newton's method on the share that has fallen, kept between bounds that close in.
+    // Newton's method on the floor's rate, kept between bounds that narrow.
     double low = std::max(min, diameterAt(0.0));
     double high = max;
     const double from = low;
     double diameter = std::min(from + 1.0 / sizes.slope, 0.5 * (low + high));
     for (int tries = 0; tries < 60; ++tries) {
-        const double miss = fallen(sizes, from, diameter) - u * fallen_;
-        (miss > 0.0 ? high : low) = diameter;
+        const double residual = fallRateOf(sizes, from, diameter) - u * floor_rate_;
+        (residual > 0.0 ? high : low) = diameter;
         const double slope = sizes.density(diameter) * terminalSpeed(diameter);
-        const double newton = slope > 0.0 ? diameter - miss / slope : low;
+        const double newton = slope > 0.0 ? diameter - residual / slope : low;
         const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
         const double moved = std::abs(next - diameter);
         diameter = next;

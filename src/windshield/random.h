@@ -7,35 +7,35 @@
 namespace droplet {
 
 /// The finaliser of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014): every bit of the result hangs on every bit of z.
-constexpr std::uint64_t mixed(std::uint64_t z)
+/// OOPSLA 2014): every bit of the result depends on every bit of z.
+constexpr std::uint64_t mix(std::uint64_t z)
 {
     z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
     z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
     return z ^ (z >> 31U);
 }
 
-/// What random numbers are for: streams of different purposes have nothing to do with one another.
-enum class Chance : std::uint64_t { Raindrop = 1, Fluctuation, Bead };
+/// Purpose of random numbers; streams of different purposes are independent.
+enum class RandomPurpose : std::uint64_t { Raindrop = 1, Fluctuation, Bead };
 
-/// Random numbers by their place: a function of seed, purpose, id and counter, with no state to keep or to share.
+/// Random numbers without a state: each is a function of seed, purpose, id and counter.
 class RandomStream {
 public:
-    constexpr RandomStream(std::uint64_t seed, Chance purpose, std::uint64_t id)
-        : key_(mixed(mixed(mixed(seed + kStride) + static_cast<std::uint64_t>(purpose) * kStride) + id * kStride))
+    constexpr RandomStream(std::uint64_t seed, RandomPurpose purpose, std::uint64_t id)
+        : key_(mix(mix(mix(seed + kStride) + static_cast<std::uint64_t>(purpose) * kStride) + id * kStride))
     {
     }
 
     [[nodiscard]] constexpr std::uint64_t bits(std::uint64_t counter) const
     {
-        return mixed(key_ + (counter + 1) * kStride);
+        return mix(key_ + (counter + 1) * kStride);
     }
-    /// In [0, 1), on a lattice of 2⁻⁵³.
+    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
     [[nodiscard]] constexpr double uniform(std::uint64_t counter) const
     {
         return static_cast<double>(bits(counter) >> 11U) * 0x1p-53;
     }
-    /// Of mean 1, finite.
+    /// Exponential with mean 1, finite.
     [[nodiscard]] double exponential(std::uint64_t counter) const { return -std::log1p(-uniform(counter)); }
 
 private:

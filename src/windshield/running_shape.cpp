@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // N. Nakata, M. Kakimoto, T. Nishita, "Animation of Water Droplets on a Hydrophobic Windshield" (2012), section 3.2.1
-// of the thesis: hemisphere at rest, capsule while it moves, one volume.
+// of the thesis: a hemisphere at rest, a capsule of the same volume in motion.
 #include "droplet/windshield/running_shape.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ double capVolume(double angle)
     return std::numbers::pi * (2.0 - 3.0 * c + c * c * c) / (3.0 * s * s * s);
 }
 
-/// Area of a circle's segment whose chord is 2: (θ − sin θ cos θ)/sin² θ.
+/// Area of a circular segment with a chord of 2: (θ − sin θ cos θ)/sin² θ.
 double segmentArea(double angle)
 {
     const double s = std::sin(angle);

@@ -13,7 +13,7 @@
 namespace droplet {
 namespace {
 
-// After this line, everything in 8 bytes, the lowest first; reals as their IEEE 754 bits.
+// After this line every value has 8 bytes, lowest byte first; reals are IEEE 754 bits.
 constexpr std::string_view kHead = "droplet-shape windshield 2\n";
 
 class Writer {
@@ -30,7 +30,7 @@ public:
         put(value.x);
         put(value.y);
     }
-    void put(const CarriedSum& value)
+    void put(const CompensatedSum& value)
     {
         put(value.sum);
         put(value.carry);
@@ -41,7 +41,7 @@ public:
         (put(values), ...);
     }
 
-    [[nodiscard]] std::string&& taken() { return std::move(bytes_); }
+    [[nodiscard]] std::string&& release() { return std::move(bytes_); }
 
 private:
     std::string bytes_{kHead};
@@ -52,7 +52,7 @@ public:
     Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name)
     {
         if (bytes_.substr(0, kHead.size()) != kHead) {
-            refuse("is no state of a windshield");
+            refuse("is not a windshield state");
         }
         bytes_.remove_prefix(kHead.size());
     }
@@ -64,7 +64,7 @@ public:
     void require(bool holds) const
     {
         if (!holds) {
-            refuse("is damaged: it holds what no state has");
+            refuse("is damaged: a value is out of its range");
         }
     }
 
@@ -91,7 +91,7 @@ public:
         get(value.x);
         get(value.y);
     }
-    void get(CarriedSum& value)
+    void get(CompensatedSum& value)
     {
         get(value.sum);
         get(value.carry);
@@ -102,7 +102,7 @@ public:
         (get(values), ...);
     }
 
-    /// How many of what takes so many bytes each follow.
+    /// Length of the list that follows, checked against the remaining bytes.
     std::size_t count(std::size_t bytes_each)
     {
         std::uint64_t value = 0;
@@ -119,9 +119,9 @@ private:
     const std::string& name_;
 };
 
-/// What a state has but its lists, for whoever writes or reads them.
+/// Writes or reads all members of a state except the lists.
 template <class Archive, class State>
-void figures(Archive& archive, State& s)
+void scalars(Archive& archive, State& s)
 {
     archive.all(s.time, s.next_id, s.next_raindrop, s.until_raindrop, s.rained, s.left, s.wiped, s.merged, s.swept,
                 s.shed, s.counts.raindrops, s.counts.merged, s.counts.swept, s.counts.grown, s.counts.torn,
@@ -133,7 +133,7 @@ void figures(Archive& archive, State& s)
 std::string bytesOf(const WindshieldState& state)
 {
     Writer out;
-    figures(out, state);
+    scalars(out, state);
     out.put(std::uint64_t{state.droplets.size()});
     for (const RunningDroplet& d : state.droplets) {
         out.all(d.id, d.position, d.velocity, d.volume, d.since_bead, d.beads);
@@ -144,28 +144,28 @@ std::string bytesOf(const WindshieldState& state)
     }
     const StillCells& still = StillCells::of(state.still);
     out.all(still.cell, std::uint64_t{still.columns}, std::uint64_t{still.rows});
-    // A cell that was never touched is one number; the others are told apart by it.
+    // Each cell begins with its revision and its number of droplets, in one value.
     for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
         out.put(std::uint64_t{still.revisions[cell]} << 8U | still.counts[cell]);
         for (const StillDroplet& d : still.droplets(cell)) {
             out.all(d.position, d.volume);
         }
     }
-    return out.taken();
+    return out.release();
 }
 
 WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
 {
     Reader in(bytes, name);
     WindshieldState state;
-    figures(in, state);
+    scalars(in, state);
     in.require(state.until_raindrop >= 0.0 && state.time >= 0.0);
     state.droplets.resize(in.count(64));
-    std::uint64_t before = 0;
+    std::uint64_t previous_id = 0;
     for (RunningDroplet& d : state.droplets) {
         in.all(d.id, d.position, d.velocity, d.volume, d.since_bead, d.beads);
-        in.require(d.volume > 0.0 && d.id > before && d.id < state.next_id);
-        before = d.id;
+        in.require(d.volume > 0.0 && d.id > previous_id && d.id < state.next_id);
+        previous_id = d.id;
     }
     state.tracks.resize(in.count(48));
     for (TrackPiece& t : state.tracks) {

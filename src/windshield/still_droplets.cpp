@@ -17,7 +17,7 @@ StillDroplet joined(const StillDroplet& a, const StillDroplet& b)
     return {(1.0 / volume) * (a.volume * a.position + b.volume * b.position), volume};
 }
 
-/// Where in its cell, as StillCells::places has it.
+/// Place in its cell, in the format of StillCells::places.
 std::uint16_t placeOf(const StillCells& still, std::size_t cell, Vec2 position)
 {
     const auto part = [&](double v, std::size_t number) {
@@ -50,9 +50,9 @@ void closeGaps(StillCells& still, std::size_t cell)
 
 StillDroplet removed(StillCells& still, StillSlot place)
 {
-    const StillDroplet gone = std::exchange(still.slots[place.cell * StillCells::kMax + place.slot], {});
+    const StillDroplet taken = std::exchange(still.slots[place.cell * StillCells::kMax + place.slot], {});
     closeGaps(still, place.cell);
-    return gone;
+    return taken;
 }
 
 std::optional<StillSlot> nearestTouched(const StillCells& still, const StillDroplet& droplet, const StillRules& rules)
@@ -65,7 +65,7 @@ std::optional<StillSlot> nearestTouched(const StillCells& still, const StillDrop
         const StillDroplet& other = at(still, slot);
         const Vec2 apart = other.position - droplet.position;
         const double squared = dot(apart, apart);
-        // The root, which costs most, only where it can matter.
+        // The cube root costs most; it is computed only where needed.
         if (squared < nearest) {
             const double touching = reach + rules.reachOf(other.volume);
             if (squared <= touching * touching) {
@@ -167,7 +167,7 @@ double StillRules::reachOf(double volume) const
     return reach * std::cbrt(volume);
 }
 
-std::optional<StillDroplet> settle(StillCells& still, const StillDroplet& droplet, const StillRules& rules)
+std::optional<StillDroplet> placeOrJoin(StillCells& still, const StillDroplet& droplet, const StillRules& rules)
 {
     std::optional<StillSlot> other = nearestTouched(still, droplet, rules);
     if (!other) {
@@ -181,7 +181,7 @@ std::optional<StillDroplet> settle(StillCells& still, const StillDroplet& drople
     return joined(droplet, removed(still, *other));
 }
 
-void Taking::close()
+void StillRemoval::close()
 {
     for (const std::size_t cell : touched_) {
         closeGaps(*still_, cell);

@@ -11,27 +11,27 @@
 #include "droplet/vector.h"
 #include "droplet/windshield/droplets.h"
 #include "windshield/cells.h"
-#include "windshield/way.h"
+#include "windshield/segment.h"
 
 namespace droplet {
 
 /// Width of the still droplets' cells [m].
 inline constexpr double kStillCell = 4e-3;
 
-/// How StillDroplets are kept: in square cells of the rolled out glass. Cell (column, row) is number row · columns +
-/// column and holds at most kMax of them, in an order that is a matter of history.
+/// Storage of StillDroplets: square cells of the unrolled glass. Cell (column, row) has the number row · columns +
+/// column and at most kMax droplets; their order depends on history.
 struct StillCells {
-    static constexpr std::size_t kMax = 8;  ///< what lands in a full cell joins the nearest there
+    static constexpr std::size_t kMax = 8;  ///< a droplet that lands in a full cell joins the nearest one there
 
-    double cell = 0.0;  ///< their width [m]
+    double cell = 0.0;  ///< width of a cell [m]
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::vector<StillDroplet> slots;       ///< kMax for each cell, those in use first
-    std::vector<std::uint16_t> places;     ///< for each slot in use: where in its cell, in 256ths: column + 256 · row
-    std::vector<std::uint8_t> counts;      ///< of those in use, for each cell
-    std::vector<std::uint32_t> revisions;  ///< for each cell: raised with everything that changes in it
+    std::vector<StillDroplet> slots;       ///< kMax for each cell, used slots first
+    std::vector<std::uint16_t> places;     ///< for each used slot: place in its cell in 256ths, column + 256 · row
+    std::vector<std::uint8_t> counts;      ///< number of used slots, for each cell
+    std::vector<std::uint32_t> revisions;  ///< for each cell: incremented with every change
 
-    /// Without droplets, for a glass of that size.
+    /// Empty cells for a glass of a given size.
     static StillCells over(Vec2 size);
     static const StillCells& of(const StillDroplets& still);
     static StillCells& of(StillDroplets& still);
@@ -41,28 +41,28 @@ struct StillCells {
     {
         return {slots.data() + number * kMax, counts[number]};
     }
-    /// Puts one into a cell that has room and holds its position.
+    /// Puts a droplet into the cell of its position, which must have room.
     void put(std::size_t number, const StillDroplet& droplet);
 
     friend bool operator==(const StillCells&, const StillCells&) = default;
 };
 
-/// When still droplets touch and what becomes of them.
+/// Reach of still droplets, and the volume at which they begin to run.
 struct StillRules {
     double reach = 0.0;  ///< half the width of a droplet of 1 m³, seen from above [m]
-    double max = 0.0;    ///< from this volume on a droplet runs [m³]
+    double max = 0.0;    ///< volume from which a droplet runs [m³]
 
     [[nodiscard]] double reachOf(double volume) const;
-    /// Of the largest one.
+    /// Reach of the largest still droplet.
     [[nodiscard]] double maxReach() const { return reachOf(max); }
 };
 
-/// Puts a droplet on the glass, or joins it with the nearest one that it touches, at the centre of their masses; in a
-/// full cell with the nearest there.
-/// @return  empty where it now stands; else what the two make, which is off the glass
-std::optional<StillDroplet> settle(StillCells& still, const StillDroplet& droplet, const StillRules& rules);
+/// Places a droplet on the glass. If it touches others or its cell is full, removes the nearest one instead and joins
+/// the two at their centre of mass.
+/// @return  empty if the droplet was placed; else the joined droplet, which is not on the glass
+std::optional<StillDroplet> placeOrJoin(StillCells& still, const StillDroplet& droplet, const StillRules& rules);
 
-/// Where a still droplet stands.
+/// Slot of a still droplet.
 struct StillSlot {
     std::size_t cell = 0;
     std::uint8_t slot = 0;
@@ -73,17 +73,18 @@ inline const StillDroplet& at(const StillCells& still, StillSlot place)
     return still.slots[place.cell * StillCells::kMax + place.slot];
 }
 
-/// Parts of a cell, across and up, that StillCells::places tells apart.
+/// Resolution of StillCells::places: parts of a cell, across and up.
 inline constexpr std::uint32_t kPlaces = 256;
 
-/// Calls visit(StillSlot) for all within `radius` of the straight way from a to b, and a few more. It goes by their
-/// places, of which a cell's are a quarter of a cache line: droplets themselves are too many for the cache.
+/// Calls visit(StillSlot) for all droplets within `radius` of the segment from a to b, and a few more. It reads only
+/// their places: those of a cell are a quarter of a cache line, while the droplets themselves do not fit into the
+/// cache.
 template <class Visit>
 void visitNear(const StillCells& still, Vec2 a, Vec2 b, double radius, const Visit& visit)
 {
-    // In places, from the glass's corner on.
+    // In units of places, from the corner of the glass.
     const double scale = kPlaces / still.cell;
-    const Way way(scale * a, scale * b);
+    const Segment segment(scale * a, scale * b);
     constexpr double kHalfDiagonal = 0.7072;
     const double near = scale * radius * (1.0 + 1e-9) + kHalfDiagonal;
     still.grid().visitAround(a, b, radius, [&](std::size_t first, std::size_t last) {
@@ -95,7 +96,7 @@ void visitNear(const StillCells& still, Vec2 a, Vec2 b, double radius, const Vis
             for (std::uint8_t k = 0; k < still.counts[cell]; ++k) {
                 const std::uint32_t part_across = places[k] % kPlaces;
                 const std::uint32_t part_up = places[k] / kPlaces;
-                if (way.squaredDistance({across + part_across, up + part_up}) <= near * near) {
+                if (segment.squaredDistance({across + part_across, up + part_up}) <= near * near) {
                     visit(StillSlot{cell, k});
                 }
             }
@@ -103,12 +104,13 @@ void visitNear(const StillCells& still, Vec2 a, Vec2 b, double radius, const Vis
     });
 }
 
-/// Takes still droplets away one by one; gaps are closed at the end, so that slots stay what they are until then.
-class Taking {
+/// Removes still droplets one by one. close() closes the gaps; until then slots stay valid.
+class StillRemoval {
 public:
-    explicit Taking(StillCells& still) : still_(&still) {}
+    explicit StillRemoval(StillCells& still) : still_(&still) {}
 
-    /// @return  its volume; 0 if it is gone already
+    /// Removes a droplet.
+    /// @return  its volume; 0 if it was removed before
     double take(StillSlot place)
     {
         double& volume = still_->slots[place.cell * StillCells::kMax + place.slot].volume;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// To (−π, π].
+/// Angle wrapped to (−π, π].
 double wrapped(double angle)
 {
     return angle - 2.0 * kPi * std::ceil((angle - kPi) / (2.0 * kPi));
@@ -24,21 +24,21 @@ std::optional<Sweep> Sweep::of(const Wiper& wiper, double from, double to)
     sweep.pivot_ = wiper.pivot;
     sweep.inner_ = wiper.inner;
     sweep.outer_ = wiper.outer;
-    sweep.before_ = wiper.angleAt(from);
-    sweep.after_ = wiper.angleAt(to);
-    sweep.low_ = std::min(sweep.before_, sweep.after_);
-    sweep.high_ = std::max(sweep.before_, sweep.after_);
+    sweep.begin_ = wiper.angleAt(from);
+    sweep.end_ = wiper.angleAt(to);
+    sweep.min_ = std::min(sweep.begin_, sweep.end_);
+    sweep.max_ = std::max(sweep.begin_, sweep.end_);
     if (to > wiper.start) {
-        // It may turn in between: at `last` half a stroke after it has left `first`, and at `first` itself.
+        // The blade may turn in between: at `last` half a stroke after its start, and at `first`.
         const double since = std::max(from - wiper.start, 0.0);
-        const double till = to - wiper.start;
+        const double until = to - wiper.start;
         const auto turns = [&](double phase) {
             const double next = phase + wiper.period * std::ceil((since - phase) / wiper.period);
-            return next >= since && next <= till;
+            return next >= since && next <= until;
         };
         const auto reach = [&](double angle) {
-            sweep.low_ = std::min(sweep.low_, angle);
-            sweep.high_ = std::max(sweep.high_, angle);
+            sweep.min_ = std::min(sweep.min_, angle);
+            sweep.max_ = std::max(sweep.max_, angle);
         };
         if (turns(0.5 * wiper.stroke)) {
             reach(wiper.last);
@@ -47,7 +47,7 @@ std::optional<Sweep> Sweep::of(const Wiper& wiper, double from, double to)
             reach(wiper.first);
         }
     }
-    return sweep.low_ < sweep.high_ ? std::optional(sweep) : std::nullopt;
+    return sweep.min_ < sweep.max_ ? std::optional(sweep) : std::nullopt;
 }
 
 bool Sweep::inReach(Vec2 p) const
@@ -67,8 +67,8 @@ bool Sweep::covers(Vec2 p) const
     if (!inReach(p)) {
         return false;
     }
-    const double beyond = angleOf(p) - low_;
-    return beyond - 2.0 * kPi * std::floor(beyond / (2.0 * kPi)) <= high_ - low_;
+    const double beyond = angleOf(p) - min_;
+    return beyond - 2.0 * kPi * std::floor(beyond / (2.0 * kPi)) <= max_ - min_;
 }
 
 bool Sweep::meets(Vec2 a, Vec2 b) const
@@ -79,25 +79,25 @@ bool Sweep::meets(Vec2 a, Vec2 b) const
     if (a == b || !inReach(a) || !inReach(b)) {
         return false;
     }
-    const double was = wrapped(angleOf(a) - before_);
-    const double is = wrapped(angleOf(b) - after_);
-    return was * is < 0.0 && std::abs(was - is) < 0.5 * kPi;
+    const double before = wrapped(angleOf(a) - begin_);
+    const double after = wrapped(angleOf(b) - end_);
+    return before * after < 0.0 && std::abs(before - after) < 0.5 * kPi;
 }
 
 std::vector<Vec2> Sweep::hull() const
 {
     constexpr double kMaxTurn = kPi / 18.0;
-    const int parts = static_cast<int>(std::ceil((high_ - low_) / kMaxTurn));
-    const double turn = (high_ - low_) / parts;
+    const int parts = static_cast<int>(std::ceil((max_ - min_) / kMaxTurn));
+    const double turn = (max_ - min_) / parts;
     const auto at = [this](double radius, double angle) {
         return pivot_ + radius * Vec2{std::cos(angle), std::sin(angle)};
     };
     std::vector<Vec2> corners;
     for (int k = 0; k <= parts; ++k) {
-        corners.push_back(at(inner_, low_ + turn * k));
+        corners.push_back(at(inner_, min_ + turn * k));
     }
     for (int k = parts; k >= 0; --k) {
-        corners.push_back(at(outer_ / std::cos(0.5 * turn), low_ + turn * k));  // tangents to the arc meet there
+        corners.push_back(at(outer_ / std::cos(0.5 * turn), min_ + turn * k));  // tangents of the arc meet here
     }
     return corners;
 }

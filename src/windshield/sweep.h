@@ -14,33 +14,34 @@
 
 namespace droplet {
 
-/// What a blade passes over between two times.
+/// Area that a wiper blade passes over between two times.
 class Sweep {
 public:
-    /// @return  empty where it rests all that time
+    /// @return  empty if the blade rests all the time
     static std::optional<Sweep> of(const Wiper& wiper, double from, double to);
 
+    /// Whether the blade passes over a position.
     [[nodiscard]] bool covers(Vec2 p) const;
-    /// Whether it and something that goes straight from a to b in that time meet: it covers the end, or they pass each
-    /// other.
+    /// Whether the blade meets a droplet that moves straight from a to b in that time: it covers the end, or the two
+    /// pass each other.
     [[nodiscard]] bool meets(Vec2 a, Vec2 b) const;
-    /// Calls visit(first, last) with the numbers of the cells of every row that it may cover a part of.
+    /// Calls visit(first, last) for every row with the range of cells that the blade may pass over.
     template <class Visit>
     void visitCells(const Cells& cells, const Visit& visit) const;
 
 private:
     [[nodiscard]] bool inReach(Vec2 p) const;
     [[nodiscard]] double angleOf(Vec2 p) const;
-    /// Corners of a polygon that holds all of it.
+    /// Corners of a polygon that contains the area.
     [[nodiscard]] std::vector<Vec2> hull() const;
 
     Vec2 pivot_;
     double inner_ = 0.0;
     double outer_ = 0.0;
-    double before_ = 0.0;  // the blade's angle at the beginning
-    double after_ = 0.0;   // and the end
-    double low_ = 0.0;     // of all its angles in between
-    double high_ = 0.0;
+    double begin_ = 0.0;  // angle at the beginning
+    double end_ = 0.0;    // angle at the end
+    double min_ = 0.0;    // smallest angle in between
+    double max_ = 0.0;    // largest angle in between
 };
 
 template <class Visit>

@@ -2,8 +2,8 @@
 #include "windshield/swept.h"
 
 #include "blocks.h"
+#include "windshield/segment.h"
 #include "windshield/tracks.h"
-#include "windshield/way.h"
 
 namespace droplet {
 namespace {
@@ -20,8 +20,7 @@ std::vector<SweptDroplet> find(std::span<const SweptPiece> pieces, const StillCe
         const SweptPiece* piece = nullptr;
         StillSlot slot;
     };
-    // Memory is asked for all that may touch before the first is looked at: to wait for each would take most of the
-    // time.
+    // All candidates are prefetched before the first is read: waiting for each would take most of the time.
     std::vector<Candidate> candidates;
     candidates.reserve(4 * pieces.size());
     const double max_still_reach = rules.maxReach();
@@ -34,8 +33,8 @@ std::vector<SweptDroplet> find(std::span<const SweptPiece> pieces, const StillCe
     std::vector<SweptDroplet> found;
     for (const auto& [piece, slot] : candidates) {
         const StillDroplet& d = at(still, slot);
-        const double squared = Way(piece->from, piece->to).squaredDistance(d.position);
-        // The root, which costs most, only where it matters.
+        const double squared = Segment(piece->from, piece->to).squaredDistance(d.position);
+        // The cube root costs most; it is computed only where needed.
         if (d.volume > 0.0 &&
             (squared <= piece->reach * piece->reach || touches(squared, piece->reach, d.volume, rules))) {
             found.push_back({piece->owner, slot});
@@ -52,7 +51,7 @@ std::vector<SweptDroplet> sweptBy(std::span<const SweptPiece> pieces, const Stil
     for (const std::vector<SweptDroplet>&found : mapBlocks<std::vector<SweptDroplet>>(
              pieces.size(),
              [&](std::size_t begin, std::size_t end) { return find(pieces.subspan(begin, end - begin), still, rules); },
-             kWorthAThread)) {
+             kDropletsPerBlock)) {
         all.insert(all.end(), found.begin(), found.end());
     }
     return all;

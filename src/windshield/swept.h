@@ -10,7 +10,7 @@
 
 namespace droplet {
 
-/// A piece of a track, and which running droplet gathers its water.
+/// Piece of a track, with the running droplet that absorbs the water on it.
 struct SweptPiece {
     std::uint32_t owner = 0;
     Vec2 from;
@@ -18,13 +18,13 @@ struct SweptPiece {
     double reach = 0.0;
 };
 
-/// A still droplet that touches a piece.
+/// Still droplet that touches a piece.
 struct SweptDroplet {
     std::uint32_t owner = 0;
     StillSlot still;
 };
 
-/// Still droplets that touch pieces, in the pieces' order; those that touch several are in it several times.
+/// Finds still droplets that touch pieces, in the pieces' order; a droplet that touches several appears several times.
 std::vector<SweptDroplet> sweptBy(std::span<const SweptPiece> pieces, const StillCells& still, const StillRules& rules);
 
 }  // namespace droplet

@@ -9,14 +9,14 @@
 
 #include "droplet/vector.h"
 #include "windshield/cells.h"
-#include "windshield/way.h"
+#include "windshield/segment.h"
 
 namespace droplet {
 
-/// Droplets, or pieces of their tracks, that a thread takes at a time.
-inline constexpr std::size_t kWorthAThread = 128;
+/// Number of droplets, or pieces of tracks, in a block of work for one thread.
+inline constexpr std::size_t kDropletsPerBlock = 128;
 
-/// The straight ways of running droplets in one step, in the droplets' order.
+/// Straight paths of running droplets in one step, in the droplets' order.
 struct Tracks {
     std::vector<Vec2> from;     ///< [m]
     std::vector<Vec2> to;       ///< [m]
@@ -24,29 +24,29 @@ struct Tracks {
 
     [[nodiscard]] std::size_t count() const { return from.size(); }
     void resize(std::size_t count);
-    void add(Vec2 a, Vec2 b, double its_reach);
+    void add(Vec2 a, Vec2 b, double reach_of_track);
 };
 
-/// Which tracks come through which cells, so that few have to be looked at to find those that touch.
+/// Grid for neighbour search: the tracks that pass through each cell.
 class TrackCells {
 public:
-    /// Tracks that are added later are not in it.
+    /// Sorts the present tracks into cells; later ones are not included.
     /// @param tracks  must outlive this
     /// @param size    of the glass [m]
-    /// @param margin  how far beyond its reach a track may touch a droplet [m]
+    /// @param margin  largest reach of a droplet that may touch a track [m]
     TrackCells(const Tracks& tracks, Vec2 size, double margin);
 
-    /// The first track that a droplet at that place touches.
+    /// First track that a droplet at a place touches.
     [[nodiscard]] std::optional<std::uint32_t> touchedBy(Vec2 place, double reach) const;
 
-    /// Pairs of tracks whose droplets, which move evenly, come to touch; some pairs more than once.
-    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> meeting() const;
+    /// Pairs of tracks whose droplets touch at some time, if they move at constant speed; some pairs appear repeatedly.
+    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> touchingPairs() const;
 
 private:
     const Tracks& tracks_;
     Cells cells_;
-    std::vector<std::uint32_t> first_;    // of numbers_, for each cell, and the end
-    std::vector<std::uint32_t> numbers_;  // of tracks; those of a cell in their order
+    std::vector<std::uint32_t> first_;    // index of each cell's first number in numbers_, and the end
+    std::vector<std::uint32_t> numbers_;  // numbers of tracks, cell by cell, in order
 };
 
 }  // namespace droplet

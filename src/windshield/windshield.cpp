@@ -3,11 +3,11 @@
 // The thesis, chapter 3: forces (3.2)–(3.5) by wind/forces.h, noise on the gravity along the windshield (3.2), merging
 // (3.1.4) and the Lotus effect (3.1.5); small droplets stand still (3.2.2). Departures:
 //
-// - Droplets merge whenever they touch, of whatever sizes: the thesis has a threshold on the difference of their
-//   masses, which keeps equal ones apart. The larger one absorbs; water and momentum are kept.
-// - Still droplets are single droplets in cells, not the texels of a picture: what a running droplet wipes away it has
-//   afterwards, and rain renews them.
-// - Steps are exact for constant forces along a line, and friction is implicit, so that droplets at rest do not jitter.
+// - Droplets of all sizes merge when they touch. The thesis has a threshold on the difference of their masses, which
+//   keeps equal ones apart. The larger one absorbs the other; water and momentum are conserved.
+// - Still droplets are single droplets in cells, not texels of a picture. A running droplet absorbs the water that it
+//   sweeps, and rain renews it.
+// - Steps are exact for constant forces along a line. Friction is implicit, so droplets at rest do not jitter.
 #include "droplet/windshield/windshield.h"
 
 #include <algorithm>
@@ -37,12 +37,12 @@
 namespace droplet {
 namespace {
 
-double sphere(double diameter)
+double sphereVolume(double diameter)
 {
     return std::numbers::pi / 6.0 * diameter * diameter * diameter;
 }
 
-/// One step of one state; its functions are called in their order.
+/// One step of one state; run() calls the other functions in their order.
 class Step {
 public:
     Step(WindshieldState& state, const WindshieldParameters& parameters, double dt)
@@ -51,9 +51,9 @@ public:
           p_(parameters),
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
-          rules_{caps_.reach(), sphere(parameters.still_diameter)},
-          untorn_(caps_.volumeOfHeight(parameters.tear_off_weber * parameters.forces.liquid.surface_tension /
-                                       parameters.forces.air.density))
+          rules_{caps_.reach(), sphereVolume(parameters.still_diameter)},
+          stable_volume_(caps_.volumeOfHeight(parameters.tear_off_weber * parameters.forces.liquid.surface_tension /
+                                              parameters.forces.air.density))
     {
     }
 
@@ -61,21 +61,21 @@ public:
     {
         rain();
         move();
-        // Raindrops that land beside a track touch it, too.
+        // The margin includes raindrops that land beside a track and touch it.
         const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.maxReach());
         drizzle(cells);
         merge(cells);
-        sweep();
-        layDown();
+        sweepStill();
+        breakUp();
         wipe();
-        leave();
+        removeBeyondEdges();
         s_.time += dt_;
     }
 
 private:
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-    /// Raindrops of the time from now to dt later.
+    /// Adds the raindrops that arrive within dt.
     void rain()
     {
         before_rain_ = s_.droplets.size();
@@ -88,18 +88,18 @@ private:
         double expected = bound * p_.glass.width() * p_.glass.height() * dt_;
         while (s_.until_raindrop < expected) {
             expected -= s_.until_raindrop;
-            const RandomStream chance(p_.seed, Chance::Raindrop, s_.next_raindrop++);
-            s_.until_raindrop = chance.exponential(0);
-            const Vec2 position{p_.glass.width() * chance.uniform(1), p_.glass.height() * chance.uniform(2)};
+            const RandomStream random(p_.seed, RandomPurpose::Raindrop, s_.next_raindrop++);
+            s_.until_raindrop = random.exponential(0);
+            const Vec2 position{p_.glass.width() * random.uniform(1), p_.glass.height() * random.uniform(2)};
             const std::optional<GlassPlace> place = p_.glass.place(position);
             if (!place) {
                 continue;
             }
-            const double diameter = sampler.diameter(chance.uniform(3), chance.uniform(4));
-            if (chance.uniform(5) >= impacts.kept(diameter, {place->normal.z, place->normal.y})) {
+            const double diameter = sampler.diameter(random.uniform(3), random.uniform(4));
+            if (random.uniform(5) >= impacts.kept(diameter, {place->normal.z, place->normal.y})) {
                 continue;
             }
-            const double volume = sphere(diameter);
+            const double volume = sphereVolume(diameter);
             s_.rained.add(volume);
             ++s_.counts.raindrops;
             if (volume >= rules_.max) {
@@ -129,7 +129,7 @@ private:
                     moveOne(i, speed, acceleration);
                 }
             },
-            kWorthAThread);
+            kDropletsPerBlock);
     }
 
     void moveOne(std::size_t i, double speed, double acceleration)
@@ -145,52 +145,52 @@ private:
             }
             wind_[i] = wind;
             const Vec2 push = gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
-                              pushOn(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
+                              fluctuationOf(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
             const Vec2 driving = forces.mass * push + (forces.drag * sizeOf(wind)) * wind;
-            const Moved result = moved(forces, driving, d.velocity, dt_);
-            d.position = d.position + result.way;
+            const MotionStep result = advance(forces, driving, d.velocity, dt_);
+            d.position = d.position + result.displacement;
             d.velocity = result.velocity;
         }
         tracks_.to[i] = d.position;
     }
 
-    /// Small raindrops, and what they make with still droplets, join the first track they touch.
+    /// Adds small raindrops: each joins the first track that it touches, else still droplets that it touches.
     void drizzle(const TrackCells& cells)
     {
         for (StillDroplet drop : drizzle_) {
-            bool stands = false;
-            while (!stands && drop.volume < rules_.max) {
+            bool is_placed = false;
+            while (!is_placed && drop.volume < rules_.max) {
                 if (const std::optional<std::uint32_t> track =
                         cells.touchedBy(drop.position, rules_.reachOf(drop.volume))) {
-                    take(*track, drop.volume);
-                    stands = true;
+                    absorb(*track, drop.volume);
+                    is_placed = true;
                 } else {
-                    stands = !joinsStill(drop);
+                    is_placed = !joinStill(drop);
                 }
             }
-            if (!stands) {
-                grow(drop);
+            if (!is_placed) {
+                startRunning(drop);
             }
         }
     }
 
-    /// Puts it among the still ones; returns whether it is, joined with another, off the glass again.
-    bool joinsStill(StillDroplet& drop)
+    /// Places a still droplet, or joins it with one that is removed from the glass; returns whether it was joined.
+    bool joinStill(StillDroplet& drop)
     {
-        const std::optional<StillDroplet> more = settle(still_, drop, rules_);
-        drop = more.value_or(drop);
-        return more.has_value();
+        const std::optional<StillDroplet> joined = placeOrJoin(still_, drop, rules_);
+        drop = joined.value_or(drop);
+        return joined.has_value();
     }
 
-    /// What stood still is enough to run.
-    void grow(const StillDroplet& drop)
+    /// Turns a still droplet, which has grown large enough, into a running one.
+    void startRunning(const StillDroplet& drop)
     {
-        begin(drop.position, {}, drop.volume);
+        addRunning(drop.position, {}, drop.volume);
         ++s_.counts.grown;
     }
 
-    /// Adds a running droplet where it has no way yet.
-    void begin(Vec2 position, Vec2 velocity, double volume)
+    /// Adds a running droplet with an empty track.
+    void addRunning(Vec2 position, Vec2 velocity, double volume)
     {
         owner_.push_back(static_cast<std::uint32_t>(s_.droplets.size()));
         s_.droplets.push_back({s_.next_id++, position, velocity, volume, 0.0, 0});
@@ -198,8 +198,8 @@ private:
         grown_.push_back(1);
     }
 
-    /// A running droplet takes up water that was at rest: momentum is kept.
-    void take(std::uint32_t i, double volume)
+    /// Adds water that was at rest to a running droplet; momentum is conserved.
+    void absorb(std::uint32_t i, double volume)
     {
         RunningDroplet& d = s_.droplets[i];
         d.velocity = (d.volume / (d.volume + volume)) * d.velocity;
@@ -208,18 +208,17 @@ private:
         grown_[i] = 1;
     }
 
-    /// Droplets that come to touch within the step become one, however many there are: the largest, of equals the
-    /// first.
+    /// Merges each group of droplets that touch within the step into its largest one; of equal ones, into the first.
     void merge(const TrackCells& cells)
     {
-        const std::vector<Pair> meeting = cells.meeting();
+        const std::vector<Pair> touching = cells.touchingPairs();
         UnionFind sets(owner_);
-        for (const auto& [a, b] : meeting) {
+        for (const auto& [a, b] : touching) {
             sets.join(a, b);
         }
-        std::vector<Pair> members;  // a set's first member, and each of its members
-        members.reserve(2 * meeting.size());
-        for (const auto& [a, b] : meeting) {
+        std::vector<Pair> members;  // first member of a group, and a member
+        members.reserve(2 * touching.size());
+        for (const auto& [a, b] : touching) {
             members.emplace_back(sets.find(a), a);
             members.emplace_back(sets.find(b), b);
         }
@@ -227,12 +226,12 @@ private:
         members.erase(std::unique(members.begin(), members.end()), members.end());
         for (auto begin = members.begin(); begin != members.end();) {
             const auto end = std::find_if(begin, members.end(), [&](const Pair& m) { return m.first != begin->first; });
-            absorb({begin, end});
+            mergeGroup({begin, end});
             begin = end;
         }
     }
 
-    void absorb(std::span<const Pair> members)
+    void mergeGroup(std::span<const Pair> members)
     {
         std::uint32_t largest = members.front().second;
         double volume = 0.0;
@@ -262,9 +261,9 @@ private:
         grown_[largest] = 1;
     }
 
-    /// The Lotus effect: what stands still in the way of a running droplet goes with it. What a growing one comes to
-    /// touch goes with it, too: at once, until there is nothing more, if it rests; in the next step, if it moves on.
-    void sweep()
+    /// The Lotus effect: a running droplet absorbs still droplets on its way. It grows, and then absorbs those that it
+    /// touches now: if it rests, at once and until there are none; if it moves, in the next step.
+    void sweepStill()
     {
         std::vector<SweptPiece> pieces;
         for (std::uint32_t i = 0; i < s_.droplets.size(); ++i) {
@@ -279,17 +278,17 @@ private:
                 pieces.push_back({owner_[i], tracks_.from[i], tracks_.to[i], tracks_.reach[i]});
             }
         }
-        gather(std::move(pieces));
+        absorbSwept(std::move(pieces));
     }
 
-    void gather(std::vector<SweptPiece> pieces)
+    void absorbSwept(std::vector<SweptPiece> pieces)
     {
-        Taking taking(still_);
+        StillRemoval removal(still_);
         while (!pieces.empty()) {
             std::vector<std::uint32_t> grown;
             for (const SweptDroplet& swept : sweptBy(pieces, still_, rules_)) {
-                if (const double volume = taking.take(swept.still); volume > 0.0) {
-                    take(swept.owner, volume);
+                if (const double volume = removal.take(swept.still); volume > 0.0) {
+                    absorb(swept.owner, volume);
                     s_.swept.add(volume);
                     ++s_.counts.swept;
                     if (s_.droplets[swept.owner].velocity == Vec2{}) {
@@ -306,29 +305,30 @@ private:
                 pieces.push_back({i, d.position, d.position, tracks_.reach[i]});
             }
         }
-        taking.close();
+        removal.close();
     }
 
-    /// What becomes of droplets once all have moved and merged: parts of them stay behind.
-    void layDown()
+    /// Splits droplets after all have moved and merged: the wind tears some, others leave streaks behind.
+    void breakUp()
     {
         const std::size_t count = s_.droplets.size();
-        tear();
+        tearOff();
         for (std::size_t i = 0; p_.streaks.film > 0.0 && i < count; ++i) {
             if (s_.droplets[i].volume > 0.0 && tracks_.from[i] != tracks_.to[i]) {
-                shedOne(i);
+                leaveStreak(i);
             }
         }
         std::vector<SweptPiece> pieces;
         for (std::size_t i = count; i < s_.droplets.size(); ++i) {
             pieces.push_back({static_cast<std::uint32_t>(i), tracks_.to[i], tracks_.to[i], tracks_.reach[i]});
         }
-        gather(std::move(pieces));
+        absorbSwept(std::move(pieces));
     }
 
-    /// Droplets too high for the wind become rows of equal ones down the wind, themselves the first, each where there
-    /// is room or beyond the edge. None is too small to run; water and momentum are kept.
-    void tear()
+    /// Splits droplets that are too high for the wind into rows of equal ones downwind. The first part stays; each
+    /// other takes the next free place, or one beyond the edge. No part is too small to run; water and momentum are
+    /// conserved.
+    void tearOff()
     {
         std::vector<Torn> torn;
         for (std::uint32_t i = 0; i < wind_.size(); ++i) {
@@ -339,40 +339,42 @@ private:
         if (torn.empty()) {
             return;
         }
-        Tracks standing;
+        Tracks present;
         for (const RunningDroplet& d : s_.droplets) {
             if (d.volume > 0.0) {
-                standing.add(d.position, d.position, caps_.reach(d.volume));
+                present.add(d.position, d.position, caps_.reach(d.volume));
             }
         }
         double margin = 0.0;
         for (const Torn& one : torn) {
             margin = std::max(margin, caps_.reach(one.volume));
         }
-        const TrackCells cells(standing, {p_.glass.width(), p_.glass.height()}, margin);
-        Tracks laid;
+        const TrackCells cells(present, {p_.glass.width(), p_.glass.height()}, margin);
+        Tracks placed;
         for (const Torn& one : torn) {
-            layRow(one, cells, laid);
+            placeRow(one, cells, placed);
         }
     }
 
     struct Torn {
         std::uint32_t droplet = 0;
-        double volume = 0.0;  // of each part
+        double volume = 0.0;  // volume of each part
         std::size_t parts = 0;
     };
 
     double partsOf(std::size_t i) const
     {
-        // Its height goes with the square of the wind, so the volume with the sixth power.
+        // The critical height is proportional to wind⁻², so the critical volume is proportional to wind⁻⁶.
         const double squared = dot(wind_[i], wind_[i]);
         const double whole = s_.droplets[i].volume;
-        return std::min(std::ceil(whole * squared * squared * squared / untorn_), std::floor(whole / rules_.max));
+        return std::min(std::ceil(whole * squared * squared * squared / stable_volume_),
+                        std::floor(whole / rules_.max));
     }
 
-    /// @param cells  of the droplets before any was torn
-    /// @param laid   what has been laid down since
-    void layRow(const Torn& torn, const TrackCells& cells, Tracks& laid)
+    /// Places the parts of a torn droplet in a row.
+    /// @param cells   droplets before any was torn
+    /// @param placed  parts that have been placed since
+    void placeRow(const Torn& torn, const TrackCells& cells, Tracks& placed)
     {
         const double reach = caps_.reach(torn.volume);
         const Vec2 onward = (reach / sizeOf(wind_[torn.droplet])) * wind_[torn.droplet];
@@ -380,8 +382,8 @@ private:
             if (cells.touchedBy(place, reach)) {
                 return false;
             }
-            for (std::size_t k = 0; k < laid.count(); ++k) {
-                if (sizeOf(laid.to[k] - place) <= laid.reach[k] + reach) {
+            for (std::size_t k = 0; k < placed.count(); ++k) {
+                if (sizeOf(placed.to[k] - place) <= placed.reach[k] + reach) {
                     return false;
                 }
             }
@@ -395,43 +397,44 @@ private:
             while (p_.glass.holds(place) && !(p_.glass.holds(place + onward) && is_free(place))) {
                 place = place + onward;
             }
-            begin(place, velocity, torn.volume);
-            laid.add(place, place, reach);
+            addRunning(place, velocity, torn.volume);
+            placed.add(place, place, reach);
             ++s_.counts.torn;
         }
     }
 
-    /// Streaks: droplets that move leave a film behind, as still droplets at random distances.
-    void shedOne(std::size_t i)
+    /// Leaves the film behind a moving droplet, as still droplets at random distances.
+    void leaveStreak(std::size_t i)
     {
-        const double way = sizeOf(tracks_.to[i] - tracks_.from[i]);
-        const Vec2 direction = (1.0 / way) * (tracks_.to[i] - tracks_.from[i]);
-        const RandomStream chance(p_.seed, Chance::Bead, s_.droplets[i].id);
-        double at = -s_.droplets[i].since_bead;  // of the last bead, from the beginning of the way
+        const double distance = sizeOf(tracks_.to[i] - tracks_.from[i]);
+        const Vec2 direction = (1.0 / distance) * (tracks_.to[i] - tracks_.from[i]);
+        const RandomStream random(p_.seed, RandomPurpose::Bead, s_.droplets[i].id);
+        double at = -s_.droplets[i].since_bead;  // position of the last bead along the track
         while (true) {
             RunningDroplet& d = s_.droplets[i];
-            const double spacing = p_.streaks.spacing * (0.5 + chance.uniform(d.beads));
-            if (at + spacing > way) {
+            const double spacing = p_.streaks.spacing * (0.5 + random.uniform(d.beads));
+            if (at + spacing > distance) {
                 break;
             }
             at += spacing;
             ++d.beads;
-            // Never so much that the bead itself would run, nor that the droplet would no longer.
+            // A bead is too small to run, and the droplet stays large enough to run.
             const double bead = std::min(p_.streaks.film * 2.0 * tracks_.reach[i] * spacing, 0.5 * rules_.max);
-            const double behind = 1.05 * (tracks_.reach[i] + rules_.reachOf(bead));  // where it is not touched at once
+            const double behind =
+                1.05 * (tracks_.reach[i] + rules_.reachOf(bead));  // far enough that they do not touch
             const Vec2 place = tracks_.from[i] + (at - behind) * direction;
             if (d.volume - bead >= rules_.max && p_.glass.holds(place)) {
                 d.volume -= bead;
                 s_.shed.add(bead);
-                StillDroplet laid{place, bead};
-                while (laid.volume < rules_.max && joinsStill(laid)) {
+                StillDroplet left{place, bead};
+                while (left.volume < rules_.max && joinStill(left)) {
                 }
-                if (laid.volume >= rules_.max) {
-                    grow(laid);
+                if (left.volume >= rules_.max) {
+                    startRunning(left);
                 }
             }
         }
-        s_.droplets[i].since_bead = way - at;
+        s_.droplets[i].since_bead = distance - at;
     }
 
     void wipe()
@@ -449,23 +452,23 @@ private:
                     d.volume = 0.0;
                 }
             }
-            Taking taking(still_);
+            StillRemoval removal(still_);
             blade->visitCells(still_.grid(), [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell <= last; ++cell) {
                     const auto here = still_.droplets(cell);
                     for (std::size_t k = 0; k < here.size(); ++k) {
                         if (blade->covers(here[k].position)) {
-                            s_.wiped.add(taking.take({cell, static_cast<std::uint8_t>(k)}));
+                            s_.wiped.add(removal.take({cell, static_cast<std::uint8_t>(k)}));
                             ++s_.counts.wiped;
                         }
                     }
                 }
             });
-            taking.close();
+            removal.close();
         }
     }
 
-    void leave()
+    void removeBeyondEdges()
     {
         s_.tracks.clear();
         std::size_t kept = 0;
@@ -492,13 +495,13 @@ private:
     double dt_;
     CapScale caps_;
     StillRules rules_;
-    double untorn_ = 0.0;                // volume that a wind of 1 m/s just does not tear [m³]
+    double stable_volume_ = 0.0;         // largest volume that a wind of 1 m/s does not tear off [m³]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
-    std::size_t before_rain_ = 0;        // how many running droplets there were
-    // Of every running droplet, in their order:
+    std::size_t before_rain_ = 0;        // number of running droplets before the rain
+    // One entry for each running droplet, in their order:
     Tracks tracks_;
-    std::vector<Vec2> wind_;            // along the glass, where it was before the step
-    std::vector<std::uint32_t> owner_;  // who has its water
+    std::vector<Vec2> wind_;            // wind along the glass at its place before the step
+    std::vector<std::uint32_t> owner_;  // droplet that has its water
     std::vector<std::uint8_t> grown_;
 };
 
@@ -519,7 +522,7 @@ WindshieldState step(WindshieldState state, const WindshieldParameters& paramete
     const Cells cells = Cells::over({parameters.glass.width(), parameters.glass.height()}, kStillCell);
     const Cells own = StillCells::of(state.still).grid();
     if (own.columns != cells.columns || own.rows != cells.rows || own.width != cells.width) {
-        throw Error(ErrorCode::InvalidArgument, "state is of a glass of " + std::to_string(own.columns) + " x " +
+        throw Error(ErrorCode::InvalidArgument, "state belongs to a glass of " + std::to_string(own.columns) + " x " +
                                                     std::to_string(own.rows) + " cells; this one has " +
                                                     std::to_string(cells.columns) + " x " + std::to_string(cells.rows));
     }

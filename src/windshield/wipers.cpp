@@ -37,12 +37,12 @@ void Wiper::validate() const
 
 std::vector<Wiper> tandemWipers(const Glass& glass, double period)
 {
-    // Blades of half the glass's width rest along its lower edge. What is higher than wide limits them, else they would
-    // leave the glass. One turns at the left pillar; the other one goes on into its field, so that what neither reaches
-    // lies in the corner at the right pillar and along the upper edge, not between them.
+    // Blades of about half the glass's width rest along its lower edge; on a low glass the height limits them. One
+    // turns at the left pillar. The other continues into the first one's field, so that only the corner at the right
+    // pillar and the upper edge stay wet, and nothing between the two.
     struct Half {
-        double pivot;  // share of the width
-        double last;   // [rad]
+        double pivot;  // x of the pivot over the width
+        double last;   // angle at the turn [rad]
     };
     std::vector<Wiper> wipers;
     for (const Half& half : {Half{1.0 / 16.0, 98.0 * kDegree}, Half{0.5, 135.0 * kDegree}}) {

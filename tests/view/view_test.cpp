@@ -36,7 +36,7 @@ Picture filled(int width, int height, std::array<std::uint8_t, 3> upper, std::ar
     return picture;
 }
 
-/// A picture in which all places look different.
+/// Picture with a different colour at every place.
 Picture slanted(int width, int height)
 {
     Picture picture{width, height, {}};
@@ -79,7 +79,7 @@ ViewOptions small()
     return options;
 }
 
-/// A single droplet on an upright flat glass, straight ahead.
+/// One droplet on an upright flat glass, straight ahead.
 WindshieldState oneDroplet(const WindshieldParameters& parameters, double volume)
 {
     WindshieldState state = startWindshield(parameters);
@@ -93,7 +93,7 @@ WindshieldState oneDroplet(const WindshieldParameters& parameters, double volume
 
 TEST(View, PixelsSeeTheGlassWhereTheirRaysMeetIt)
 {
-    // Upright and flat: a tangent of the angle is a length over the distance.
+    // On upright flat glass, a tangent is a length over the distance.
     const Glass glass(Glass::Cylinder{.width = 0.6, .height = 0.4, .radius = kFlat, .slope = 90.0 * kDegree});
     ViewOptions options;
     options.width = 64;
@@ -111,7 +111,7 @@ TEST(View, PixelsSeeTheGlassWhereTheirRaysMeetIt)
     EXPECT_FALSE(view.onGlass(0, 48));
 }
 
-TEST(View, RaysMeetTheBentGlassOfTheThesis)
+TEST(View, RaysMeetTheCurvedGlass)
 {
     const Glass glass;
     const DriversView view(glass, {.width = 128, .height = 72});
@@ -169,7 +169,7 @@ TEST(View, DropletsTurnTheSceneUpsideDown)
     EXPECT_LT(at(80, 80 + third)[2], 60);
 }
 
-TEST(View, RunningDropletsAreLongerAlongTheirWay)
+TEST(View, RunningDropletsAreLongerAlongTheirMotion)
 {
     WindshieldParameters parameters;
     parameters.glass = Glass(Glass::Cylinder{.width = 0.2, .height = 0.2, .radius = kFlat, .slope = 90.0 * kDegree});
@@ -211,10 +211,10 @@ TEST(View, RunningDropletsAreLongerAlongTheirWay)
     EXPECT_EQ(extents(), std::pair(climbing.second, climbing.first));
 }
 
-/// Wipers on dry glass, in front of a picture that is bright all over.
-class WipersSeen : public ::testing::Test {
+/// Wipers on dry glass, in front of a uniformly bright picture.
+class VisibleWipers : public ::testing::Test {
 protected:
-    WipersSeen()
+    VisibleWipers()
     {
         parameters_.wipers = tandemWipers(parameters_.glass, 1.5);
         options_.width = 320;
@@ -234,7 +234,7 @@ protected:
         layer_ = view_->layer();
     }
 
-    /// Alpha where a place on the glass is seen, from a wiper's pivot.
+    /// Alpha at a place on the glass, relative to a wiper's pivot.
     [[nodiscard]] int alphaAt(const Wiper& wiper, double radius, double angle) const
     {
         const Vec2 place = wiper.pivot + radius * Vec2{std::cos(angle), std::sin(angle)};
@@ -253,7 +253,7 @@ protected:
         return alpha;
     }
 
-    /// How many pixels of the glass have something on them in a part of a wiper's field.
+    /// Number of covered pixels in a part of a wiper's field.
     [[nodiscard]] int covered(const Wiper& wiper, double from, double to) const
     {
         int count = 0;
@@ -279,7 +279,7 @@ protected:
     Layer layer_;
 };
 
-TEST_F(WipersSeen, BladesAreWhereTheyWipe)
+TEST_F(VisibleWipers, BladesAreWhereTheyWipe)
 {
     const Wiper wiper = parameters_.wipers[1];
     options_.wipers = {wiper};
@@ -287,12 +287,12 @@ TEST_F(WipersSeen, BladesAreWhereTheyWipe)
         look(time);
         const double angle = wiper.angleAt(time);
         EXPECT_EQ(alphaAt(wiper, 0.45, angle), 255) << time;
-        // Ahead of the blade and of the water that it pushes the glass is as it was: dry.
+        // The glass ahead of the blade and of the pushed water is still dry.
         const bool goes_up = time < 0.6 || time > 1.5;
         if (time < 0.6) {
             EXPECT_EQ(covered(wiper, angle + 0.1, wiper.last), 0) << time;
         }
-        // Behind it lies a film in streaks: some of it, not all.
+        // Behind the blade a film in streaks covers a part of the glass.
         const double sign = goes_up ? -1.0 : 1.0;
         const double near = angle + sign * 0.04;
         const double far = angle + sign * 0.3;
@@ -304,7 +304,7 @@ TEST_F(WipersSeen, BladesAreWhereTheyWipe)
     EXPECT_EQ(view_->frame(), over(layer_, view_->bare()));
 }
 
-TEST_F(WipersSeen, TheWedgeOfPushedWaterLiesAtThePillarAlone)
+TEST_F(VisibleWipers, TheWedgeOfPushedWaterLiesOnlyAtThePillar)
 {
     // The eye sees both turning points.
     options_.eye_distance = 1.8;
@@ -322,7 +322,7 @@ TEST_F(WipersSeen, TheWedgeOfPushedWaterLiesAtThePillarAlone)
     EXPECT_LT(beside_other, alone / 4) << "the left blade wipes there";
 }
 
-TEST_F(WipersSeen, BladesAreBlurredWhileTheShutterIsOpen)
+TEST_F(VisibleWipers, BladesAreBlurredWhileTheShutterIsOpen)
 {
     const Wiper& wiper = parameters_.wipers[1];
     const double angle = wiper.angleAt(0.3);
@@ -336,7 +336,7 @@ TEST_F(WipersSeen, BladesAreBlurredWhileTheShutterIsOpen)
     EXPECT_NE(view_->frame(), view_->bare());
 }
 
-/// A panorama of 24 by 12 fields of 15 degrees, each of another colour.
+/// Panorama of 24 by 12 fields of 15 degrees, each with its own colour.
 Environment fields()
 {
     Environment environment{48, 24, {}};
@@ -350,7 +350,7 @@ Environment fields()
     return environment;
 }
 
-/// The colour of the field in the direction: x right, y ahead, z up.
+/// Colour of the field in a direction: x right, y ahead, z up.
 std::array<float, 3> fieldAt(const Environment& environment, Vec3 direction)
 {
     const double longitude = std::atan2(direction.x, direction.y) / kDegree;
@@ -360,13 +360,13 @@ std::array<float, 3> fieldAt(const Environment& environment, Vec3 direction)
     return environment.radiance[static_cast<std::size_t>(48 * row + column)];
 }
 
-TEST(View, RaysBeyondThePictureMeetTheSurroundings)
+TEST(View, RaysBeyondThePictureShowThePanorama)
 {
     const Environment environment = fields();
     const float half = std::tan(20.0F * static_cast<float>(kDegree));
     Backdrop backdrop(64, 64, half, half);
     const Picture red = filled(64, 64, {255, 0, 0}, {255, 0, 0});
-    backdrop.take(red, Highlights(red, 1.0F, 0.0));
+    backdrop.setPicture(red, Highlights(red, 1.0F, 0.0));
     // Turned by a right angle: the picture's middle is to the right of the car.
     for (const bool is_turned : {false, true}) {
         const PictureFrame frame =
@@ -383,8 +383,8 @@ TEST(View, RaysBeyondThePictureMeetTheSurroundings)
                     const Vec3f own = toFloats(direction);
                     const Vec3f in_car = frame.toCar(own);
                     const auto field = fieldAt(environment, {in_car.x, in_car.y, in_car.z});
-                    const Four seen = backdrop.at(backdrop.placeOf(own, 0));
-                    const Four pixel = backdrop.at(backdrop.pixelAt(backdrop.placeOf(own, 0)));
+                    const Float4 seen = backdrop.at(backdrop.placeOf(own, 0));
+                    const Float4 pixel = backdrop.at(backdrop.pixelAt(backdrop.placeOf(own, 0)));
                     for (int c = 0; c < 3; ++c) {
                         const float expected = is_in_picture && !is_all ? (c == 0 ? 1.0F : 0.0F)
                                                                         : 2.0F * field[static_cast<std::size_t>(c)];
@@ -397,7 +397,7 @@ TEST(View, RaysBeyondThePictureMeetTheSurroundings)
     }
 }
 
-TEST(View, SurroundingsAreAllOfTheBackgroundWhereThereIsNoPicture)
+TEST(View, PanoramaIsTheWholeBackgroundWithoutAPicture)
 {
     const Environment environment = fields();
     ViewOptions options = small();
@@ -417,7 +417,7 @@ TEST(View, SurroundingsAreAllOfTheBackgroundWhereThereIsNoPicture)
             EXPECT_NEAR(view.bare().rgb[3 * (160 * y + x) + c], encoded(field[c]), 1) << longitude << " " << latitude;
         }
     }
-    // Droplets do not depend on what was seen before.
+    // Droplets do not depend on earlier pictures.
     const WindshieldState state = rained(parameters, 60);
     view.show(state);
     const Picture around = view.frame();
@@ -437,7 +437,7 @@ TEST(View, SurroundingsAreAllOfTheBackgroundWhereThereIsNoPicture)
 
 TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
 {
-    for (const double pixels : {9.0, 41.0, 90.0}) {  // the last ones on fewer pixels
+    for (const double pixels : {9.0, 41.0, 90.0}) {  // the last two are computed on smaller pictures
         ViewOptions options;
         options.width = 320;
         options.height = 180;
@@ -468,7 +468,7 @@ TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
         EXPECT_NEAR(sum / std::exp2(options.exposure), 1.0, 0.02) << "light is kept";
         EXPECT_NEAR(4.0 * std::sqrt(xx / sum), pixels, 0.02 * pixels + 0.5) << "a disc's variance is r^2 / 4";
         EXPECT_NEAR(4.0 * std::sqrt(yy / sum), pixels, 0.02 * pixels + 0.5);
-        // As bright all over, and round: a box would reach into its corners.
+        // The disc is uniform and round: a box would reach into its corners.
         const int within = static_cast<int>(0.3 * pixels);
         const int beyond = static_cast<int>(0.45 * pixels) + 1;
         EXPECT_NEAR(light(x0 + within, y0) / light(x0, y0), 1.0, 0.03);
@@ -494,7 +494,7 @@ TEST(View, DropletsStaySharpInFrontOfABlurredBackground)
     EXPECT_NE(sharp.second, blurred.second);
 }
 
-/// An upright flat glass close by, and a droplet that climbs in front of the middle.
+/// Near upright flat glass, with a droplet that climbs in the middle.
 class Shutter : public ::testing::Test {
 protected:
     Shutter()
@@ -557,7 +557,7 @@ TEST_F(Shutter, TheFrameIsTheMeanOfItsMoments)
     EXPECT_LT(squared, 0.01 * squared_sharp) << "everywhere";
 }
 
-TEST_F(Shutter, DropletsAreAsLongAsTheirWay)
+TEST_F(Shutter, DropletsAreAsLongAsTheirMotion)
 {
     const auto extents = [&](double open_time) {
         const Layer layer = seen(state_, open_time).second;
@@ -586,7 +586,7 @@ TEST_F(Shutter, DropletsAreAsLongAsTheirWay)
     }
 }
 
-TEST_F(Shutter, WhatIsAtRestStaysSharp)
+TEST_F(Shutter, ObjectsAtRestStaySharp)
 {
     WindshieldState state = state_;
     RunningDroplet resting = state.droplets[0];
@@ -606,7 +606,7 @@ TEST_F(Shutter, WhatIsAtRestStaysSharp)
         is_blurred = is_blurred || !std::equal(row, row + 3 * column, other);
     }
     EXPECT_TRUE(is_blurred);
-    // A state in which nothing moves has the frame of an instant.
+    // If nothing moves, the frame is that of an instant.
     state.droplets[0].velocity = {};
     EXPECT_EQ(seen(state, 0.02), seen(state, 0.0));
 }
@@ -620,7 +620,7 @@ TEST_F(Shutter, TheRoadIsBlurredAlongItsWay)
     EXPECT_EQ(road.at(7.0, 0.0), road.at(7.0));
     constexpr double kPassed = 1.5;
     constexpr int kMoments = 24;
-    // Film takes the mean light: its answer, 1 - e^(-1.15 x), is undone first.
+    // Film averages light, so its response, 1 - e^(-1.15 x), is inverted first.
     const auto light = [](const Picture& picture, std::size_t i) {
         return -std::log(1.0 - std::min(static_cast<double>(displayLevels()[picture.rgb[i]]), 0.95)) / 1.15;
     };
@@ -659,7 +659,7 @@ TEST(View, LayerOverTheBarePictureIsTheFrame)
     }
 }
 
-TEST(View, ManyStepsLeadWhereOneLookDoes)
+TEST(View, ManyUpdatesEqualOneUpdate)
 {
     const WindshieldParameters parameters = heavyRain();
     const Picture behind = slanted(160, 90);
@@ -676,13 +676,13 @@ TEST(View, ManyStepsLeadWhereOneLookDoes)
     anew.show(state);
     anew.lookAt(behind);
     EXPECT_EQ(followed.layer(), anew.layer());
-    // Nothing is drawn again where nothing has changed.
+    // Unchanged cells are not drawn again.
     const std::size_t drawn = followed.cellsDrawn();
     followed.show(state);
     EXPECT_EQ(followed.cellsDrawn(), drawn);
 }
 
-TEST(StillMapOf, ManyUpdatesAreWhatTheMapFromScratchIs)
+TEST(StillMapOf, ManyUpdatesEqualAMapFromScratch)
 {
     const WindshieldParameters parameters = heavyRain();
     const MapWindow window{{0.05, 0.03}, {0.21, 0.19}, 1.7e-4};
@@ -691,17 +691,17 @@ TEST(StillMapOf, ManyUpdatesAreWhatTheMapFromScratchIs)
     for (int k = 0; k < 80; ++k) {
         state = step(std::move(state), parameters, 1.0 / 60.0);
         if (k % 3 == 0) {
-            followed.follow(StillCells::of(state.still));
+            followed.update(StillCells::of(state.still));
         }
     }
-    followed.follow(StillCells::of(state.still));
+    followed.update(StillCells::of(state.still));
     StillMap scratch(window, 1.7);
-    scratch.follow(StillCells::of(state.still));
+    scratch.update(StillCells::of(state.still));
     EXPECT_EQ(followed.texels(), scratch.texels());
     EXPECT_TRUE(std::any_of(scratch.texels().begin(), scratch.texels().end(), [](Texel t) { return !t.empty(); }));
 }
 
-TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
+TEST(StillMapOf, HasTheWaterOfItsDroplets)
 {
     WindshieldParameters parameters;
     parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.1});
@@ -710,11 +710,11 @@ TEST(StillMapOf, HoldsTheWaterOfItsDroplets)
     const auto cell = static_cast<std::size_t>(0.05 / still.cell);
     const double volume = 0.4e-9;
     still.put(cell * still.columns + cell, {{0.0501, 0.0503}, volume});
-    // Midpoints, and a rim in which coverage goes with the distance: first order at least.
+    // Midpoints, and a rim with linear coverage, give at least first order.
     double coarse_error = 0.0;
     for (const auto& [texel, angle] : {std::pair(4e-5, 90.0), {2e-5, 90.0}, {2e-5, 140.0}, {2e-5, 60.0}}) {
         StillMap map({{0.04, 0.04}, {0.06, 0.06}, texel}, angle * kDegree);
-        map.follow(still);
+        map.update(still);
         double sum = 0.0;
         for (const Texel& one : map.texels()) {
             sum += one.thickness() * texel * texel * one.cover() / 255.0;
@@ -778,8 +778,8 @@ TEST(View, LotusTracksAreBare)
     EXPECT_LT(wet(), before);
 }
 
-// A bright sky is blue in the droplets, too: neither its highlights nor what is brighter than white change hue.
-TEST(View, DropletsKeepTheHueOfWhatIsBehind)
+// A bright sky is also blue in droplets: neither highlights nor light brighter than white change their hue.
+TEST(View, DropletsKeepTheHueOfTheBackground)
 {
     const WindshieldParameters parameters = heavyRain();
     const WindshieldState state = rained(parameters, 60);
@@ -835,7 +835,7 @@ TEST(View, LampsByNightAreBrighterThanTheirPixels)
     EXPECT_EQ(brightness({}), brightness(3.0));
 }
 
-TEST(View, AStopIsTwiceTheLight)
+TEST(View, AStopDoublesTheLight)
 {
     const WindshieldParameters parameters = heavyRain();
     const WindshieldState state = rained(parameters, 40);
@@ -856,7 +856,7 @@ TEST(View, AStopIsTwiceTheLight)
     EXPECT_THROW(light(9.0), Error);
 }
 
-TEST(View, TheEyeIsAndLooksWhereItIsToldTo)
+TEST(View, TheEyeFollowsItsOptions)
 {
     WindshieldParameters parameters;
     parameters.glass = Glass(Glass::Cylinder{.width = 0.6, .height = 0.4, .radius = kFlat, .slope = 90.0 * kDegree});
@@ -869,7 +869,7 @@ TEST(View, TheEyeIsAndLooksWhereItIsToldTo)
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->x, 0.3 + 0.05 + pixel * (10.5 - 100.0), 1e-6);
     EXPECT_NEAR(place->y, 0.2 + 0.02 - pixel * (70.5 - 50.0), 1e-6);
-    // Turned towards a droplet, it has that in the middle, and its place on the glass, too.
+    // An eye that looks at a droplet has it, and its place on the glass, in the middle of the frame.
     WindshieldState state = oneDroplet(parameters, 20e-9);
     state.droplets[0].position = {0.43, 0.27};
     options.look_at = Vec3{0.13, 0.0, 0.07};
@@ -901,7 +901,7 @@ TEST(View, TheEyeIsAndLooksWhereItIsToldTo)
     EXPECT_THROW(DriversView(parameters.glass, options), Error);
 }
 
-TEST(View, RefusesWhatCannotBeSeen)
+TEST(View, RejectsInvalidArguments)
 {
     const Glass glass;
     EXPECT_THROW(DriversView(glass, {.width = 8}), Error);
@@ -919,7 +919,7 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
 {
     WindshieldParameters parameters = heavyRain();
     parameters.wipers.clear();
-    // Rows of torn droplets lie close: drawn flatter than they lay they would overlap.
+    // Torn droplets lie close together: with a smaller contact angle they would overlap.
     parameters.tear_off_weber = std::numeric_limits<double>::infinity();
     const WindshieldState state = rained(parameters, 20);
     GlassMapOptions options;
@@ -934,7 +934,7 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
         }
         return water / (all.on_glass_still + all.on_glass_running);
     };
-    // At any width, and whatever the contact angle.
+    // This holds at any width and contact angle.
     for (const int width : {16, 33, 64, 200, 1024, 3000}) {
         options.width = width;
         EXPECT_NEAR(share(), 1.0, 0.005) << width;
@@ -956,7 +956,7 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
     }
 }
 
-TEST(GlassMapsOf, FloatsAreTheSameAsNumbers)
+TEST(GlassMapsOf, FloatMapsMatchIntegerMaps)
 {
     WindshieldParameters parameters = heavyRain();
     parameters.wipers.clear();
@@ -969,7 +969,7 @@ TEST(GlassMapsOf, FloatsAreTheSameAsNumbers)
     for (std::size_t i = 0; i < floats.thickness.values.size(); ++i) {
         const auto thickness = static_cast<double>(floats.thickness.values[i]);
         water += thickness;
-        // Rounding goes from pixel to pixel.
+        // Rounding errors move to the next pixel.
         EXPECT_NEAR(std::min(thickness, 5e-3), levels.thickness.levels[i] / 65535.0 * 5e-3, 1.6e-7);
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
             EXPECT_NEAR(static_cast<double>(floats.normal.values[c]), levels.normal.levels[c] / 32767.5 - 1.0, 2e-5);
@@ -984,7 +984,7 @@ TEST(GlassMapsOf, FloatsAreTheSameAsNumbers)
     EXPECT_NEAR(water / (all.on_glass_still + all.on_glass_running), 1.0, 0.005);
 }
 
-// What is smaller than a texel shows as smooth glass, not as the normal at its middle.
+// A droplet smaller than a texel looks like smooth glass, not like the normal at the texel's middle.
 TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
 {
     WindshieldParameters parameters;
@@ -992,7 +992,7 @@ TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
     WindshieldState state = startWindshield(parameters);
     RunningDroplet droplet;
     droplet.volume = 1e-9;
-    // In the middle of a texel of 10 mm, and off it: the texel's own middle lies on its slope.
+    // The droplet is in the middle of a texel of 10 mm, or beside it: then the texel's middle lies on its slope.
     for (const double x : {0.035, 0.0355}) {
         state.droplets = {droplet};
         state.droplets[0].position = {x, 0.025};
@@ -1001,7 +1001,7 @@ TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
             EXPECT_NEAR(coarse.normal.levels[i], 32768, 400);
             EXPECT_GT(coarse.normal.levels[i + 2], 65500);
         }
-        // A mean of finer texels is the coarser one.
+        // The mean of finer texels is the coarser texel.
         const GlassMaps fine = glassMaps(parameters.glass, state, {.width = 64});
         const auto water = [](const GlassMaps& maps) {
             return std::accumulate(maps.thickness.levels.begin(), maps.thickness.levels.end(), 0.0);
@@ -1010,13 +1010,13 @@ TEST(GlassMapsOf, NormalsAreMeansOverTheirTexels)
     }
 }
 
-TEST(GlassMapsOf, TellWhereADropletIsAndWhereItGoes)
+TEST(GlassMapsOf, ShowPositionAndVelocityOfADroplet)
 {
     WindshieldParameters parameters;
     parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.05});
     WindshieldState state = startWindshield(parameters);
     RunningDroplet droplet;
-    droplet.position = {0.02, 0.04};  // left of the middle, above it
+    droplet.position = {0.02, 0.04};  // to the left of the middle, and above it
     droplet.velocity = {-0.5, 1.0};
     droplet.volume = 20e-9;
     state.droplets.push_back(droplet);
@@ -1028,7 +1028,7 @@ TEST(GlassMapsOf, TellWhereADropletIsAndWhereItGoes)
     EXPECT_NEAR(maps.velocity.levels[3 * middle], 65535 * 0.5 * (1.0 - 0.25), 1.0);
     EXPECT_NEAR(maps.velocity.levels[3 * middle + 1], 65535 * 0.5 * (1.0 + 0.5), 1.0);
     EXPECT_EQ(maps.velocity.levels[3 * middle + 2], 65535);
-    // Its right side looks right, its upper side up.
+    // The normal of its right side points right, that of its upper side up.
     EXPECT_GT(maps.normal.levels[3 * (middle + 2)], 33000);
     EXPECT_LT(maps.normal.levels[3 * (middle - 3)], 32500);
     EXPECT_GT(maps.normal.levels[3 * (middle - 2 * 200) + 1], 33000);
@@ -1039,7 +1039,7 @@ TEST(GlassMapsOf, TellWhereADropletIsAndWhereItGoes)
     EXPECT_THROW(glassMaps(parameters.glass, state, {.full_speed = 0.0}), Error);
 }
 
-TEST(View, ItsDefaultBackgroundGoesByAndNothingElse)
+TEST(View, DefaultBackgroundChangesOnlyWithTheWay)
 {
     const Picture here = defaultBackground(small());
     EXPECT_EQ(here.width, small().width);
@@ -1050,7 +1050,7 @@ TEST(View, ItsDefaultBackgroundGoesByAndNothingElse)
     EXPECT_THROW(defaultBackground(small(), std::nan("")), Error);
 }
 
-TEST(DefaultBackgroundOf, MovesOnlyWhatIsOnTheRoad)
+TEST(DefaultBackgroundOf, OnlyLightsAndDashesMove)
 {
     ViewOptions options;
     options.width = 640;
@@ -1061,7 +1061,7 @@ TEST(DefaultBackgroundOf, MovesOnlyWhatIsOnTheRoad)
     EXPECT_EQ(here, road.at(0.0)) << "nothing of one picture is left in the next";
     const Picture there = road.at(7.0);
     EXPECT_EQ(there, defaultBackground(options, 7.0));
-    // Lights and dashes lie in a quarter of the picture; sky, verges and the lines along the road stay.
+    // Lights and dashes lie in a quarter of the picture; sky, verges and continuous lines do not change.
     std::size_t changed = 0;
     for (std::size_t i = 0; i < here.rgb.size(); i += 3) {
         changed += std::equal(&here.rgb[i], &here.rgb[i] + 3, &there.rgb[i]) ? 0 : 1;
@@ -1075,7 +1075,7 @@ TEST(DefaultBackgroundOf, MovesOnlyWhatIsOnTheRoad)
     EXPECT_EQ(there, sample(7.0));
 }
 
-// The lens blurs the lines along the road all around, whichever way they run, as it does the lights.
+// The lens blurs lines in all directions, as it does lights.
 TEST(DefaultBackgroundOf, LinesAlongTheRoadAreSoft)
 {
     ViewOptions options;

@@ -16,7 +16,7 @@ class WaterOptics : public ::testing::Test {
 protected:
     float uniform() { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random_); }
 
-    /// A unit vector over the plane z = 0.
+    /// Unit vector above the plane z = 0.
     Vec3f upward()
     {
         const float z = uniform();
@@ -71,7 +71,7 @@ TEST_F(WaterOptics, RaysLeaveWaterBySnellAndFresnel)
     EXPECT_GT(reflected, 100);
 }
 
-TEST_F(WaterOptics, NothingButThePaneIsBetweenParallelFaces)
+TEST_F(WaterOptics, FlatWaterDoesNotTurnRays)
 {
     for (int k = 0; k < 200; ++k) {
         const Vec3f direction = upward();
@@ -87,7 +87,7 @@ TEST_F(WaterOptics, RaysLeaveCapsulesWhereTheyMeetThem)
         const float angle = 0.4F + 2.3F * uniform();
         const Capsule capsule{3.0F * uniform(), 1.0F, -std::cos(angle)};
         const float contact = std::sin(angle);
-        // A place on the footprint.
+        // The point lies on the footprint.
         const float turn = 6.2831853F * uniform();
         const float far = 0.98F * contact * std::sqrt(uniform());
         const Vec3f from{capsule.half_length * (2.0F * uniform() - 1.0F) + far * std::cos(turn), far * std::sin(turn),
@@ -96,7 +96,7 @@ TEST_F(WaterOptics, RaysLeaveCapsulesWhereTheyMeetThem)
         const Vec3f normal = normalAtExit(capsule, from, direction);
         EXPECT_NEAR(dot(normal, normal), 1.0F, 1e-4F);
         EXPECT_GE(dot(normal, direction), -1e-3F) << "rays leave outward";
-        // The point on the capsule with that normal, the line's point being free: it must lie on the ray.
+        // The points on the capsule with this normal form a line; one of them must lie on the ray.
         const float y = normal.y * capsule.radius - from.y;
         const float z = normal.z * capsule.radius + capsule.centre_height;
         const float way = (y * direction.y + z * direction.z) / (direction.y * direction.y + direction.z * direction.z);

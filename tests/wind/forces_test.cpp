@@ -26,7 +26,7 @@ double between(std::mt19937_64& random, double from, double to)
     return from + (to - from) * static_cast<double>(random() >> 11U) * 0x1p-53;
 }
 
-TEST(Cap, OfTheMeasuredAngleHasItsSizes)
+TEST(Cap, SizesMatchAtTheMeasuredAngle)
 {
     struct Size {
         double volume;          // [µL]
@@ -55,9 +55,9 @@ TEST(Cap, HemisphereIsHalfASphere)
     EXPECT_NEAR(capVolume(r, 0.5 * kPi), cap.volume, 1e-22);
 }
 
-// The frontal area of a flat cap is what a naive difference of nearly equal numbers gets wrong: against quadrature of
-// the segment of its circle, at angles on both sides of the series' end.
-TEST(Cap, FrontalAreaIsTheCirclesSegmentHoweverFlat)
+// For a flat cap the frontal area is a difference of nearly equal numbers. It is compared with a quadrature of the
+// circular segment, at angles on both sides of the series' limit.
+TEST(Cap, FrontalAreaIsExactForFlatCaps)
 {
     for (const double theta : {0.02, 0.1, 0.2499, 0.2501, 0.8, 1.6, 2.5, 3.1}) {
         const CapSize cap = capOf(1e-8, theta);
@@ -78,7 +78,7 @@ TEST(Cap, FrontalAreaIsTheCirclesSegmentHoweverFlat)
     }
 }
 
-TEST(Wind, IsSlowedInTheBoundaryLayerOnly)
+TEST(Wind, IsSlowerOnlyInTheBoundaryLayer)
 {
     Air air;
     air.boundary_layer = 8e-3;
@@ -93,8 +93,8 @@ TEST(Wind, IsSlowedInTheBoundaryLayerOnly)
     EXPECT_DOUBLE_EQ(windAt(air, 10.0, 0.0), 10.0);
 }
 
-// Eqs. 3.2 to 3.5 on a hemisphere of 2 mm, by hand.
-TEST(Forces, OnAHemisphereAreTheEquations)
+// Eqs. 3.2 to 3.5 for a hemisphere of 2 mm, calculated by hand.
+TEST(Forces, OfAHemisphereMatchTheEquations)
 {
     ForceModel model;
     model.wetting = {0.5 * kPi, 0.5, {}, 0.25, 0.3};
@@ -111,7 +111,7 @@ TEST(Forces, OnAHemisphereAreTheEquations)
     EXPECT_NEAR(drivingForce(forces, 30.0 * kDegree, -10.0), -100.0 * forces.drag - 0.5 * forces.weight, 1e-17);
 }
 
-TEST(Forces, FallingAngleHoldsThatShareOfEveryWeight)
+TEST(Forces, FallingAngleGivesRetentionOverWeight)
 {
     ForceModel model;
     model.wetting.falling_angle = 10.0 * kDegree;
@@ -121,7 +121,7 @@ TEST(Forces, FallingAngleHoldsThatShareOfEveryWeight)
     }
 }
 
-TEST(Forces, HysteresisOfAFallingAngleHoldsThatVolumeThere)
+TEST(Forces, HysteresisOfAFallingAngleHoldsItsVolume)
 {
     std::mt19937_64 random(11);
     for (int k = 0; k < 100; ++k) {
@@ -136,8 +136,8 @@ TEST(Forces, HysteresisOfAFallingAngleHoldsThatVolumeThere)
     }
 }
 
-// Figure 3.4: no wind, 35° under a droplet that 10° hold.
-TEST(Forces, WithoutWindTheMeasuredPlaneAcceleratesByItsAngles)
+// Figure 3.4: no wind, slope 35°, falling angle 10°.
+TEST(Forces, WithoutWindAccelerationFollowsFromTheAngles)
 {
     const ForcePreset& preset = forcePresetNamed("hashimoto");
     const double bound = 9.81 * (std::sin(35.0 * kDegree) - std::sin(10.0 * kDegree));
@@ -152,7 +152,7 @@ TEST(Forces, WithoutWindTheMeasuredPlaneAcceleratesByItsAngles)
     EXPECT_NEAR(acceleration(reference, drivingForce(reference, preset.slope, 0.0), 0.0), -bound, 1e-12);
 }
 
-TEST(Forces, TerminalSpeedOfThirtyMicrolitres)
+TEST(Forces, TerminalSpeedOf30MicrolitresMatches)
 {
     ForceModel model;
     model.wetting.falling_angle = 10.0 * kDegree;
@@ -165,9 +165,9 @@ TEST(Forces, TerminalSpeedOfThirtyMicrolitres)
     EXPECT_NEAR(speed(0.045), 1.2, 0.05);
 }
 
-TEST(Forces, WedgeTheoryGivesItsFactor)
+TEST(Forces, WedgeTheoryGivesTheViscosityFactor)
 {
-    // 2π ln(R/λ) at 90° is over π/2: 4 ln(R/λ).
+    // At 90° the formula is 2π ln(R/λ) / (π/2) = 4 ln(R/λ).
     EXPECT_NEAR(wedgeViscosityFactor(1e-3, 0.5 * kPi, kMolecularCutOff * std::exp(10.0)), 0.04, 1e-15);
     for (const double degrees : {90.0, 105.0}) {
         const double radius = capOf(30e-9, degrees * kDegree).radius;
@@ -182,16 +182,16 @@ TEST(Friction, CancelsUpToItsLimitAtRest)
     const DropletForces forces{1e-5, 1e-4, 1e-7, 3e-5, 2e-5, 1e-3};
     EXPECT_EQ(acceleration(forces, 3e-5, 0.0), 0.0);
     EXPECT_EQ(acceleration(forces, -3e-5, 0.0), 0.0);
-    // Over it, what slides has the friction of sliding: 4e-5 − 2e-5 on 1e-5 kg.
+    // Above the limit, sliding friction acts: 4e-5 − 2e-5 on 1e-5 kg.
     EXPECT_NEAR(acceleration(forces, 4e-5, 0.0), 2.0, 1e-12);
     EXPECT_NEAR(acceleration(forces, -4e-5, 0.0), -2.0, 1e-12);
-    // It brakes what moves, wherever that is driven to.
+    // Friction opposes the motion, in any direction of the driving force.
     EXPECT_NEAR(acceleration(forces, 0.0, 0.01), -3.0, 1e-12);
     EXPECT_NEAR(acceleration(forces, 0.0, -0.01), 3.0, 1e-12);
     EXPECT_NEAR(acceleration(forces, 2e-5, -0.01), 5.0, 1e-12);
 }
 
-TEST(Friction, OfThePlaneIsThatOfTheLineInEveryDirection)
+TEST(Friction, IsTheSameInEveryDirectionOfThePlane)
 {
     std::mt19937_64 random(7);
     for (int k = 0; k < 300; ++k) {
@@ -209,7 +209,7 @@ TEST(Friction, OfThePlaneIsThatOfTheLineInEveryDirection)
     }
 }
 
-// No driving force: friction alone can only take energy.
+// Without a driving force, friction only removes energy.
 TEST(Friction, NeverDrives)
 {
     std::mt19937_64 random(3);
@@ -220,7 +220,7 @@ TEST(Friction, NeverDrives)
     }
 }
 
-TEST(Forces, TerminalVelocityIsWhereAccelerationEnds)
+TEST(Forces, AccelerationIsZeroAtTerminalVelocity)
 {
     std::mt19937_64 random(5);
     for (int k = 0; k < 300; ++k) {
@@ -240,7 +240,7 @@ TEST(Presets, AreValidAndKnownByName)
     for (const ForcePreset& preset : forcePresets()) {
         EXPECT_NO_THROW(preset.model.validate()) << preset.name;
         EXPECT_EQ(&forcePresetNamed(preset.name), &preset);
-        // What was fitted holds of all volumes worth a look: they are lower than the boundary layer.
+        // The fit holds for all default volumes: they are lower than the boundary layer.
         for (const double volume : preset.volumes) {
             EXPECT_LT(capOf(volume, preset.model.wetting.contact_angle).height, preset.model.air.boundary_layer);
         }
@@ -258,7 +258,7 @@ TEST(Presets, AreValidAndKnownByName)
     }
 }
 
-TEST(ForceModel, RefusesWhatIsOutOfRangeByName)
+TEST(ForceModel, RejectsFieldsOutOfRange)
 {
     const auto expect_refused = [](const std::string& field, const std::function<void(ForceModel&)>& spoil) {
         ForceModel model;

@@ -38,7 +38,7 @@ DropletForces measured(double kinetic_fraction = 1.0, double viscosity_factor = 
 }
 
 // v = v∞ (1 − e^(−t/τ)), x = v∞ (t − τ (1 − e^(−t/τ))), τ = m/c.
-TEST(Trace, InASteadyWindIsTheClosedForm)
+TEST(Trace, MatchesTheClosedFormInASteadyWind)
 {
     for (const double factor : {0.5, 0.045}) {
         const DropletForces forces = measured(1.0, factor);
@@ -67,7 +67,7 @@ TEST(Trace, WithoutViscosityFallsFreelyUnderFriction)
     EXPECT_NEAR(last.position, 0.125 * rate, 1e-14);
 }
 
-TEST(Trace, InTheStillBandAPushedDropletIsCaughtWhereTheClosedFormSays)
+TEST(Trace, PushedDropletInTheStillBandStopsAtTheClosedForm)
 {
     const DropletForces forces = measured();
     MotionOptions options{0.5, 0.01};
@@ -85,7 +85,7 @@ TEST(Trace, InTheStillBandAPushedDropletIsCaughtWhereTheClosedFormSays)
                 tau * 0.3 - tau * brake / forces.viscous * std::log1p(forces.viscous * 0.3 / brake), 1e-14);
 }
 
-TEST(Trace, WhatIsThrownUpTurnsAndRunsDown)
+TEST(Trace, DropletThrownUpTurnsAndRunsDown)
 {
     MotionOptions options{1.0, 0.01};
     options.velocity = 0.5;
@@ -110,7 +110,7 @@ TEST(Trace, WithinTheStillBandNothingMoves)
     }
 }
 
-/// Closed form of a droplet that climbs throughout: D = k (U + A sin ωt)² is a constant, a sine and a cosine.
+/// Closed form of a droplet that always climbs: D = k (U + A sin ωt)² is a constant, a sine and a cosine.
 struct Climbing {
     const DropletForces& forces;
     Gust wind;
@@ -133,7 +133,7 @@ struct Climbing {
     }
 };
 
-TEST(Trace, InAGustConvergesWithFourthOrder)
+TEST(Trace, ConvergesWithFourthOrderInAGust)
 {
     const DropletForces forces = measured();
     const Climbing exact{forces, {14.0, 1.0, 0.4}};
@@ -146,7 +146,7 @@ TEST(Trace, InAGustConvergesWithFourthOrder)
         }
         return max;
     };
-    // The quarters of the gust, to which steps are cut, are whole numbers of these steps.
+    // Steps end at the turns of the gust, which are multiples of these steps.
     double coarse = error(0.1 / 4);
     for (const double parts : {8.0, 16.0, 32.0}) {
         const double fine = error(0.1 / parts);
@@ -155,7 +155,7 @@ TEST(Trace, InAGustConvergesWithFourthOrder)
     }
 }
 
-TEST(Trace, InAGustKeepsToItsTolerance)
+TEST(Trace, KeepsItsToleranceInAGust)
 {
     const DropletForces forces = measured();
     const Climbing exact{forces, {14.0, 1.0, 0.4}};
@@ -167,20 +167,20 @@ TEST(Trace, InAGustKeepsToItsTolerance)
         EXPECT_GT(found.steps, steps);
         steps = found.steps;
         for (const MotionPoint& point : found.points) {
-            // Viscosity forgets the errors of earlier steps, so they do not add up over many.
+            // Viscosity damps the errors of earlier steps, so they do not add up.
             EXPECT_NEAR(point.velocity, exact.velocity(point.time), 10.0 * tolerance) << tolerance;
         }
     }
 }
 
-// Stick–slip: gusts over the upper threshold let a droplet climb, lulls hold it.
-TEST(Trace, GustsMakeItStickAndSlipOncePerPeriod)
+// Stick–slip: a droplet climbs in gusts above the upper threshold and rests in lulls.
+TEST(Trace, DropletSticksAndSlipsOncePerGust)
 {
     std::mt19937_64 random(9);
     for (int k = 0; k < 30; ++k) {
         const DropletForces forces = measured(between(random, 0.5, 1.0), between(random, 0.1, 1.0));
         const double period = between(random, 0.5, 2.0);
-        const Gust wind{9.3, 2.0, period};  // within 7.7 and 10.5 m/s at the mean, over it at the most
+        const Gust wind{9.3, 2.0, period};  // the still band is 7.7 to 10.5 m/s: the mean is in it, the peak above
         const double weight = forces.weight * std::sin(kSlope);
         const Motion found = traceMotion(forces, kSlope, wind, {5.0 * period, period / 200.0});
         ASSERT_GE(found.events.size(), 9U);
@@ -207,7 +207,7 @@ TEST(Trace, GustsMakeItStickAndSlipOncePerPeriod)
     }
 }
 
-// Where events fall must not depend on how the series is cut.
+// The times of events must not depend on the interval of the series.
 TEST(Trace, IsTheSameAtAnyInterval)
 {
     const DropletForces forces = measured(0.7);
@@ -225,8 +225,8 @@ TEST(Trace, IsTheSameAtAnyInterval)
     }
 }
 
-// A droplet of a picolitre is stopped in less than a microsecond: a stiff equation.
-TEST(Trace, TakesFewStepsHoweverViscous)
+// A droplet of a picolitre stops in less than a microsecond: a stiff equation.
+TEST(Trace, TakesFewStepsAtAnyViscosity)
 {
     ForceModel model = forcePresetNamed("hashimoto").model;
     model.wetting.hysteresis = 0.0;
@@ -241,7 +241,7 @@ TEST(Trace, TakesFewStepsHoweverViscous)
     }
 }
 
-TEST(Trace, RefusesWhatIsOutOfRangeByName)
+TEST(Trace, RejectsFieldsOutOfRange)
 {
     const auto expect_refused = [](const std::string& field, const std::function<void(MotionOptions&, Gust&)>& spoil) {
         MotionOptions options;

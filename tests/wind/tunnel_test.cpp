@@ -51,7 +51,7 @@ double hemisphere(double radius)
 }
 
 // A hemisphere slides when r > λ √(3Δ/(4 sin α)), λ the capillary length.
-TEST(CriticalVolume, OfHemispheresIsTheClosedForm)
+TEST(CriticalVolume, OfHemispheresMatchesTheClosedForm)
 {
     EXPECT_NEAR(*criticalVolume(hemispheres(0.5), 0.5 * kPi), 9.75e-9, 0.01e-9);
     EXPECT_NEAR(*criticalVolume(hemispheres(0.05), 0.5 * kPi), 0.31e-9, 0.005e-9);
@@ -71,7 +71,7 @@ TEST(CriticalVolume, OfHemispheresIsTheClosedForm)
 }
 
 // U₀² = (8/3) (ρ/ρ_a) g δ sin α / C_D and U±² = U₀² (1 ± (r_c/r)²).
-TEST(Thresholds, OfHemispheresAreTheClosedForm)
+TEST(Thresholds, OfHemispheresMatchTheClosedForm)
 {
     std::mt19937_64 random(2);
     for (int k = 0; k < 200; ++k) {
@@ -92,7 +92,7 @@ TEST(Thresholds, OfHemispheresAreTheClosedForm)
     }
 }
 
-TEST(Thresholds, OfTheMeasuredPlane)
+TEST(Thresholds, OfTheMeasuredPlaneAreNearTheMeasuredBand)
 {
     const ForcePreset& preset = forcePresetNamed("hashimoto");
     const Thresholds found = thresholdsOf(forcesOn(preset.model, preset.reference_volume), preset.slope);
@@ -100,14 +100,14 @@ TEST(Thresholds, OfTheMeasuredPlane)
     const double held = std::sin(10.0 * kDegree) / std::sin(35.0 * kDegree);
     EXPECT_NEAR(*found.lower, std::sqrt(85.0 * (1.0 - held)), 1e-12);
     EXPECT_NEAR(*found.upper, std::sqrt(85.0 * (1.0 + held)), 1e-12);
-    // All of its volumes are within 15 % of what was measured.
+    // All volumes are within 15 % of the measured band.
     for (const double volume : preset.volumes) {
         const auto distance =
             distanceFrom(kMeasuredStillBand, thresholdsOf(forcesOn(preset.model, volume), preset.slope));
         EXPECT_LT(std::abs(distance->lower), 0.15) << volume;
         EXPECT_LT(std::abs(distance->upper), 0.15) << volume;
     }
-    // With the falling angle for every volume they have one band.
+    // With the falling angle for every volume, all have the same band.
     ForceModel model = preset.model;
     model.wetting.falling_angle = 10.0 * kDegree;
     for (const double volume : preset.volumes) {
@@ -145,7 +145,7 @@ TEST(Thresholds, AreMissingWhereNothingMoves)
     EXPECT_FALSE(sheddingWind(model, capOf(30e-9, 1.0)).has_value());
 }
 
-TEST(SheddingWind, IsThatOfAWeberNumber)
+TEST(SheddingWind, HasTheCriticalWeberNumber)
 {
     const ForceModel model;
     for (const auto& [height, wind] : {std::pair(2.5e-3, 13.5), std::pair(3e-3, 12.3), std::pair(4e-3, 10.6)}) {
@@ -155,8 +155,8 @@ TEST(SheddingWind, IsThatOfAWeberNumber)
     }
 }
 
-// On either side of a threshold the regimes are what the threshold says.
-TEST(Thresholds, PartTheRegimes)
+// The regimes on both sides of a threshold match the threshold.
+TEST(Thresholds, SeparateTheRegimes)
 {
     std::mt19937_64 random(3);
     for (int k = 0; k < 300; ++k) {
@@ -181,8 +181,8 @@ TEST(Thresholds, PartTheRegimes)
     }
 }
 
-// What regimeChanges says against the regimes of many volumes.
-TEST(RegimeChanges, MissNoneOnAnyProfile)
+// regimeChanges() is compared with the regimes of many volumes.
+TEST(RegimeChanges, AreCompleteOnAnyProfile)
 {
     std::mt19937_64 random(4);
     std::size_t max = 0;
@@ -207,11 +207,11 @@ TEST(RegimeChanges, MissNoneOnAnyProfile)
             EXPECT_EQ(at(change.volume * (1.0 - 1e-7)), change.below) << k;
             EXPECT_EQ(at(change.volume * (1.0 + 1e-7)), change.above) << k;
         }
-        Regime now = at(range.from);
+        Regime now = at(range.min);
         std::size_t next = 0;
         constexpr int kVolumes = 2000;
         for (int i = 0; i <= kVolumes; ++i) {
-            const double volume = range.from * std::pow(range.to / range.from, static_cast<double>(i) / kVolumes);
+            const double volume = range.min * std::pow(range.max / range.min, static_cast<double>(i) / kVolumes);
             while (next < changes.size() && changes[next].volume < volume) {
                 EXPECT_EQ(changes[next].below, now) << k;
                 now = changes[next++].above;
@@ -228,18 +228,18 @@ TEST(RegimeChanges, MissNoneOnAnyProfile)
 
 // Hooshanginejad and Lee (2022): at one wind the tiniest stick, small ones go up, medium ones stay, large ones go down.
 //
-// In this model that is so at every slope α > 0, wind V > 0 and hysteresis Δ > 0 if n < ½. Proof, with x = V_d^(2/3):
-// - divided by V_d, what drives down is W/V_d − D/V_d − F/V_d: W/V_d is constant, D/V_d goes with V_d^((2n−1)/3) or
-//   V_d^(−1/3), F/V_d with V_d^(−2/3). So it rises from −∞ to a positive limit: droplets run down from one volume on.
-// - divided by V_d^(1/3), what drives up is D/V_d^(1/3) − w x − f, and D/V_d^(1/3) goes with x^(½+n) or x^(½),
-// whichever
-//   is less, to a factor that makes them meet at the boundary layer's edge: concave. So is the sum, negative at x = 0
-//   and at last: the volumes that climb, if there are any, are an interval.
-// - nothing climbs and runs down, so that interval lies below that volume, and still ones are between.
-// - with V, D rises at every volume, so that the interval grows and the volume from which droplets run down rises.
-// At n ≥ ½ it is not: drag then goes with V_d or faster, and a wind that lifts small ones lifts all lower than the
-// layer.
-TEST(Regimes, StandInTheirOrderOverTheVolume)
+// In this model this holds at every slope α > 0, wind V > 0 and hysteresis Δ > 0 if n < ½. Proof, with x = V_d^(2/3):
+// - The downward force over V_d is W/V_d − D/V_d − F/V_d: W/V_d is constant, D/V_d ∝ V_d^((2n−1)/3) or V_d^(−1/3),
+//   F/V_d ∝ V_d^(−2/3). So it rises from −∞ to a positive limit: droplets run down from one volume on.
+// - The upward force over V_d^(1/3) is D/V_d^(1/3) − w x − f. D/V_d^(1/3) is the smaller of terms ∝ x^(½+n) and ∝
+// x^(½),
+//   which meet at the edge of the boundary layer: it is concave. So is the sum, which is negative at x = 0 and at large
+//   x: the volumes that climb, if there are any, are an interval.
+// - No droplet both climbs and runs down. So the interval lies below that volume, with still droplets between.
+// - D rises with V at every volume. So the interval grows, and the volume from which droplets run down rises.
+// With n ≥ ½ it does not hold: drag is then ∝ V_d or grows faster, and a wind that lifts small droplets lifts all that
+// are lower than the layer.
+TEST(Regimes, AreInOrderOfVolume)
 {
     std::mt19937_64 random(5);
     int with_all = 0;
@@ -280,11 +280,11 @@ TEST(Regimes, StandInTheirOrderOverTheVolume)
 
 // Figure 3.3: in a slow wind droplets run down, larger ones faster; in a fast one they climb, larger ones faster.
 //
-// In this model that is so of droplets lower than the boundary layer if n = ½ and hysteresis goes by eq. 3.2. Proof:
-// accelerations at rest are W/m − D/m − F/m and D/m − W/m − F/m; W/m does not depend on the volume, nor does D/m as
-// S y ∝ V_d, and F/m ∝ V_d^(−2/3) falls. The first part alone needs n ≤ ½ and no bound on the height, so that D/m does
-// not rise; the second alone n ≥ ½ and the bound. Terminal speeds, m a/c with m/c ∝ V_d^(2/3), follow.
-TEST(Regimes, LargerDropletsAreFasterBothWays)
+// In this model this holds for droplets lower than the boundary layer if n = ½ and hysteresis follows eq. 3.2. Proof:
+// accelerations from rest are W/m − D/m − F/m and D/m − W/m − F/m. W/m does not depend on the volume, nor does D/m as
+// S y ∝ V_d, and F/m ∝ V_d^(−2/3) falls. The first part alone needs only n ≤ ½, so that D/m does not rise; the second
+// alone needs n ≥ ½ and the limit of the height. Terminal speeds, m a/c with m/c ∝ V_d^(2/3), follow.
+TEST(Regimes, LargerDropletsAreFasterInBothDirections)
 {
     std::mt19937_64 random(6);
     int down = 0;
@@ -336,7 +336,7 @@ TunnelSweep smallSweep()
     return what;
 }
 
-TEST(Sweep, HoldsEveryCombinationInOrder)
+TEST(Sweep, HasEveryCombinationInOrder)
 {
     const TunnelSweep what = smallSweep();
     const Tunnel tunnel = sweep(what);
@@ -369,7 +369,7 @@ TEST(Sweep, HoldsEveryCombinationInOrder)
     }
 }
 
-TEST(Sweep, WithAFallingAngleTellsTheHysteresisThatHoldsAsMuch)
+TEST(Sweep, ReportsTheHysteresisOfAFallingAngle)
 {
     TunnelSweep what = smallSweep();
     what.hystereses.clear();
@@ -380,7 +380,7 @@ TEST(Sweep, WithAFallingAngleTellsTheHysteresisThatHoldsAsMuch)
     }
 }
 
-TEST(Sweep, IsTheSameOnAnyNumberOfThreads)
+TEST(Sweep, IsTheSameWithAnyNumberOfThreads)
 {
     TunnelSweep what = smallSweep();
     what.winds.clear();
@@ -401,7 +401,7 @@ TEST(Sweep, IsTheSameOnAnyNumberOfThreads)
     }
 }
 
-TEST(Sweep, RefusesWhatIsOutOfRangeByName)
+TEST(Sweep, RejectsFieldsOutOfRange)
 {
     const auto expect_refused = [](const std::string& words, const std::function<void(TunnelSweep&)>& spoil) {
         TunnelSweep what = smallSweep();
@@ -423,7 +423,7 @@ TEST(Sweep, RefusesWhatIsOutOfRangeByName)
     expect_refused("slopes[0]", [](TunnelSweep& s) { s.slopes[0] = -0.1; });
     expect_refused("hystereses[1]", [](TunnelSweep& s) { s.hystereses[1] = 2.5; });
     expect_refused("exclude each other", [](TunnelSweep& s) { s.model.wetting.falling_angle = 0.1; });
-    expect_refused("limit of 10000000", [](TunnelSweep& s) {
+    expect_refused("at most 10000000", [](TunnelSweep& s) {
         s.winds.assign(10'000, 1.0);
         s.volumes.assign(1000, 1e-9);
     });

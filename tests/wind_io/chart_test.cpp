@@ -52,7 +52,7 @@ std::vector<std::string> textsOf(const Drawing& drawing)
     return texts;
 }
 
-/// Where values lie on the page, told by two of the numbers beside the axes.
+/// Scale of an axis, from two of the numbers beside it.
 double windAt(const Drawing& drawing, double x)
 {
     std::map<std::string, double> at;
@@ -82,7 +82,7 @@ std::vector<Line> curvesOf(const Drawing& drawing)
     return lines;
 }
 
-TEST(AccelerationChart, CurvesAreTheModels)
+TEST(AccelerationChart, CurvesMatchTheModel)
 {
     for (const char* preset : {"thesis", "hashimoto"}) {
         const TunnelSweep what = sweptPreset(preset);
@@ -99,7 +99,7 @@ TEST(AccelerationChart, CurvesAreTheModels)
                 EXPECT_NEAR(rateAt(drawing, p.y), rate, 1e-6);
                 still += std::abs(rate) < 1e-9 ? 1 : 0;
             }
-            // The corners are there to the last digit, not only near the samples.
+            // Corners are exact, not only near the samples.
             for (const auto& threshold : {of.thresholds.lower, of.thresholds.upper}) {
                 if (threshold) {
                     EXPECT_TRUE(std::ranges::any_of(curves[v].points, [&](const Vec2& p) {
@@ -138,8 +138,8 @@ TEST(AccelerationChart, NamesItsAxesAndCurves)
     }
 }
 
-// Whatever is swept: nothing leaves the page, and no two words lie over one another.
-TEST(AccelerationChart, IsLegibleWhateverIsSwept)
+// For any sweep, nothing leaves the page and no texts overlap.
+TEST(AccelerationChart, IsLegibleForAnySweep)
 {
     std::vector<TunnelSweep> sweeps{sweptPreset("thesis"), sweptPreset("hashimoto"), sweptPreset("hashimoto"),
                                     sweptPreset("thesis"), sweptPreset("thesis")};
@@ -197,7 +197,7 @@ double areaOf(const std::vector<Vec2>& points)
     return std::abs(0.5 * twice);
 }
 
-TEST(RegimeMap, PartsThePlaneIntoFourRegimes)
+TEST(RegimeMap, HasFourRegimes)
 {
     for (const char* preset : {"thesis", "hashimoto"}) {
         const TunnelSweep what = sweptPreset(preset);
@@ -222,11 +222,11 @@ TEST(RegimeMap, PartsThePlaneIntoFourRegimes)
     }
 }
 
-TEST(RegimeMap, AreasHoldTheRegimesOfTheModel)
+TEST(RegimeMap, AreasMatchTheModel)
 {
     const TunnelSweep what = sweptPreset("thesis");
     const Drawing drawing = regimeMap(what, sweep(what));
-    // Volumes are told by the numbers beside their axis.
+    // The scale of volumes comes from the numbers beside the axis.
     std::map<std::string, double> at;
     for (const Text& text : marksOf<Text>(drawing)) {
         if (text.anchor == Anchor::End) {
@@ -267,7 +267,7 @@ TEST(RegimeMap, AreasHoldTheRegimesOfTheModel)
     EXPECT_THAT(seen, Each(::testing::Gt(5)));
 }
 
-TEST(Charts, KeepARowForEachSlope)
+TEST(Charts, HaveARowForEachSlope)
 {
     TunnelSweep what = sweptPreset("thesis");
     what.slopes = {0.2, 0.5, 0.9};
@@ -292,7 +292,7 @@ TEST(Charts, KeepARowForEachSlope)
     }
 }
 
-TEST(Charts, OfTooManyPanelsAreRefused)
+TEST(Charts, RejectTooManyPanels)
 {
     TunnelSweep what = sweptPreset("thesis");
     what.slopes.assign(13, 0.5);

@@ -41,7 +41,7 @@ RunningDroplet droplet(std::uint64_t id, Vec2 position, Vec2 velocity = {}, doub
     return one;
 }
 
-/// Five frames: 1 rests, then climbs; 2 is born in the third and gone in the last.
+/// Five frames: droplet 1 rests, then climbs; droplet 2 appears in the third and is gone in the last.
 std::string fiveFrames(const Glass& glass, const DropletSceneOptions& options = {})
 {
     DropletScene scene(glass, options);
@@ -61,7 +61,7 @@ std::string fiveFrames(const Glass& glass, const DropletSceneOptions& options = 
     return out.str();
 }
 
-/// What is shown of a droplet: a cap of contact radius 1 m, with x along its way and y off the glass.
+/// Transform of a droplet's cap with contact radius 1 m: x along its motion, y off the glass.
 struct Shown {
     Vec3 place;
     Vec3 x;
@@ -95,7 +95,7 @@ public:
         }
         for (const json& skin : json_.value("skins", json::array())) {
             const auto joints = skin.at("joints").get<std::vector<std::size_t>>();
-            joints_.insert(joints_.end(), joints.begin(), joints.end() - 2);  // but for the glass's corners
+            joints_.insert(joints_.end(), joints.begin(), joints.end() - 2);  // without the corners of the glass
         }
     }
 
@@ -127,7 +127,7 @@ public:
         return all;
     }
 
-    /// The file's only picture.
+    /// The only picture of the file.
     [[nodiscard]] std::string png() const
     {
         const json& view = json_.at("bufferViews").at(json_.at("images").at(0).at("bufferView").get<std::size_t>());
@@ -207,13 +207,13 @@ private:
     std::vector<std::size_t> joints_;
 };
 
-/// The file's frame is +Y up, +Z ahead.
+/// Vector in the file's frame: +Y up, +Z ahead.
 Vec3 inFile(Vec3 v)
 {
     return {-v.x, v.z, v.y};
 }
 
-/// Heavy rain on a small glass that bends; droplets rest, run, merge and leave.
+/// Heavy rain on a small curved glass; droplets rest, run, merge and leave.
 struct Rain {
     Glass glass{Glass::Cylinder{.width = 0.4, .height = 0.2, .radius = 1.0}};
     std::vector<WindshieldState> states;
@@ -256,7 +256,7 @@ const Rain& theRain()
     return rain;
 }
 
-/// Every droplet of a state is shown once, and nothing else.
+/// Checks that every droplet of a state is shown once, and nothing else.
 void expectShown(const std::vector<Shown>& shown, const WindshieldState& state, const Glass& glass, double place_slack)
 {
     ASSERT_EQ(shown.size(), state.droplets.size());
@@ -291,7 +291,7 @@ TEST(DropletScene, ShowsTheDropletsOfEveryFrame)
         SCOPED_TRACE(frame);
         expectShown(scene.at((static_cast<double>(frame) + 1e-3) / 30.0), rain.states[frame], rain.glass, 1.0);
     }
-    // Droplets take each other's joints, and one draw call shows many.
+    // Droplets reuse joints, and one draw call shows many.
     EXPECT_GT(rain.ids.size(), rain.max + rain.max / 4);
     EXPECT_LE(scene.pool(), rain.max + rain.max / 2);
     EXPECT_LE(scene.model().at("skins").size(), scene.pool() / 62 + 2);
@@ -303,7 +303,7 @@ TEST(DropletScene, ShowsTheDropletsOfEveryFrame)
     }
 }
 
-TEST(DropletScene, TextureHoldsTheDropletsOfEveryFrame)
+TEST(DropletScene, TextureHasTheDropletsOfEveryFrame)
 {
     const Rain& rain = theRain();
     const Scene scene(rain.scene(SceneAnimation::Texture));
@@ -353,20 +353,20 @@ TEST(DropletScene, TextureHoldsTheDropletsOfEveryFrame)
     }
 }
 
-TEST(DropletScene, DropletsAreThereWhileTheyLive)
+TEST(DropletScene, DropletsAreVisibleOnlyWhileTheyExist)
 {
     const Glass glass;
     const Scene scene(fiveFrames(glass, {.frames_per_second = 10.0}));
     for (const auto& [time, count] : {std::pair(0.0, 1U), {0.199, 1U}, {0.201, 2U}, {0.399, 2U}, {0.401, 1U}}) {
         EXPECT_EQ(scene.at(time).size(), count) << time;
     }
-    // The first rests for a frame, and begins to move from where it was.
+    // The first droplet rests for a frame and then starts from its place.
     EXPECT_LT(length(scene.at(0.0)[0].place - inFile(glass.place({0.5, 0.2})->point)), 1e-4);
     EXPECT_LT(length(scene.at(0.1)[0].place - scene.at(0.0)[0].place), 1e-3);
     EXPECT_LT(length(scene.at(0.4)[0].place - inFile(glass.place({0.5, 0.25})->point)), 1e-6);
 }
 
-TEST(DropletScene, KeepsVolumesAndPointsAlongTheWay)
+TEST(DropletScene, KeepsVolumesAndFacesTheMotion)
 {
     const Glass glass;
     const Scene scene(fiveFrames(glass));
@@ -422,7 +422,7 @@ TEST(DropletScene, PassesTheValidator)
     }
 }
 
-TEST(DropletScene, RefusesATextureThatViewersCannotHold)
+TEST(DropletScene, RejectsTexturesTooLargeForViewers)
 {
     DropletScene scene(Glass(), {.animation = SceneAnimation::Texture});
     WindshieldState state;
@@ -436,7 +436,7 @@ TEST(DropletScene, RefusesATextureThatViewersCannotHold)
     EXPECT_THAT([&] { scene.add(WindshieldState()); }, ThrowsMessage<Error>(HasSubstr("a texture of 8194 rows")));
 }
 
-TEST(DropletScene, RefusesNothingToShow)
+TEST(DropletScene, RejectsScenesWithoutFrames)
 {
     EXPECT_THROW(DropletScene(Glass(), {.frames_per_second = 0.0}), Error);
     std::ostringstream out;

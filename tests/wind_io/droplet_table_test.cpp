@@ -65,7 +65,7 @@ TEST(DropletTable, CsvReadsBackToTheSameNumbers)
     EXPECT_EQ(rows, 4);
 }
 
-TEST(DropletTable, TimesAreTimes)
+TEST(DropletTable, TimesAreRoundedToNanoseconds)
 {
     const auto time = [](double value) {
         std::ostringstream out;
@@ -85,11 +85,11 @@ TEST(DropletTable, TimesAreTimes)
     EXPECT_EQ(time(sum), "10");
     EXPECT_EQ(time(2.05), "2.05");
     EXPECT_EQ(time(0.1 + 0.2), "0.3");
-    EXPECT_EQ(time(100000.0), "100000") << "no power of ten";
+    EXPECT_EQ(time(100000.0), "100000") << "not in scientific notation";
     EXPECT_EQ(time(86400.0 + 1.0 / 3.0), "86400.333333333");
 }
 
-TEST(DropletTable, OnlyMovingDropletsAreToldIfSoAskedFor)
+TEST(DropletTable, WritesOnlyMovingDropletsOnRequest)
 {
     std::ostringstream out;
     DropletTable table(out, TableFormat::Csv, {});
@@ -120,7 +120,7 @@ TEST(DropletTable, JsonHasTheSameRows)
     }
 }
 
-TEST(WindshieldReportOf, TellsTheBalance)
+TEST(WindshieldReportOf, HasTheBalance)
 {
     WindshieldReport report;
     report.preset = "figure-3.10";

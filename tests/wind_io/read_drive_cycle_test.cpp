@@ -28,7 +28,7 @@ std::string refusalOf(const std::string& text)
     return "no refusal";
 }
 
-TEST(ReadDriveCycle, IsReadInTheUnitsOfItsHeader)
+TEST(ReadDriveCycle, UsesTheUnitsOfTheHeader)
 {
     const DriveCycle cycle{{0.0, 60.0}, {0.0, 10.0}};
     EXPECT_EQ(parseDriveCycle("time_s,speed_m_per_s\n0,0\n60,10\n", "a"), cycle);
@@ -42,7 +42,7 @@ TEST(ReadDriveCycle, IsReadInTheUnitsOfItsHeader)
     EXPECT_DOUBLE_EQ(parseDriveCycle("time_h,speed_mph\n0,100\n", "a").speedAt(0.0), 44.704);
 }
 
-TEST(ReadDriveCycle, RefusesWhatItWouldHaveToGuess)
+TEST(ReadDriveCycle, RejectsAmbiguousInput)
 {
     const std::string head = "time_s,speed_m_per_s\n0,1\n1,2\n";
     EXPECT_THAT(refusalOf(head + "2,\n"), AllOf(StartsWith("city.csv: row 4: "), HasSubstr("gap")));
@@ -55,7 +55,7 @@ TEST(ReadDriveCycle, RefusesWhatItWouldHaveToGuess)
     EXPECT_THAT(refusalOf(head + "0.5,3\n"), AllOf(HasSubstr("row 4"), HasSubstr("after 1 s")));
     EXPECT_THAT(refusalOf(head + "1,3\n"), HasSubstr("after 1 s"));
     EXPECT_THAT(refusalOf(head + "2,-3\n"), AllOf(HasSubstr("row 4"), HasSubstr("-3 m/s")));
-    EXPECT_THAT(refusalOf(head + "2,3,5\n"), AllOf(HasSubstr("row 4"), HasSubstr("3 cells, the header 2")));
+    EXPECT_THAT(refusalOf(head + "2,3,5\n"), AllOf(HasSubstr("row 4"), HasSubstr("3 cells, the header has 2")));
     EXPECT_THAT(refusalOf(head + "2,3,\n"), HasSubstr("3 cells"));
     EXPECT_THAT(refusalOf("0,1\n1,2\n"), AllOf(HasSubstr("row 1"), HasSubstr("time_s")));
     EXPECT_THAT(refusalOf("time_s,speed\n0,1\n"), HasSubstr("speed_m_per_s"));
@@ -63,7 +63,7 @@ TEST(ReadDriveCycle, RefusesWhatItWouldHaveToGuess)
     EXPECT_THAT(refusalOf(""), HasSubstr("at least one row"));
 }
 
-TEST(ReadDriveCycle, MissesARowWhereRowsComeEvenly)
+TEST(ReadDriveCycle, DetectsAMissingRow)
 {
     std::string text = "time_s,speed_m_per_s\n";
     for (int k = 0; k < 20; ++k) {
@@ -71,11 +71,11 @@ TEST(ReadDriveCycle, MissesARowWhereRowsComeEvenly)
     }
     EXPECT_EQ(parseDriveCycle(text, "a").times.size(), 20U);
     EXPECT_THAT(refusalOf(text + "21,5\n"), AllOf(HasSubstr("row 22"), HasSubstr("every 1 s"), HasSubstr("gap")));
-    // A few corners by hand are no sampling.
+    // A few rows by hand do not count as sampling.
     EXPECT_EQ(parseDriveCycle("time_s,speed_m_per_s\n0,0\n10,9\n20,9\n300,0\n", "a").times.size(), 4U);
 }
 
-TEST(ReadDriveCycle, SaysWhichFileCannotBeRead)
+TEST(ReadDriveCycle, NamesTheFileThatCannotBeRead)
 {
     try {
         (void)readDriveCycle("/nowhere/cycle.csv");

@@ -22,7 +22,7 @@ TEST(DriveCycle, IsLinearBetweenItsRows)
     EXPECT_EQ(constantSpeed(7.0).speedAt(1e9), 7.0);
 }
 
-TEST(DriveCycle, ValidatesItself)
+TEST(DriveCycle, RejectsInvalidRows)
 {
     EXPECT_NO_THROW(DriveCycle{}.validate());
     EXPECT_THROW((DriveCycle{{}, {}}.validate()), Error);

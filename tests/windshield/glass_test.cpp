@@ -21,13 +21,13 @@ using testing::together;
 
 constexpr double kGravity = 9.81;
 
-/// Where a mesh is laid down, y ahead; objects drive towards −y.
+/// Vector of the vehicle's frame, y ahead, in the object's frame, which drives towards −y.
 Vec3 turnedRound(Vec3 a)
 {
     return {-a.x, -a.y, a.z};
 }
 
-/// A cylinder as an object, its texture as seen from outside or from inside.
+/// Mesh of a cylinder, with its texture seen from outside or from inside.
 TexturedMesh objectOf(const Glass::Cylinder& form, std::uint32_t columns, bool from_outside)
 {
     const Glass glass(form);
@@ -45,7 +45,7 @@ TexturedMesh objectOf(const Glass::Cylinder& form, std::uint32_t columns, bool f
     return meshOf(sheet);
 }
 
-TEST(CurvedGlass, IsRolledOutWithoutStretching)
+TEST(CurvedGlass, IsUnrolledWithoutStretching)
 {
     const Glass glass(Glass::Cylinder{});
     EXPECT_EQ(glass.width(), 1.4);
@@ -80,7 +80,7 @@ TEST(CurvedGlass, LiesInTheVehiclesFrame)
     EXPECT_NEAR(top.point.z, 0.4, 1e-15);
     EXPECT_LT(top.point.y, 0.0);  // it leans back
     EXPECT_GT(glass.place({1.4, 0.4})->point.x, 0.69);
-    // All of it is 5 m from the cylinder's axis.
+    // Every point is 5 m from the cylinder's axis.
     const Vec3 centre = -5.0 * foot.normal;
     for (const double x : {0.0, 0.2, 1.4}) {
         const Vec3 out = glass.place({x, 0.0})->point - centre;
@@ -88,7 +88,7 @@ TEST(CurvedGlass, LiesInTheVehiclesFrame)
     }
 }
 
-TEST(CurvedGlass, LetsWeightAndWindPushAsideWhereItBends)
+TEST(CurvedGlass, GravityAndWindPushSidewaysOnTheCurve)
 {
     const Glass glass(Glass::Cylinder{});
     const double u = 12.0;
@@ -107,13 +107,13 @@ TEST(CurvedGlass, LetsWeightAndWindPushAsideWhereItBends)
         EXPECT_NEAR(push(left).x, -push(right).x, 1e-12);
         EXPECT_NEAR(push(left).y, push(right).y, 1e-12);
     }
-    // The tangential part of a vector and the normal one make up the whole.
+    // The tangential and the normal component add up to the vector.
     EXPECT_NEAR(std::hypot(length(gravityAlong(right, kGravity)), kGravity * right.normal.z), kGravity, 1e-13);
     EXPECT_NEAR(std::hypot(length(windAlong(right, u, WindAlongGlass::Projected)), u * right.normal.y), u, 1e-13);
     EXPECT_NEAR(length(windAlong(right, u, WindAlongGlass::Turned)), u, 1e-13);
 }
 
-TEST(CurvedGlass, StopsWindThatHasNowhereToTurn)
+TEST(CurvedGlass, PerpendicularWindVanishes)
 {
     const Glass wall(Glass::Cylinder{.slope = 0.5 * std::numbers::pi});
     const GlassPlace place = wall.place({0.7, 0.4}).value();
@@ -123,7 +123,7 @@ TEST(CurvedGlass, StopsWindThatHasNowhereToTurn)
     EXPECT_EQ(windAlong(Glass().place({0.1, 0.1}).value(), 0.0, WindAlongGlass::Turned), Vec2{});
 }
 
-TEST(CurvedGlass, MayBeFlat)
+TEST(CurvedGlass, CanBeFlat)
 {
     const Glass flat(Glass::Cylinder{.radius = std::numeric_limits<double>::infinity()});
     const Glass nearly(Glass::Cylinder{.radius = 1e8});
@@ -144,7 +144,7 @@ TEST(CurvedGlass, EndsAtItsEdges)
     }
 }
 
-TEST(CurvedGlass, RefusesWhatIsNoGlass)
+TEST(CurvedGlass, RejectsInvalidCylinders)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(Glass(Glass::Cylinder{.width = 0.0}), Error);
@@ -156,7 +156,7 @@ TEST(CurvedGlass, RefusesWhatIsNoGlass)
     EXPECT_THROW(Glass(Glass::Cylinder{.slope = nan}), Error);
 }
 
-/// The largest distances of a mesh's places from those of the cylinder that it is of.
+/// Largest distances between places of a mesh and of its cylinder.
 struct Misses {
     double point = 0.0;
     double normal = 0.0;
@@ -182,9 +182,9 @@ Misses missesOf(const Glass& mesh, const Glass& cylinder)
 
 class MeshedGlass : public ::testing::TestWithParam<bool> {};
 
-// Chords miss an arc by their length squared; the normals of an arc, interpolated and made unit again, miss by its
-// cube: at the middle of a chord they are right.
-TEST_P(MeshedGlass, TendsToTheCylinderItIsOf)
+// The error of chords is of second order in their length. That of interpolated unit normals is of third order: they are
+// exact at the middle of a chord.
+TEST_P(MeshedGlass, ConvergesToItsCylinder)
 {
     const Glass::Cylinder form{.width = 1.4, .height = 0.8, .radius = 2.0, .slope = 35.0 * kDegree};
     const Glass cylinder(form);
@@ -215,7 +215,7 @@ TEST_P(MeshedGlass, HasItsOwnSizeWithoutAScale)
 
 INSTANTIATE_TEST_SUITE_P(SeenFrom, MeshedGlass, ::testing::Bool());
 
-/// A flat sheet of 1 m by 1 m at 45°, its texture drawn out; it faces ahead, which is −y, and up.
+/// Flat sheet of 1 m by 1 m at 45° with a stretched texture; it faces ahead (−y) and up.
 Sheet leaning(Vec2 drawn_out = {1.0, 1.0})
 {
     Sheet sheet;
@@ -227,18 +227,18 @@ Sheet leaning(Vec2 drawn_out = {1.0, 1.0})
     return sheet;
 }
 
-TEST(MeshedGlass, TellsHowFarItIsStretched)
+TEST(MeshedGlass, ReportsItsStretch)
 {
     const Glass glass(meshOf(leaning({1.0, 0.5})), {.scale = 1.0});
     EXPECT_NEAR(glass.maxStretch(), 1.0, 1e-12);
     EXPECT_NEAR(glass.minStretch(), 0.5, 1e-12);
-    // Directions are those of the nearest isometry, here the axes.
+    // Directions follow the nearest isometry, here the axes.
     const GlassPlace place = glass.place({0.3, 0.6}).value();
     EXPECT_NEAR(gravityAlong(place, kGravity).y, -kGravity * std::sqrt(0.5), 1e-12);
     EXPECT_NEAR(gravityAlong(place, kGravity).x, 0.0, 1e-12);
 }
 
-TEST(MeshedGlass, DrivesWhereItIsTold)
+TEST(MeshedGlass, FacesTheDrivingDirection)
 {
     const TexturedMesh object = meshOf(leaning());
     const GlassPlace ahead = Glass(object, {}).place({0.5, 0.5}).value();
@@ -268,7 +268,7 @@ TEST(MeshedGlass, HasNoGlassBesideItsTriangles)
     EXPECT_FALSE(two.place({0.2, 0.7}));
 }
 
-TEST(MeshedGlass, LetsNothingThroughItsSeams)
+TEST(MeshedGlass, HasNoGapsAtSeams)
 {
     Sheet sheet = leaning();
     sheet.columns = 7;
@@ -281,7 +281,7 @@ TEST(MeshedGlass, LetsNothingThroughItsSeams)
     }
 }
 
-TEST(MeshedGlass, RefusesWhatCannotBeRolledOut)
+TEST(MeshedGlass, RejectsMeshesThatCannotBeUnrolled)
 {
     Sheet flat = leaning();
     flat.uv_end = {0.0, 1.0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the thesis says of figures 3.10 to 3.12 in section 3.2.3.
+// Statements of the thesis on figures 3.10 to 3.12, section 3.2.3.
 #include "droplet/windshield/presets.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDt = 1.0 / 30.0;
 
-/// A preset on a part of its glass, out of the middle, so that there is something aside to run to.
+/// Preset on a part of its glass beside the middle, so that droplets can run sideways.
 WindshieldParameters partOf(const char* name)
 {
     WindshieldParameters p = windshieldPresetNamed(name).parameters;
@@ -29,7 +29,7 @@ WindshieldParameters partOf(const char* name)
     return p;
 }
 
-/// The volume of a hemisphere that retention just holds against a push per mass [m³].
+/// Largest volume of a hemisphere that retention holds against an acceleration [m³].
 double heldVolume(const WindshieldParameters& p, double push)
 {
     // ½π r γ Δ = ρ ⅔π r³ a
@@ -38,7 +38,7 @@ double heldVolume(const WindshieldParameters& p, double push)
     return 2.0 / 3.0 * std::numbers::pi * r * r * r;
 }
 
-/// What drives hemispheres up the middle of the glass, whatever their size, for all are lower than the layer [m/s²].
+/// Acceleration of hemispheres up the middle of the glass; the same for all sizes lower than the layer [m/s²].
 double pushUp(const WindshieldParameters& p)
 {
     const Air& air = p.forces.air;
@@ -49,7 +49,7 @@ double pushUp(const WindshieldParameters& p)
     return gravity * (wind * wind / neutral - 1.0);
 }
 
-TEST(WindshieldPresets, AreTheFiguresSettings)
+TEST(WindshieldPresets, HaveTheFiguresParameters)
 {
     const auto expect = [](const char* name, double wind, double hysteresis) {
         const WindshieldParameters& p = windshieldPresetNamed(name).parameters;
@@ -109,7 +109,7 @@ TEST(WindshieldPresets, Figure311RunsAlongTheGlass)
 
 // "the large droplets climb straight up the windshield. Since the adherence is strong and the boundary layer is set to
 // be thick, the small droplets are made still."
-TEST(WindshieldPresets, Figure312LetsTheLargeOnesClimbAndTheSmallStay)
+TEST(WindshieldPresets, Figure312LargeDropletsClimbAndSmallOnesStay)
 {
     WindshieldParameters p = partOf("figure-3.12");
     p.tear_off_weber = std::numeric_limits<double>::infinity();  // the thesis's droplets do not break up

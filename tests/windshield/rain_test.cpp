@@ -26,7 +26,7 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// Simpson's rule, in pieces short enough for a kink to be one of their ends' concern alone.
+/// Simpson's rule, with intervals so short that a kink affects only one of them.
 template <class Function>
 double integralOf(const Function& f, double from, double to)
 {
@@ -43,13 +43,13 @@ double integralOf(const Function& f, double from, double to)
 struct Row {
     double rainfall;  // [mm/h]
     double slope;     // Λ [1/mm]
-    double drops;     // in a cubic metre
-    double large;     // of them over 1 mm
+    double drops;     // raindrops in a cubic metre
+    double large;     // raindrops over 1 mm in a cubic metre
     double water;     // [g/m³]
-    double hits[3];   // of the large ones per m² and s on a glass at 30°
+    double hits[3];   // impacts of the large ones per m² and s on a glass at 30°
 };
 
-// To the digits that are given.
+// Values are compared to their given digits.
 TEST(Rain, HasTheReferenceValues)
 {
     const Row rows[] = {{1.0, 4.10, 1951, 32, 0.089, {132, 357, 582}},
@@ -87,7 +87,7 @@ TEST(Rain, FallsAsAtlasMeasured)
     EXPECT_NEAR(terminalSpeed(1.0), 9.65, 1e-12);
 }
 
-TEST(Rain, IsNoneWithoutRainfall)
+TEST(Rain, HasNoRaindropsWithoutRainfall)
 {
     const RainImpacts impacts{raindropSizes(0.0), {}, 20.0};
     EXPECT_EQ(impacts.bound(), 0.0);
@@ -95,7 +95,7 @@ TEST(Rain, IsNoneWithoutRainfall)
     EXPECT_EQ(impacts.sizes.waterContent(), 0.0);
 }
 
-// What the docstring of RaindropRange says of the water it leaves out.
+// The shares of omitted water in the docstring of RaindropRange.
 TEST(Rain, LeavesOutLittleWater)
 {
     const RaindropRange range;
@@ -110,7 +110,7 @@ TEST(Rain, LeavesOutLittleWater)
 
 class AnySurface : public ::testing::TestWithParam<Exposure> {};
 
-TEST_P(AnySurface, IsMetAtTheIntegralOfItsDensity)
+TEST_P(AnySurface, RateIsTheIntegralOfTheDensity)
 {
     const Exposure exposure = GetParam();
     for (const double speed : {0.0, 3.0, 30.0}) {
@@ -138,8 +138,8 @@ TEST_P(AnySurface, KeepsTheShareOfRaindropsThatMeetIt)
     }
 }
 
-// Kolmogorov and Smirnov: of n independent draws, the largest difference of the shares below a diameter exceeds
-// 1.95/√n once in a thousand.
+// Kolmogorov–Smirnov test: with n independent draws, the largest difference of the distribution functions exceeds
+// 1.95/√n once in a thousand tests.
 TEST_P(AnySurface, DrawsFromItsDensity)
 {
     const Exposure exposure = GetParam();
@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Slopes, AnySurface,
                                            Exposure::ofSlope(45.0 * kDegree), Exposure{0.0, 1.0}, Exposure{0.6, -0.1},
                                            Exposure{-0.2, 0.9}, Exposure{-0.7, -0.3}));
 
-TEST(RaindropSampler, InvertsWhatFloorAndWallMeet)
+TEST(RaindropSampler, InvertsTheDistributionsOfFloorAndWall)
 {
     const RainImpacts impacts{raindropSizes(10.0 * kMillimetrePerHour), {}, 10.0};
     const RaindropSampler sampler(impacts);
@@ -195,7 +195,7 @@ TEST(RaindropSampler, InvertsWhatFloorAndWallMeet)
     EXPECT_LE(sampler.diameter(0.0, std::nextafter(1.0, 0.0)), impacts.range.max);
 }
 
-TEST(Rain, RefusesWhatCannotBe)
+TEST(Rain, RejectsInvalidArguments)
 {
     for (const double rainfall :
          {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

@@ -15,10 +15,10 @@
 namespace droplet {
 namespace {
 
-/// Volume of all that is within the radius of the line and over the glass, by slices along the line.
+/// Volume within the radius of the axis and above the glass, by slices along the axis.
 double slicedVolume(const RunningShape& shape, int slices)
 {
-    const auto segment = [&](double radius) {  // area over the glass of a circle, by its own closed form
+    const auto segment = [&](double radius) {  // area of a circle above the glass, in closed form
         const double h = std::clamp(-shape.centre_height, -radius, radius);
         return radius * radius * std::acos(h / radius) - h * std::sqrt(radius * radius - h * h);
     };
@@ -42,7 +42,7 @@ TEST(RunningShape, KeepsTheVolumeAtEverySpeed)
                                    .largest_stretch = 4.0 * uniform(random)};
         const RunningShape shape = runningShape(volume, speed, options);
         EXPECT_NEAR(shape.volume() / volume, 1.0, 1e-12);
-        // Slices of a circle's rim come with an error of their number to the power of −3/2.
+        // The error of slices at the rim of a circle is their number to the power of −3/2.
         EXPECT_NEAR(slicedVolume(shape, 4000) / volume, 1.0, 2e-5) << volume << " " << speed;
     }
 }
@@ -59,7 +59,7 @@ TEST(RunningShape, AtRestIsTheSphericalCapOfTheForces)
     }
 }
 
-TEST(RunningShape, FasterIsLongerAndNarrower)
+TEST(RunningShape, FasterDropletsAreLongerAndNarrower)
 {
     RunningShape slower = runningShape(10e-9, 0.0);
     for (double speed = 0.05; speed < 5.0; speed *= 1.5) {
@@ -74,7 +74,7 @@ TEST(RunningShape, FasterIsLongerAndNarrower)
     EXPECT_NEAR(half.half_length, 0.5 * options.largest_stretch * half.contact_radius, 1e-15);
 }
 
-TEST(RunningShape, RefusesWhatIsNoDroplet)
+TEST(RunningShape, RejectsInvalidArguments)
 {
     EXPECT_THROW(runningShape(0.0, 0.0), Error);
     EXPECT_THROW(runningShape(1e-9, -0.1), Error);

@@ -19,9 +19,9 @@ namespace {
 
 using testing::uniform;
 
-constexpr Vec2 kSize{0.103, 0.058};  // no whole number of cells
+constexpr Vec2 kSize{0.103, 0.058};  // not a whole number of cells
 
-/// Droplets as rain and tracks leave them: settled, joined, and some taken away again.
+/// Droplets after rain and tracks: placed, joined, and some removed again.
 StillCells weathered(std::mt19937_64& bits)
 {
     const StillRules rules{1.2, 1e-10};
@@ -30,21 +30,21 @@ StillCells weathered(std::mt19937_64& bits)
         const Vec2 place{uniform(bits, 0.0, kSize.x), uniform(bits, 0.0, kSize.y)};
         std::optional<StillDroplet> drop = StillDroplet{place, uniform(bits, 1e-12, 1e-11)};
         while (drop && drop->volume < rules.max) {
-            drop = settle(still, *drop, rules);
+            drop = placeOrJoin(still, *drop, rules);
         }
         if (k % 20 == 0) {
-            Taking taking(still);
+            StillRemoval removal(still);
             const std::size_t cell = bits() % still.counts.size();
             for (std::uint8_t slot = 0; slot < still.counts[cell]; slot += 2) {
-                taking.take({cell, slot});
+                removal.take({cell, slot});
             }
-            taking.close();
+            removal.close();
         }
     }
     return still;
 }
 
-TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
+TEST(StillDroplets, AreInTheCellsOfTheirPositions)
 {
     std::mt19937_64 bits(7);
     const StillCells still = weathered(bits);
@@ -69,7 +69,7 @@ TEST(StillDroplets, AreInTheCellsThatHoldThemAtTheirPlaces)
     }
 }
 
-TEST(StillDroplets, AreAValue)
+TEST(StillDroplets, CopiesAreIndependent)
 {
     std::mt19937_64 bits(3);
     StillDroplets still;
@@ -81,10 +81,10 @@ TEST(StillDroplets, AreAValue)
     StillDroplets copy = still;
     EXPECT_EQ(copy, still);
     StillCells& cells = StillCells::of(copy);
-    Taking taking(cells);
+    StillRemoval removal(cells);
     const auto first = std::find_if(cells.counts.begin(), cells.counts.end(), [](std::uint8_t n) { return n > 0; });
-    EXPECT_EQ(taking.take({static_cast<std::size_t>(first - cells.counts.begin()), 0}), all.front().volume);
-    taking.close();
+    EXPECT_EQ(removal.take({static_cast<std::size_t>(first - cells.counts.begin()), 0}), all.front().volume);
+    removal.close();
     EXPECT_NE(copy, still);
     EXPECT_EQ(copy.all(), std::vector<StillDroplet>(all.begin() + 1, all.end()));
     EXPECT_EQ(still.all(), all) << "copies share nothing";
@@ -92,14 +92,14 @@ TEST(StillDroplets, AreAValue)
     EXPECT_EQ(still.count() + 1, all.size());
 }
 
-TEST(StillDroplets, NearAWayAreAllVisitedOnceAndFewOthers)
+TEST(StillDroplets, VisitNearVisitsAllNearASegmentOnce)
 {
     std::mt19937_64 bits(11);
     const StillCells still = weathered(bits);
     std::size_t visited = 0;
     std::size_t near = 0;
     for (int k = 0; k < 400; ++k) {
-        // From and to places off the glass, too; one in four stays where it is.
+        // Segments also begin and end off the glass; one in four is a point.
         const Vec2 a{uniform(bits, -0.01, kSize.x + 0.01), uniform(bits, -0.01, kSize.y + 0.01)};
         const Vec2 b =
             k % 4 == 0 ? a : a + Vec2{uniform(bits, -0.03, 0.03), k % 4 == 1 ? 0.0 : uniform(bits, -0.03, 0.03)};
@@ -107,14 +107,14 @@ TEST(StillDroplets, NearAWayAreAllVisitedOnceAndFewOthers)
         std::set<std::pair<std::size_t, int>> found;
         visitNear(still, a, b, radius, [&](StillSlot slot) {
             EXPECT_TRUE(found.insert({slot.cell, slot.slot}).second);
-            EXPECT_LE(std::sqrt(Way(a, b).squaredDistance(at(still, slot).position)),
+            EXPECT_LE(std::sqrt(Segment(a, b).squaredDistance(at(still, slot).position)),
                       radius + 1.5 * still.cell / kPlaces);
         });
         visited += found.size();
         for (std::size_t cell = 0; cell < still.counts.size(); ++cell) {
             for (int slot = 0; slot < still.counts[cell]; ++slot) {
                 const Vec2 p = still.droplets(cell)[static_cast<std::size_t>(slot)].position;
-                if (Way(a, b).squaredDistance(p) <= radius * radius) {
+                if (Segment(a, b).squaredDistance(p) <= radius * radius) {
                     ++near;
                     EXPECT_TRUE(found.contains({cell, slot}));
                 }

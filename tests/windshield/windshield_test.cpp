@@ -72,7 +72,7 @@ TEST(Windshield, LeavesDropletsAtRestExactlyWhereTheyAre)
     EXPECT_TRUE(state.tracks.empty());
 }
 
-// The equation of motion under constant forces along a line has a closed form, which steps of any length meet.
+// Constant forces along a line have a closed form, which steps of any length reproduce.
 TEST(Windshield, MovesExactlyUnderConstantForces)
 {
     for (const double factor : {0.0, 1e-4, 0.05, 0.5}) {
@@ -105,7 +105,7 @@ TEST(Windshield, MovesExactlyUnderConstantForces)
     }
 }
 
-TEST(Windshield, LetsDropletsTendToTheirTerminalSpeed)
+TEST(Windshield, DropletsApproachTheirTerminalSpeed)
 {
     WindshieldParameters p = quietGlass();
     p.glass = Glass({.width = 0.2, .height = 2.0, .radius = 1e9});
@@ -118,7 +118,7 @@ TEST(Windshield, LetsDropletsTendToTheirTerminalSpeed)
     EXPECT_NEAR(state.droplets[0].velocity.y, terminal, 1e-9);
 }
 
-TEST(Windshield, StopsWhatFrictionHoldsForGood)
+TEST(Windshield, FrictionStopsDropletsPermanently)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 0.5;
@@ -146,8 +146,8 @@ TEST(Windshield, StopsWhatFrictionHoldsForGood)
     EXPECT_NEAR(last, way, 1e-3 * way);
 }
 
-// Retention holds up to a wind that the closed form tells; above it the droplet climbs.
-TEST(Windshield, SetsDropletsOffAtTheirThreshold)
+// Retention holds a droplet up to the wind of the closed form; above it the droplet climbs.
+TEST(Windshield, DropletsStartAtTheirThreshold)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 0.2;
@@ -166,7 +166,7 @@ TEST(Windshield, SetsDropletsOffAtTheirThreshold)
     EXPECT_EQ(velocityAt(1.001 * lower), 0.0);
     EXPECT_EQ(velocityAt(0.999 * upper), 0.0);
     EXPECT_GT(velocityAt(1.001 * upper), 0.0);
-    // On a glass at 45° a wind that is only projected has to be √2 as fast.
+    // On a glass at 45° a projected wind must be √2 times as fast.
     p.wind = WindAlongGlass::Projected;
     EXPECT_EQ(velocityAt(0.999 * std::numbers::sqrt2 * upper), 0.0);
     EXPECT_GT(velocityAt(1.001 * std::numbers::sqrt2 * upper), 0.0);
@@ -178,7 +178,7 @@ TEST(Windshield, FollowsTheDriveCycle)
     p.forces.wetting.hysteresis = 0.2;
     constexpr double kVolume = 20.0 * kMicrolitre;
     const DropletForces forces = forcesOn(p.forces, kVolume);
-    // From a wind that holds it: 0.5 m/s faster every second, which drives it up the glass, too.
+    // The wind first holds it and then rises by 0.5 m/s every second; the acceleration, too, drives it up.
     const double hold = forces.weight * std::sin(45.0 * kDegree) + forces.retention;
     const double upper = std::sqrt((hold - forces.mass * 0.5 * std::cos(45.0 * kDegree)) / forces.drag);
     p.vehicle = {{0.0, 8.0}, {upper - 2.0, upper + 2.0}};
@@ -190,7 +190,7 @@ TEST(Windshield, FollowsTheDriveCycle)
     EXPECT_NEAR(state.time, 4.0, 1.5 * kDt);
 }
 
-// Without air and friction, water slides as on a plane in a lift: by gravity, and by what the brakes take from the car.
+// Without air and friction, water slides by gravity and by the deceleration of the car.
 TEST(Windshield, ThrowsWaterForwardWhenTheCarBrakes)
 {
     WindshieldParameters p = quietGlass();
@@ -211,7 +211,7 @@ TEST(Windshield, ThrowsWaterForwardWhenTheCarBrakes)
 
 // ---- breaking up --------------------------------------------------------------------------------------------------
 
-TEST(Windshield, BreaksUpWhatIsTooHighForTheWind)
+TEST(Windshield, WindBreaksUpDropletsThatAreTooHigh)
 {
     WindshieldParameters p = quietGlass();
     constexpr double kWind = 11.3;
@@ -246,8 +246,8 @@ TEST(Windshield, BreaksUpWhatIsTooHighForTheWind)
     }
 }
 
-// In the wind that holds droplets of every size, they merged to hemispheres of two millilitres.
-TEST(Windshield, LetsNothingGrowBeyondWhatTheWindTearsOff)
+// Without tear-off, a wind that holds droplets of every size lets them merge to hemispheres of two millilitres.
+TEST(Windshield, DropletsDoNotOutgrowTheTearOffLimit)
 {
     WindshieldParameters p = quietGlass();
     p.vehicle = constantSpeed(9.2);
@@ -260,12 +260,12 @@ TEST(Windshield, LetsNothingGrowBeyondWhatTheWindTearsOff)
         }
         return largest / highest;
     };
-    EXPECT_LT(largest_after(900), 1.02);  // but for what the last step swept up
+    EXPECT_LT(largest_after(900), 1.02);  // tolerance for water that the last step added
     p.tear_off_weber = std::numeric_limits<double>::infinity();
     EXPECT_GT(largest_after(900), 1.3);
 }
 
-TEST(Windshield, SlowsByTheDropletsOwnSpeedWhereTheWindIsRelative)
+TEST(Windshield, RelativeWindDecreasesWithTheDropletsSpeed)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 0.0;
@@ -277,13 +277,13 @@ TEST(Windshield, SlowsByTheDropletsOwnSpeedWhereTheWindIsRelative)
     WindshieldState state = startWindshield(p);
     addRunning(state, {0.05, 1.0}, kVolume);
     state = after(std::move(state), p, kDt, 600);
-    // Where the wind past it holds it up, nothing pushes any more.
+    // When the relative wind just holds it, the force is zero.
     const DropletForces forces = forcesOn(p.forces, kVolume);
     const double neutral = std::sqrt(forces.weight * std::sin(45.0 * kDegree) / forces.drag);
     EXPECT_NEAR(state.droplets[0].velocity.y, 15.0 - neutral, 1e-3);
 }
 
-// A glass is as good as its mirror image.
+// A mirrored glass gives the mirrored result.
 TEST(Windshield, TreatsLeftAndRightAlike)
 {
     WindshieldParameters p = quietGlass();
@@ -331,7 +331,7 @@ TEST(Windshield, MergesEqualDropletsAtTheirCentre)
     EXPECT_DOUBLE_EQ(balanceOf(state).merged, 5.0 * kMicrolitre);
 }
 
-TEST(Windshield, LetsTheLargerAbsorbTheSmaller)
+TEST(Windshield, LargerDropletsAbsorbSmallerOnes)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 2.0;
@@ -345,7 +345,7 @@ TEST(Windshield, LetsTheLargerAbsorbTheSmaller)
     EXPECT_EQ(state.droplets[0].velocity, Vec2{});
 }
 
-TEST(Windshield, MergesOnlyWhatTouches)
+TEST(Windshield, MergesOnlyDropletsThatTouch)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 2.0;
@@ -377,8 +377,8 @@ TEST(Windshield, MergesChainsWithinOneStep)
     EXPECT_EQ(state.counts.merged, 4U);
 }
 
-// Ten times their width in a step: what is in the way is met, what is beside it is not.
-TEST(Windshield, DoesNotLetFastDropletsPassThroughOthers)
+// Steps of ten times their width: they meet droplets in their way, and none beside it.
+TEST(Windshield, FastDropletsDoNotPassThroughOthers)
 {
     WindshieldParameters p = quietGlass();
     p.forces.gravity = 0.0;
@@ -450,12 +450,12 @@ TEST(Windshield, SweepsStillDropletsAlongTheTrack)
     });
     std::size_t untouched = 0;
     visitStill(state, [&](std::size_t, const StillDroplet& d) { untouched += apart(d.position) > max ? 1U : 0U; });
-    EXPECT_GE(kept, untouched);  // between the two only what the droplet grew over at its end
+    EXPECT_GE(kept, untouched);  // between the two are only those that the droplet touches after it has grown
     EXPECT_GT(all - kept, 40U);
     EXPECT_EQ(later.counts.swept, all - kept);
     EXPECT_EQ(later.still.count(), kept);
     EXPECT_NEAR(later.droplets[0].volume, kVolume + static_cast<double>(all - kept) * kSmall, 1e-18);
-    // Momentum: what was at rest slows it down.
+    // Momentum is conserved: water at rest slows it down.
     WindshieldState alone = startWindshield(p);
     addRunning(alone, from, kVolume, {2.0, 1.5});
     alone = step(std::move(alone), p, 1.0 / 30.0);
@@ -485,12 +485,12 @@ TEST(Windshield, RaisesTheRevisionsOfCellsThatChange)
     }
 }
 
-TEST(Windshield, LetsStillDropletsGrowUntilTheyRun)
+TEST(Windshield, StillDropletsGrowUntilTheyRun)
 {
     WindshieldParameters p = quietGlass();
     p.rainfall = 100.0 * kMillimetrePerHour;
     p.glass = Glass({.width = 0.02, .height = 0.02});
-    p.raindrops = {0.5e-3, 0.9e-3};  // each of them too small to run
+    p.raindrops = {0.5e-3, 0.9e-3};  // each is too small to run
     p.forces.wetting.hysteresis = 2.0;
     const WindshieldState state = after(startWindshield(p), p, 1.0, 600);
     EXPECT_GT(state.counts.grown, 10U);
@@ -501,7 +501,7 @@ TEST(Windshield, LetsStillDropletsGrowUntilTheyRun)
     EXPECT_NEAR(balanceOf(state).residual(), 0.0, 1e-12);
 }
 
-// Whatever rain and large droplets, running or at rest, do to them.
+// Rain and large droplets, running and at rest, act on the still ones.
 class StillAmong : public ::testing::TestWithParam<double> {};
 
 TEST_P(StillAmong, KeepApartAndInTheirCells)
@@ -532,7 +532,7 @@ TEST_P(StillAmong, KeepApartAndInTheirCells)
                           (1.0 - 1e-12) * (reachOf(p, all[a].volume) + reachOf(p, all[b].volume)));
             }
             for (const RunningDroplet& d : state.droplets) {
-                // What a moving one touches since it has grown, it takes up in the next step.
+                // A moving droplet absorbs those that it touches by growing only in the next step.
                 const double grown = d.velocity == Vec2{} ? 1e-12 : 0.05;
                 EXPECT_GT(length(all[a].position - d.position),
                           (1.0 - grown) * (reachOf(p, all[a].volume) + reachOf(p, d.volume)));
@@ -543,7 +543,7 @@ TEST_P(StillAmong, KeepApartAndInTheirCells)
 
 INSTANTIATE_TEST_SUITE_P(Hysteresis, StillAmong, ::testing::Values(0.05, 2.0));
 
-TEST(Windshield, LeavesStreaksOfTheirThickness)
+TEST(Windshield, StreaksHaveTheVolumeOfTheFilm)
 {
     WindshieldParameters p = quietGlass();
     p.forces.wetting.hysteresis = 0.0;
@@ -558,7 +558,8 @@ TEST(Windshield, LeavesStreaksOfTheirThickness)
     const double way = state.droplets[0].position.x - 0.02;
     const double expected = p.streaks.film * 2.0 * reachOf(p, kVolume) * way;
     const WaterBalance balance = balanceOf(state);
-    EXPECT_NEAR(balance.shed, expected, 0.06 * expected);  // one spacing of some 75, and a droplet that shrinks
+    EXPECT_NEAR(balance.shed, expected,
+                0.06 * expected);  // tolerance: one spacing of about 75, and a droplet that shrinks
     EXPECT_DOUBLE_EQ(balance.on_glass_still, balance.shed);
     EXPECT_NEAR(state.droplets[0].volume, kVolume - balance.shed, 1e-20);
     EXPECT_NEAR(static_cast<double>(state.still.count()), way / p.streaks.spacing, 8.0);
@@ -567,7 +568,7 @@ TEST(Windshield, LeavesStreaksOfTheirThickness)
     visitStill(state, [&](std::size_t, const StillDroplet& d) { EXPECT_NEAR(d.position.y, 0.1, 1e-12); });
 }
 
-TEST(Windshield, NeverShedsWhatWouldLeaveTooLittleToRun)
+TEST(Windshield, StreaksLeaveEnoughWaterToRun)
 {
     WindshieldParameters p = busyGlass();
     p.streaks = {.film = 1e-3, .spacing = 1e-3};
@@ -581,7 +582,7 @@ TEST(Windshield, NeverShedsWhatWouldLeaveTooLittleToRun)
 
 // ---- rain ---------------------------------------------------------------------------------------------------------
 
-TEST(Windshield, IsRainedOnAtTheRateOfItsSlope)
+TEST(Windshield, RainArrivesAtTheRateOfTheSlope)
 {
     WindshieldParameters p = quietGlass();
     p.vehicle = constantSpeed(9.0);
@@ -595,8 +596,8 @@ TEST(Windshield, IsRainedOnAtTheRateOfItsSlope)
     EXPECT_NEAR(static_cast<double>(state.counts.raindrops), expected, 4.0 * std::sqrt(expected));
 }
 
-// The number of raindrops in an interval varies as much as its mean.
-TEST(Windshield, IsRainedOnByAPoissonProcess)
+// The variance of the number of raindrops in an interval is its mean.
+TEST(Windshield, RainIsAPoissonProcess)
 {
     WindshieldParameters p = quietGlass();
     p.glass = Glass({.width = 0.05, .height = 0.05});
@@ -623,7 +624,7 @@ TEST(Windshield, IsRainedOnByAPoissonProcess)
     EXPECT_NEAR(variance / mean, 1.0, 4.0 * std::sqrt(2.0 / kIntervals));
 }
 
-TEST(Windshield, IsRainedOnAlikeInStepsOfAnyLength)
+TEST(Windshield, RainIsTheSameInStepsOfAnyLength)
 {
     WindshieldParameters p = busyGlass();
     p.seed = 5;
@@ -637,9 +638,9 @@ TEST(Windshield, IsRainedOnAlikeInStepsOfAnyLength)
     EXPECT_NE(after(startWindshield(p), p, 1.0 / 32.0, 32).rained.value(), a.rained.value());
 }
 
-TEST(Windshield, RainsOnNothingBesideAMesh)
+TEST(Windshield, RainFallsOnlyOnTheMesh)
 {
-    // A triangle: half of the rolled out glass is none.
+    // A triangle: half of its bounding box is not glass.
     const double half = std::sqrt(0.5);
     TexturedMesh mesh;
     mesh.positions = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.1 * half, 0.1 * half}};
@@ -660,7 +661,7 @@ TEST(Windshield, RainsOnNothingBesideAMesh)
 
 // ---- water --------------------------------------------------------------------------------------------------------
 
-TEST(Windshield, KeepsAllWaterWhateverHappens)
+TEST(Windshield, ConservesAllWater)
 {
     std::mt19937_64 bits(11);
     for (int k = 0; k < 6; ++k) {
@@ -697,8 +698,8 @@ TEST(Windshield, KeepsAllWaterWhateverHappens)
     }
 }
 
-// Ten minutes of heavy rain: the balance does not drift, and droplets do not pile up.
-TEST(Windshield, GoesOnForLong)
+// In ten minutes of heavy rain the balance does not drift, and the number of droplets does not grow.
+TEST(Windshield, BalanceHoldsForTenMinutes)
 {
     WindshieldParameters p = busyGlass();
     p.glass = Glass({.width = 0.06, .height = 0.06});
@@ -721,7 +722,7 @@ TEST(Windshield, GoesOnForLong)
     EXPECT_EQ(StillCells::of(state.still).slots.size(), StillCells::of(startWindshield(p).still).slots.size());
 }
 
-TEST(Windshield, CountsWhatLeavesOverEachEdge)
+TEST(Windshield, CountsDropletsThatLeaveOverEachEdge)
 {
     WindshieldParameters p = quietGlass();
     p.forces.gravity = 0.0;
@@ -738,9 +739,9 @@ TEST(Windshield, CountsWhatLeavesOverEachEdge)
     EXPECT_EQ(state.tracks.size(), 4U);
 }
 
-TEST(CarriedSum, ForgetsNothing)
+TEST(CompensatedSum, LosesNoSmallTerms)
 {
-    CarriedSum sum;
+    CompensatedSum sum;
     sum.add(1.0);
     for (int k = 0; k < 1'000'000; ++k) {
         sum.add(1e-17);
@@ -750,9 +751,9 @@ TEST(CarriedSum, ForgetsNothing)
     EXPECT_NEAR(sum.value(), 1e-11, 1e-20);
 }
 
-// ---- not in step --------------------------------------------------------------------------------------------------
+// ---- independence --------------------------------------------------------------------------------------------------
 
-/// Whether each of some equal droplets, which only a push can set off, moves, at each of some times.
+/// Whether each of some equal droplets, which only the fluctuation can start, moves at each of some times.
 std::vector<std::vector<double>> motions(std::size_t count, int times, double dt)
 {
     WindshieldParameters p = quietGlass();
@@ -773,7 +774,7 @@ std::vector<std::vector<double>> motions(std::size_t count, int times, double dt
         state = step(std::move(state), p, dt);
         for (std::size_t k = 0; k < count; ++k) {
             series[k].push_back(state.droplets[k].velocity == Vec2{} ? 0.0 : 1.0);
-            state.droplets[k].position = places[k].position;  // back to its place: none leaves, none merges
+            state.droplets[k].position = places[k].position;  // back to its place, so that none leaves or merges
         }
     }
     return series;
@@ -800,8 +801,8 @@ double correlation(const std::vector<double>& a, std::size_t a_from, const std::
     return (n * ab - sa * sb) / std::sqrt((n * aa - sa * sa) * (n * bb - sb * sb));
 }
 
-// If all moved together, the number that moves would vary count times as much as that of independent ones.
-TEST(Windshield, DropletsDoNotMoveInStep)
+// If all moved together, the variance of the number that moves would be `count` times that of independent ones.
+TEST(Windshield, DropletsMoveIndependently)
 {
     constexpr std::size_t kCount = 100;
     const auto series = motions(kCount, 2000, 0.02);
@@ -823,14 +824,14 @@ TEST(Windshield, DropletsDoNotMoveInStep)
     }
     EXPECT_GT(separate, 0.05 * kCount) << "some move, some do not";
     EXPECT_NEAR(variance(together) / separate, 1.0, 0.25);
-    // Nor do they come back to what they did: no later time is like an earlier one, once the pushes have changed.
+    // Motions do not repeat: after the fluctuation has changed, no time is similar to an earlier one.
     for (std::size_t lag = 10; lag < 1000; lag += 7) {
         EXPECT_LT(std::abs(correlation(together, 0, together, lag)), 0.2) << lag;
     }
 }
 
-// After a long run in the rain, departures of water over the edges come at no rhythm.
-TEST(Windshield, DropletsDoNotLeaveInStep)
+// After long rain, water leaves over the edges without a rhythm.
+TEST(Windshield, DropletsLeaveWithoutARhythm)
 {
     WindshieldParameters p = busyGlass();
     p.glass = Glass({.width = 0.08, .height = 0.05});
@@ -842,16 +843,16 @@ TEST(Windshield, DropletsDoNotLeaveInStep)
         leaving.push_back(static_cast<double>(state.counts.left - before));
     }
     EXPECT_GT(std::accumulate(leaving.begin(), leaving.end(), 0.0), 300.0);
-    // 1/√N of independent numbers; the largest of 300 of them seldom is beyond 4 of it.
+    // The standard deviation for independent numbers is 1/√N; the largest of 300 rarely exceeds four of it.
     const double chance = 4.5 / std::sqrt(static_cast<double>(leaving.size()));
     for (std::size_t lag = 15; lag < 315; ++lag) {
         EXPECT_LT(std::abs(correlation(leaving, 0, leaving, lag)), chance) << lag;
     }
 }
 
-TEST(Windshield, PushesHaveTheirStrength)
+TEST(Windshield, FluctuationHasItsRootMeanSquare)
 {
-    // Without friction and forces, speed gains in a step are the push itself.
+    // Without friction and forces, the gain of speed in a step is the fluctuation itself.
     WindshieldParameters p = quietGlass();
     p.glass = Glass({.width = 0.2, .height = 0.2, .radius = 1e9, .slope = 0.0});
     p.forces.wetting.hysteresis = 0.0;
@@ -876,7 +877,7 @@ TEST(Windshield, PushesHaveTheirStrength)
         state.droplets[0].velocity = {};
         state.droplets[0].position = {0.1, 0.1};
     }
-    // Some eight steps share a push, so a mean of 20 000 is one of 2500.
+    // About eight steps are correlated, so 20 000 steps count as 2500 independent ones.
     EXPECT_NEAR(sum_x / kTimes, 0.0, 0.7 * 4.0 / 50.0);
     EXPECT_NEAR(std::sqrt(squares_x / kTimes), 0.7, 0.7 * 0.05);
     EXPECT_NEAR(std::sqrt(squares_y / kTimes), 0.7, 0.7 * 0.05);
@@ -912,7 +913,7 @@ TEST(Windshield, GivesTheSameBytesAtAnyNumberOfThreads)
     EXPECT_TRUE(bytes[0] == bytes[2]);
 }
 
-TEST(Windshield, GoesOnFromItsBytesAsIfNothingHadHappened)
+TEST(Windshield, ContinuesExactlyFromItsBytes)
 {
     const WindshieldParameters p = everything();
     const WindshieldState half = after(startWindshield(p), p, kDt, 40);
@@ -925,7 +926,7 @@ TEST(Windshield, GoesOnFromItsBytesAsIfNothingHadHappened)
     EXPECT_TRUE(bytesOf(after(again, p, kDt, 40)) == bytesOf(after(startWindshield(p), p, kDt, 80)));
 }
 
-TEST(Windshield, RefusesBytesThatAreNoState)
+TEST(Windshield, RejectsBytesThatAreNotAState)
 {
     WindshieldParameters p = busyGlass();
     p.glass = Glass({.width = 0.03, .height = 0.03});
@@ -944,7 +945,7 @@ TEST(Windshield, RefusesBytesThatAreNoState)
         ASSERT_TRUE(refuses(bytes.substr(0, size))) << size;
     }
     EXPECT_TRUE(refuses(bytes + "more"));
-    // Any byte may be wrong: it is refused or read, and nothing else.
+    // With any wrong byte, the state is either rejected or read.
     for (std::size_t k = 0; k < bytes.size(); ++k) {
         std::string damaged = bytes;
         damaged[k] = static_cast<char>(damaged[k] ^ 0x5A);
@@ -954,7 +955,7 @@ TEST(Windshield, RefusesBytesThatAreNoState)
 
 // ---- arguments ----------------------------------------------------------------------------------------------------
 
-TEST(Windshield, RefusesWhatCannotBe)
+TEST(Windshield, RejectsInvalidArguments)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [](const auto& change) {

@@ -10,13 +10,13 @@
 
 namespace droplet::testing {
 
-/// The same everywhere: the standard fixes its engines, not its distributions.
+/// Uniform number, the same on every platform: the standard fixes engines, but not distributions.
 inline double uniform(std::mt19937_64& bits, double low, double high)
 {
     return low + (high - low) * static_cast<double>(bits() >> 11U) * 0x1p-53;
 }
 
-/// A small flat glass without rain, wind, shaking or wipers: what happens on it can be told in closed form.
+/// Small flat glass without rain, wind, fluctuation or wipers, for which there are closed forms.
 inline WindshieldParameters quietGlass()
 {
     WindshieldParameters p;
@@ -28,7 +28,7 @@ inline WindshieldParameters quietGlass()
     return p;
 }
 
-/// Rain on a small part of a windshield on which everything moves and merges.
+/// Heavy rain on a small glass, on which droplets move and merge.
 inline WindshieldParameters busyGlass()
 {
     WindshieldParameters p = quietGlass();

@@ -27,7 +27,7 @@ const Wiper kWiper{.pivot = {0.1, -0.01},
                    .period = 3.0,
                    .start = 0.5};
 
-/// How far a place is from the edges of what the whole stroke covers, negative outside [m].
+/// Distance of a place from the edges of the wiped area, negative outside [m].
 double within(Vec2 p)
 {
     const Vec2 from = p - kWiper.pivot;
@@ -37,7 +37,7 @@ double within(Vec2 p)
                      radius * (kWiper.last - angle)});
 }
 
-/// Small droplets all over a glass that holds them.
+/// Small droplets all over a glass that retains them.
 struct Field {
     WindshieldParameters parameters = quietGlass();
     WindshieldState state;
@@ -71,7 +71,7 @@ std::size_t countOf(const WindshieldState& state)
     return state.droplets.size() + state.still.count();
 }
 
-TEST(Wiper, GoesThereAndBackAndRests)
+TEST(Wiper, MovesForwardAndBackAndRests)
 {
     EXPECT_EQ(kWiper.angleAt(-1.0), kWiper.first);
     EXPECT_EQ(kWiper.angleAt(0.5), kWiper.first);
@@ -84,8 +84,8 @@ TEST(Wiper, GoesThereAndBackAndRests)
     EXPECT_NEAR(kWiper.angleAt(301.0), kWiper.last, 1e-9);
 }
 
-// One stroke takes all that it covers and nothing else, in steps of any length, longer than the stroke too.
-TEST(Wiper, WipesWhatItCovers)
+// One stroke removes exactly the water in its area, in steps of any length, even longer than the stroke.
+TEST(Wiper, WipesExactlyWhatItCovers)
 {
     for (const double dt : {0.011, 0.1, 0.5, 1.0, 2.0}) {
         SCOPED_TRACE(dt);
@@ -103,8 +103,8 @@ TEST(Wiper, WipesWhatItCovers)
     }
 }
 
-// Half way there it has taken what lies on its way, and at rest it takes nothing.
-TEST(Wiper, WipesAsFarAsItHasCome)
+// Half way it has removed the water on its way; at rest it removes nothing.
+TEST(Wiper, RemovesWaterAsItMoves)
 {
     const Field field;
     EXPECT_EQ(after(field.state, field.parameters, 0.05, 10).counts.wiped, 0U);  // not yet begun
@@ -124,8 +124,8 @@ TEST(Wiper, WipesAsFarAsItHasCome)
     EXPECT_EQ(rested.counts.wiped, field.inside + 1);
 }
 
-// What runs through the blade is wiped, wherever it is at the step's end.
-TEST(Wiper, MeetsDropletsThatComeTowardsIt)
+// A droplet that passes through the blade is wiped, wherever it is at the end of the step.
+TEST(Wiper, WipesDropletsThatPassThroughIt)
 {
     WindshieldParameters p = quietGlass();
     p.forces.gravity = 0.0;
@@ -138,11 +138,11 @@ TEST(Wiper, MeetsDropletsThatComeTowardsIt)
     const double before = kWiper.angleAt(0.74);
     const auto at = [](double angle) { return kWiper.pivot + 0.1 * Vec2{std::cos(angle), std::sin(angle)}; };
     const double after_step = kWiper.angleAt(0.75);
-    // From ahead of it to behind where it began: it never lies in what the blade sweeps at the end.
+    // It moves from ahead of the blade to behind its start, so at the end it is not in the swept area.
     const Vec2 ahead = at(after_step + 0.02);
     const Vec2 behind = at(before - 0.05);
     addRunning(state, ahead, 1.0 * kMicrolitre, (1.0 / kDt) * (behind - ahead));
-    // And one that runs away from it, faster than it comes.
+    // This one runs away from the blade, faster than the blade.
     const Vec2 away = at(after_step + 0.2);
     addRunning(state, at(before + 0.1), 1.0 * kMicrolitre, (1.0 / kDt) * (away - at(before + 0.1)));
     state = step(std::move(state), p, kDt);
@@ -151,7 +151,7 @@ TEST(Wiper, MeetsDropletsThatComeTowardsIt)
     EXPECT_EQ(state.droplets[0].id, 2U);
 }
 
-TEST(Wiper, InTandemReachesMostOfTheGlass)
+TEST(Wiper, TandemReachesMostOfTheGlass)
 {
     WindshieldParameters p = quietGlass();
     p.glass = Glass();
@@ -175,7 +175,7 @@ TEST(Wiper, InTandemReachesMostOfTheGlass)
         EXPECT_GT(std::hypot(d.position.x - 0.35, d.position.y - 0.35), 0.2);
         EXPECT_GT(std::hypot(d.position.x - 1.05, d.position.y - 0.3), 0.15);
     }
-    // Nothing stays wet between the two: what they leave lies along the upper edge and at the pillars.
+    // Nothing stays wet between the two: only the upper edge and the pillars do.
     bool has_corner = false;
     for (const StillDroplet& d : state.still.all()) {
         EXPECT_FALSE(d.position.x > 0.2 && d.position.x < 1.1 && d.position.y > 0.05 && d.position.y < 0.5)
@@ -186,7 +186,7 @@ TEST(Wiper, InTandemReachesMostOfTheGlass)
     EXPECT_THROW(tandemWipers(p.glass, 1.0).front().validate(), Error);
 }
 
-TEST(Wiper, RefusesWhatCannotWipe)
+TEST(Wiper, RejectsInvalidFields)
 {
     EXPECT_NO_THROW(kWiper.validate());
     EXPECT_NO_THROW(Wiper{}.validate());

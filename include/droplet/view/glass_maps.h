@@ -8,52 +8,55 @@
 
 namespace droplet {
 
-/// How maps of the glass are drawn.
+/// Options of glassMaps() and glassFloatMaps().
 struct GlassMapOptions {
-    int width = 2048;  ///< [px] 16 … 8192; the height follows, so that pixels are as square as whole ones can be
-    ShapeOptions shape = {};       ///< of droplets
-    double full_thickness = 5e-3;  ///< what the highest level stands for [m], > 0; more is cut off
-    double full_speed = 2.0;       ///< [m/s], > 0; more is cut off
+    int width = 2048;              ///< [px], 16 … 8192; the height follows from the glass, with nearly square pixels
+    ShapeOptions shape = {};       ///< shape of the droplets
+    double full_thickness = 5e-3;  ///< thickness of the highest level [m], > 0; more is clipped
+    double full_speed = 2.0;       ///< speed of the highest level [m/s], > 0; more is clipped
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
-/// The water on the whole glass as textures for other programs' renderers, all rolled out flat as the driver sees the
-/// glass from inside: left edge left, upper edge up, 16 bits a channel, without a colour space. A glass mesh whose uv
-/// cover it once takes them as they are.
+/// Water on the whole unrolled glass as textures for other renderers, as the driver sees the glass from inside: left
+/// edge left, upper edge up, 16 bits per channel, without a colour space. They fit a glass mesh whose uv cover the unit
+/// square once.
 struct GlassMaps {
     /// Outward unit normal of the water in the glass's tangent frame: red x, to the driver's right; green y, up the
-    /// glass; blue z, out of it; each (n + 1)/2 of 65535. Bare glass is (32768, 32768, 65535). +Y up, as OpenGL has it.
-    /// The mean over the pixel, of length 1 again: what is smaller than a pixel does not glitter.
+    /// glass; blue z, out of the glass; each (n + 1)/2 of 65535. Bare glass is (32768, 32768, 65535). +Y up, as in
+    /// OpenGL. It is the normalised mean over the pixel, so droplets smaller than a pixel do not flicker.
     DeepPicture normal;
-    /// Grey: the water's mean thickness over full_thickness; 0: bare. Added up over all pixels it is the water on the
-    /// glass, at any width, but for what is cut off.
+    /// Grey: mean thickness of the water over full_thickness; 0: bare. The sum over all pixels is the water on the
+    /// glass at any width, except for clipped water.
     DeepPicture thickness;
-    /// Red and green: velocity along x and y of what runs or may run there, (v/full_speed + 1)/2 of 65535; at rest
-    /// (32768, 32768). Blue: the share of the pixel that it covers, of 65535.
+    /// Red and green: velocity of running droplets along x and y, (v/full_speed + 1)/2 of 65535; at rest (32768,
+    /// 32768). Blue: share of the pixel that they cover, of 65535.
     DeepPicture velocity;
 };
 
-/// The same as numbers, for renderers that take floating point.
+/// The maps of GlassMaps in floating point.
 struct GlassFloatMaps {
-    /// Outward unit normal of the water in the glass's tangent frame, each part from −1 to 1; bare glass is (0, 0, 1).
+    /// Outward unit normal of the water in the glass's tangent frame, from −1 to 1; bare glass is (0, 0, 1).
     FloatPicture normal;
-    /// Mean thickness of the water [m]; none is cut off.
+    /// Mean thickness of the water [m]; not clipped.
     FloatPicture thickness;
-    /// Red and green: velocity along x and y [m/s] of what runs or may run there; blue: the share of the pixel that it
-    /// covers, 0 … 1.
+    /// Red and green: velocity of running droplets along x and y [m/s]; blue: share of the pixel that they cover, 0
+    /// … 1.
     FloatPicture velocity;
 };
 
-/// Draws them: means over the areas of pixels. Where droplets overlap, so does their water.
+/// Draws maps; pixels are means over their areas. The water of overlapping droplets is added.
 ///
-/// Guarantees: the same bytes from the same arguments, at any number of threads.
-/// @param state    of this glass
-/// @throws Error   InvalidArgument
+/// Guarantees: the same arguments give the same bytes with any number of threads.
+/// @param glass    glass of the simulation
+/// @param state    state on this glass
+/// @param options  valid
+/// @throws Error   InvalidArgument if an option is out of its range
 GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options = {});
 
-/// The same as numbers; full_thickness and full_speed do not matter.
+/// Draws maps in floating point; full_thickness and full_speed have no effect.
 GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options = {});
 
 }  // namespace droplet

@@ -9,61 +9,67 @@
 
 namespace droplet {
 
-/// A wind up the slope: mean + amplitude sin(2π t / period).
+/// Wind up the slope: mean + amplitude sin(2π t / period).
 struct Gust {
     double mean = 0.0;       ///< [m/s]
-    double amplitude = 0.0;  ///< [m/s], ≥ 0; 0: a steady wind
-    double period = 1.0;     ///< [s], > 0; at most kMaxGusts of them in a series
+    double amplitude = 0.0;  ///< [m/s], ≥ 0; 0: steady wind
+    double period = 1.0;     ///< [s], > 0; at most kMaxGusts periods in a series
 
+    /// Wind at a time [m/s].
     [[nodiscard]] double at(double time) const;
 };
 
+/// Options of traceMotion().
 struct MotionOptions {
     double duration = 1.0;                  ///< [s], > 0
-    double interval = 0.01;                 ///< between points of the series [s], > 0; at most kMaxMotionPoints of them
-    double velocity = 0.0;                  ///< at the start, up the slope [m/s]
-    double tolerance = 1e-9;                ///< of the velocity in one step, as a share of the fastest yet, > 0
-    std::optional<double> fixed_step = {};  ///< [s]: steps of this length, whatever their error
+    double interval = 0.01;                 ///< time between points [s], > 0; at most kMaxMotionPoints points
+    double velocity = 0.0;                  ///< initial velocity, up the slope [m/s]
+    double tolerance = 1e-9;                ///< velocity error per step over the highest speed so far, in (0, 1)
+    std::optional<double> fixed_step = {};  ///< fixed time step without error control [s], > 0
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
+/// Limit of points in one series.
 inline constexpr std::size_t kMaxMotionPoints = 10'000'000;
-/// Gusts in one series: each takes some fifty steps.
+/// Limit of gust periods in one series; each takes about fifty steps.
 inline constexpr double kMaxGusts = 1e5;
 
-/// A droplet at a time.
+/// State of a droplet at one time.
 struct MotionPoint {
     double time = 0.0;          ///< [s]
     double wind = 0.0;          ///< V [m/s]
-    double position = 0.0;      ///< up the slope from where it began [m]
-    double velocity = 0.0;      ///< [m/s]; exactly 0: held
+    double position = 0.0;      ///< way up the slope since the start [m]
+    double velocity = 0.0;      ///< [m/s]; exactly 0: at rest
     double acceleration = 0.0;  ///< [m/s²]
 };
 
-/// A droplet begins to move, or is caught by friction.
+/// Start or stop of a droplet.
 struct MotionEvent {
-    double time = 0.0;  ///< [s]
-    bool moves = false;
+    double time = 0.0;   ///< [s]
+    bool moves = false;  ///< true: it begins to move; false: friction stops it
 };
 
+/// Motion of one droplet as a series of points.
 struct Motion {
-    std::vector<MotionPoint> points;  ///< at every multiple of the interval up to the duration, the first at 0
-    std::vector<MotionEvent> events;  ///< after time 0, in order
-    std::size_t steps = 0;            ///< accepted
-    std::size_t rejected = 0;
+    std::vector<MotionPoint> points;  ///< at every multiple of the interval up to the duration, from 0
+    std::vector<MotionEvent> events;  ///< after time 0, in order of time
+    std::size_t steps = 0;            ///< number of accepted steps
+    std::size_t rejected = 0;         ///< number of rejected steps
 };
 
-/// The motion of one droplet.
+/// Traces the motion of one droplet.
 ///
-/// Between events the driving force is interpolated by a parabola over each step and the linear equation of motion then
-/// solved exactly: exact in a steady wind, of fourth order in a gust, and stable at any step however viscous the
-/// droplet. In gusts, halved steps control the error. Where friction catches a droplet, and where it lets go, is found
-/// as a root.
-/// @param forces   of a droplet, as of forcesOn
-/// @param slope    α [rad]
-/// @throws Error   InvalidArgument
+/// Over each step a parabola interpolates the driving force; the linear equation of motion is then solved exactly. This
+/// is exact in a steady wind, of fourth order in a gust, and stable with any step and any viscosity. In gusts, halved
+/// steps control the error. The times at which friction stops or releases the droplet are found as roots.
+/// @param forces   forces of forcesOn()
+/// @param slope    α [rad], finite
+/// @param wind     finite, in its documented range
+/// @param options  valid
+/// @throws Error   InvalidArgument if an argument is out of its range
 Motion traceMotion(const DropletForces& forces, double slope, const Gust& wind, const MotionOptions& options = {});
 
 }  // namespace droplet

@@ -9,122 +9,129 @@
 
 namespace droplet {
 
-/// What a droplet at rest does.
+/// Behaviour of a droplet that was at rest.
 enum class Regime {
-    RunsDown,
-    Still,
-    Climbs,
+    RunsDown,  ///< gravity wins
+    Still,     ///< retention holds the droplet
+    Climbs,    ///< the wind wins
 };
 
-/// "runs down", "still" or "climbs".
+/// Name of a regime: "runs down", "still" or "climbs".
 const char* nameOf(Regime regime);
 
-/// @param driving  up the slope, as of drivingForce [N]
+/// Regime of a droplet under a driving force.
+/// @param forces   forces of forcesOn()
+/// @param driving  positive up the slope, as from drivingForce() [N]
 Regime regimeOf(const DropletForces& forces, double driving);
 
-/// Between which winds a droplet stays.
+/// Winds between which a droplet stays at rest.
 struct Thresholds {
-    std::optional<double> lower;  ///< U₋ [m/s]: below it the droplet runs down; empty where it never does
-    std::optional<double> upper;  ///< U₊ [m/s]: above it the droplet climbs; empty where no wind drives it up
+    std::optional<double> lower;  ///< U₋ [m/s]: below it the droplet runs down; empty if it never does
+    std::optional<double> upper;  ///< U₊ [m/s]: above it the droplet climbs; empty if it never does
 };
 
-/// The thresholds of a droplet, each the root of its balance of forces, by Chandrupatla's method to the last digits.
-/// Winds up the slope and up to 10⁶ m/s are looked at.
-/// @param slope  α [rad], from 0 to π/2
+/// Thresholds of a droplet: roots of its balance of forces, to the last digits by Chandrupatla's method. The search
+/// covers winds up the slope from 0 to 10⁶ m/s.
+/// @param forces  forces of forcesOn()
+/// @param slope   α [rad], from 0 to π/2
 Thresholds thresholdsOf(const DropletForces& forces, double slope);
 
-/// A slope and a wind up it.
+/// Slope of the ground and wind up the slope.
 struct TunnelSetting {
     double slope = 0.0;  ///< α [rad], from 0 to π/2
     double wind = 0.0;   ///< V [m/s]
 };
 
-/// Volumes [m³], 0 < from < to.
+/// Range of volumes, 0 < min < max.
 struct VolumeRange {
-    double from = 1e-15;
-    double to = 1e-3;
+    double min = 1e-15;  ///< [m³]
+    double max = 1e-3;   ///< [m³]
 };
 
-/// Where in a range of volumes droplets begin to do something else.
+/// Volume at which the regime changes.
 struct RegimeChange {
-    double volume = 0.0;  ///< [m³]
-    Regime below = Regime::Still;
-    Regime above = Regime::Still;
+    double volume = 0.0;           ///< [m³]
+    Regime below = Regime::Still;  ///< regime of smaller droplets
+    Regime above = Regime::Still;  ///< regime of larger droplets
 };
 
-/// All changes in a range of volumes, in their order. None is overlooked: between the volumes where a balance of forces
-/// may turn, it has one root at most.
-/// @param model  valid
+/// All regime changes in a range of volumes, in ascending order. Finds every one: between two volumes where a balance
+/// of forces may turn, the balance has at most one root.
+/// @param model    valid
+/// @param setting  slope and wind
+/// @param range    volumes to search
 std::vector<RegimeChange> regimeChanges(const ForceModel& model, const TunnelSetting& setting,
                                         const VolumeRange& range = {});
 
-/// The smallest volume that runs down a slope without wind [m³]; empty where none does, or every one.
+/// Smallest volume that runs down a slope without wind [m³]; empty if no volume does, or every volume.
 /// @param model  valid
+/// @param slope  α [rad], from 0 to π/2
 std::optional<double> criticalVolume(const ForceModel& model, double slope);
 
-/// The Weber number ρ_a U² y / γ at which wind tears a droplet of height y off its place, ± 0.5: Zhang et al., Phys.
-/// Rev. Fluids 9 (2024) 034004.
+/// Critical Weber number ρ_a U² y / γ, ± 0.5, above which the wind U tears off a droplet of height y: Zhang et al.,
+/// Phys. Rev. Fluids 9 (2024) 034004.
 inline constexpr double kTearOffWeber = 7.5;
 
-/// The wind that tears a droplet off its place, from its height alone [m/s]; empty where the air weighs nothing.
+/// Wind that tears off a droplet, from its height alone [m/s]; empty if the density of air is 0.
 std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap);
 
-/// What is swept: every value of one list with every one of the others.
+/// Input of sweep(): lists of values, of which all combinations are computed.
 struct TunnelSweep {
-    ForceModel model = {};
+    ForceModel model = {};           ///< model of all combinations
     std::vector<double> volumes;     ///< V_d [m³], each > 0
     std::vector<double> winds;       ///< V up the slope [m/s]
     std::vector<double> slopes;      ///< α [rad], from 0 to π/2
-    std::vector<double> hystereses;  ///< Δ, from 0 to 2; empty: as the model has it
+    std::vector<double> hystereses;  ///< Δ, from 0 to 2; empty: the model's value
 
-    /// Guarantees: returns only when model and lists are in their documented ranges, lists not empty, and rows at most
-    /// kMaxTunnelRows.
-    /// @throws Error InvalidArgument
+    /// Checks the model and the lists: all values in range, no list empty except hystereses, and at most kMaxTunnelRows
+    /// rows.
+    /// @throws Error InvalidArgument if a check fails
     void validate() const;
 };
 
+/// Limit of rows of one sweep.
 inline constexpr std::size_t kMaxTunnelRows = 10'000'000;
 
-/// A droplet on a slope, at no wind in particular.
+/// Droplet on a slope, with its figures that do not depend on the wind.
 struct TunnelCase {
-    double hysteresis = 0.0;  ///< Δ; with a falling angle for every volume: the Δ that holds as much
-    double slope = 0.0;       ///< α [rad]
-    CapSize cap;
-    DropletForces forces;
-    Thresholds thresholds;
-    std::optional<double> critical_volume;  ///< as of criticalVolume [m³]
-    std::optional<double> shedding_wind;    ///< [m/s]
+    double hysteresis = 0.0;                ///< Δ; with a falling angle for every volume: the Δ of equal retention
+    double slope = 0.0;                     ///< α [rad]
+    CapSize cap;                            ///< size of the droplet
+    DropletForces forces;                   ///< forces on it
+    Thresholds thresholds;                  ///< winds between which it stays at rest
+    std::optional<double> critical_volume;  ///< volume of criticalVolume() [m³]
+    std::optional<double> shedding_wind;    ///< wind of sheddingWind() [m/s]
 };
 
-/// A case at a wind.
+/// Result of one case in one wind.
 struct TunnelRow {
     double drag = 0.0;                        ///< up the slope [N]
-    double driving = 0.0;                     ///< drag less the weight's part along the slope [N]
-    double acceleration = 0.0;                ///< at rest, up the slope [m/s²]
+    double driving = 0.0;                     ///< drag minus the component of the weight along the slope [N]
+    double acceleration = 0.0;                ///< acceleration from rest, up the slope [m/s²]
     std::optional<double> terminal_velocity;  ///< up the slope [m/s]; empty: nothing limits it
-    Regime regime = Regime::Still;
+    Regime regime = Regime::Still;            ///< behaviour of the droplet
 };
 
-/// What a sweep found.
-/// Invariant: rows.size() == cases.size() * winds.size(); rows of one case stand together, in the order of the winds;
-/// cases go through volumes first, then slopes, then hystereses.
+/// Result of a sweep.
+/// Invariant: rows.size() == cases.size() * winds.size(). Rows of one case are adjacent, in the order of the winds.
+/// Cases loop over volumes first, then slopes, then hystereses.
 struct Tunnel {
-    std::vector<double> winds;  ///< [m/s]
-    std::vector<TunnelCase> cases;
-    std::vector<TunnelRow> rows;
+    std::vector<double> winds;      ///< [m/s]
+    std::vector<TunnelCase> cases;  ///< all combinations without the wind
+    std::vector<TunnelRow> rows;    ///< all combinations
 };
 
-/// Sweeps. The same sweep gives the same bytes at any number of threads.
-/// @throws Error InvalidArgument
+/// Computes all combinations. The same sweep gives the same bytes with any number of threads.
+/// @throws Error InvalidArgument if validate() fails
 Tunnel sweep(const TunnelSweep& what);
 
-/// By how much a still band is off a measured one, as a share of the measured winds: 0.1 is a tenth too fast.
+/// Relative error of a still band against a measured one: 0.1 means a tenth too fast.
 struct BandDistance {
-    double lower = 0.0;
-    double upper = 0.0;
+    double lower = 0.0;  ///< error of the lower wind
+    double upper = 0.0;  ///< error of the upper wind
 };
 
-/// Empty where one of the thresholds is.
+/// Distance of thresholds from a measured band; empty if a threshold is.
 std::optional<BandDistance> distanceFrom(const WindBand& measured, const Thresholds& thresholds);
 
 }  // namespace droplet

@@ -11,27 +11,33 @@
 
 namespace droplet {
 
+/// Options of charts.
 struct ChartOptions {
-    std::string title = "Droplets in the wind tunnel";  ///< printable ASCII and the few more that drawings know
-    std::optional<WindBand> measured = {};              ///< a still band to stand beside
-    double min = 0.0;  ///< an acceleration down to which the axis goes at least, for charts that stand side by side
-    double max = 0.0;  ///< and up to which [m/s²]
+    std::string title = "Droplets in the wind tunnel";  ///< printable ASCII and the other characters of Drawing
+    std::optional<WindBand> measured = {};              ///< measured still band, drawn for comparison
+    double min = 0.0;                                   ///< acceleration that the axis includes at least [m/s²]
+    double max = 0.0;                                   ///< acceleration that the axis includes at least [m/s²]
 };
 
-/// The most slopes and hystereses that charts show, a panel for each of both; of several of both a row for each slope.
+/// Limit of the panels of a chart. There is one for each pair of slope and hysteresis; if there are several of both,
+/// each slope is a row.
 inline constexpr std::size_t kMaxPanels = 12;
 
-/// Acceleration at rest over wind speed, a curve for each volume, in the manner of the thesis' figure 3.5: where each
-/// droplet stays still is shaded, the more the more of them do. Curves are drawn from the forces between the slowest
-/// and the fastest wind of the sweep, however few winds that has.
-/// @param model   that was swept
-/// @throws Error  InvalidArgument: over kMaxPanels panels
+/// Chart of the acceleration from rest over the wind, one curve for each volume, in the manner of the thesis's figure
+/// 3.5. Winds in which droplets stay at rest are shaded; darker if more droplets do. Curves are computed from the
+/// forces, between the slowest and the fastest wind of the sweep.
+/// @param swept    input of the sweep
+/// @param tunnel   its result
+/// @param options  title and axis
+/// @throws Error   InvalidArgument if there are more than kMaxPanels panels
 Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options = {});
 
-/// What droplets do over wind and volume: where they run down, stay still and climb, parted by the roots U₋ and U₊ of
-/// many volumes, up to the wind that tears droplets off, by their height alone (sheddingWind): beyond that dashed line
-/// they are torn off.
-/// @throws Error  InvalidArgument: over kMaxPanels panels
+/// Map of the regimes over wind and volume. The roots U₋ and U₊ of many volumes separate droplets that run down, stay
+/// still and climb. Beyond the dashed line the wind tears droplets off (sheddingWind).
+/// @param swept    input of the sweep
+/// @param tunnel   its result
+/// @param options  title and measured band
+/// @throws Error   InvalidArgument if there are more than kMaxPanels panels
 Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options = {});
 
 }  // namespace droplet

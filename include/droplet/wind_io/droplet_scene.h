@@ -12,54 +12,57 @@
 
 namespace droplet {
 
-/// How a scene's droplets are animated.
+/// Method of animating the droplets of a scene.
 enum class SceneAnimation {
-    /// By joints of skinned meshes, which every reader of glTF knows. A joint is one droplet's after another's: there
-    /// are about as many as droplets at once, and one draw call for 62 of them. Droplets at rest have a translation and
-    /// a scale, both STEP; running ones a translation, LINEAR, and a rotation and a scale, both STEP. A joint's scale
-    /// is
-    /// 0 where it has no droplet. Keys stand only where more changes than these tolerances: running droplets are within
-    /// a quarter of their contact radius of their place, and along their way within 5 ms more; those at rest within a
-    /// quarter of their contact radius, and face within 1.5° where the glass does; contact radii are right to 1 %,
-    /// outlines of running droplets to a quarter of their width. No droplet appears or goes earlier or later.
+    /// Joints of skinned meshes, which every glTF reader supports. A joint belongs to one droplet after another: there
+    /// are about as many joints as droplets at once, with one draw call for 62 of them. Droplets at rest have a
+    /// translation and a scale, both STEP. Running ones have a translation, LINEAR, and a rotation and a scale, both
+    /// STEP. The scale is 0 while a joint has no droplet. Keys are written where a change exceeds these tolerances:
+    /// positions a quarter of the contact radius, plus 5 ms of the way if running; directions of droplets at rest 1.5°
+    /// from the glass's normal; contact radii 1 %; outlines of running droplets a quarter of their width. Droplets
+    /// appear and disappear at exact times.
     Nodes,
-    /// By a texture with every droplet of every frame, for one draw call and a shader of the viewer's own
-    /// (docs/formats.md). Places are right to 1/65535 of the glass; contact radii and outlines are as right as those of
-    /// Nodes, and the bytes they become.
+    /// Texture with every droplet of every frame, for one draw call with a shader of the viewer (docs/formats.md).
+    /// Positions are exact to 1/65535 of the glass; contact radii and outlines as for Nodes, rounded to bytes.
     Texture,
 };
 
+/// Options of a DropletScene.
 struct DropletSceneOptions {
-    double frames_per_second = 30.0;  ///< > 0
-    Material material = Material::Water;
-    ShapeOptions shape = {};  ///< of droplets
-    SceneAnimation animation = SceneAnimation::Nodes;
+    double frames_per_second = 30.0;                   ///< > 0
+    Material material = Material::Water;               ///< material of the droplets
+    ShapeOptions shape = {};                           ///< shape of the droplets
+    SceneAnimation animation = SceneAnimation::Nodes;  ///< method of animation
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
-/// An animated GLB of droplets on their way over a windshield: takes one state after another, keeps what the file will
-/// hold of them, and is written in the end.
+/// Animated GLB of droplets that run over a windshield. Takes one state after another, keeps their data in memory, and
+/// writes the file at the end.
 ///
-/// The mesh of a droplet is a cap of contact radius 1 m, as large as makes up for its chords, and scaled. A droplet
-/// that runs is lengthened along its way by λ and made narrower and lower by √λ, which keeps its volume; λ^1.5 is the
-/// capsule's length over its width (RunningShape). Still droplets are left out: they are a map's (glassMaps). The glass
-/// is there, too, as a node `glass`. Metres, +Y up, +Z ahead, as glTF has an object's front and Glass reads one.
+/// A droplet is a scaled mesh of a cap with contact radius 1 m, slightly enlarged to the volume of the true cap. A
+/// running droplet is stretched along its motion by λ and made narrower and lower by √λ, which keeps its volume; λ^1.5
+/// is the capsule's length over its width (RunningShape). Still droplets are left out: they are in glassMaps(). The
+/// glass is a node `glass`. Metres, +Y up, +Z ahead: the front of an object in glTF, as Glass reads it.
 class DropletScene {
 public:
-    /// @throws Error InvalidArgument
+    /// Makes a scene without frames.
+    /// @throws Error InvalidArgument if an option is out of its range
     DropletScene(const Glass& glass, const DropletSceneOptions& options = {});
     ~DropletScene();
-    DropletScene(DropletScene&&) noexcept;
-    DropletScene& operator=(DropletScene&&) noexcept;
+    DropletScene(DropletScene&&) noexcept;             ///< Moves all frames.
+    DropletScene& operator=(DropletScene&&) noexcept;  ///< Moves all frames.
 
-    /// The next frame.
-    /// @throws Error InvalidArgument: the file would reach 128 MiB, or its texture 8192 rows
+    /// Adds the next frame.
+    /// @throws Error InvalidArgument if the file would exceed 128 MiB, or its texture 8192 rows
     void add(const WindshieldState& state);
 
-    /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.
-    /// @return       bytes handed to the stream
+    /// Writes the file.
+    ///
+    /// Guarantees: the same frames give the same bytes; the stream is in a failed state if a write failed.
+    /// @return       number of bytes written
     /// @throws Error InvalidArgument if there is no frame
     std::uint64_t write(std::ostream& out) const;
 

@@ -9,27 +9,37 @@
 
 namespace droplet {
 
-enum class TableFormat { Csv, Json };
+/// File format of a table.
+enum class TableFormat {
+    Csv,   ///< comma-separated values with a header
+    Json,  ///< one JSON object
+};
 
-/// Which droplets have a row: all that may run, or only those that do.
-enum class DropletRows { All, Moving };
+/// Choice of the droplets that have a row.
+enum class DropletRows {
+    All,     ///< all running droplets, also those at rest
+    Moving,  ///< only droplets that move
+};
 
-/// Droplets that may run, frame by frame, as a table: a row for each droplet and frame. Nothing is kept: rows go to the
-/// stream as they come.
+/// Table of running droplets with a row for each droplet and frame. Rows are written at once; nothing is kept in
+/// memory.
 ///
-/// Columns, all in SI units: frame, time_s, id, x_m and y_m on the rolled out glass, velocity_x_m_per_s,
+/// Columns, all in SI units: frame, time_s, id, x_m and y_m on the unrolled glass, velocity_x_m_per_s,
 /// velocity_y_m_per_s, volume_m3, contact_radius_m and length_m of its footprint. Numbers are the shortest that read
-/// back as the same doubles, times those of whole nanoseconds: steps add up to them but for rounding. CSV has a header;
-/// JSON is an object with `schema` "droplet-shape.windshield-droplets/1", `columns` and `rows`, an array of arrays.
+/// back as the same doubles; times are rounded to whole nanoseconds. CSV has a header; JSON is an object with `schema`
+/// "droplet-shape.windshield-droplets/1", `columns` and `rows`, an array of arrays.
 class DropletTable {
 public:
-    /// Writes what stands before the first row.
-    /// @param out    must outlive the table
+    /// Writes the text before the first row.
+    /// @param out     must outlive the table
+    /// @param format  file format
+    /// @param shape   shape of the droplets, for their footprints
     DropletTable(std::ostream& out, TableFormat format, const ShapeOptions& shape);
 
+    /// Writes the rows of one frame.
     void add(std::size_t frame, const WindshieldState& state, DropletRows which = DropletRows::All);
 
-    /// Writes what stands behind the last row. The stream is left failed if it did not take everything.
+    /// Writes the text after the last row. The stream is in a failed state if a write failed.
     void finish();
 
 private:

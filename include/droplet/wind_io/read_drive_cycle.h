@@ -9,20 +9,20 @@
 
 namespace droplet {
 
-/// Reads a drive cycle from CSV: a header, `time_s,speed_m_per_s` (or `speed_km_per_h`, `speed_mph`; `time[s]`,
-/// `speed (km/h)` and the like mean the same), then a row for every time. Other columns are passed over, empty lines at
-/// the end too; lines end in LF or CRLF, fields may be quoted.
+/// Reads a drive cycle from CSV text: a header `time_s,speed_m_per_s` (or `speed_km_per_h`, `speed_mph`; `time[s]`,
+/// `speed (km/h)` and similar mean the same), then a row for every time. Other columns and empty lines at the end are
+/// ignored. Lines end in LF or CRLF; fields may be quoted.
 ///
-/// Nothing is guessed: fields that are empty or no number, NaN, times that do not rise, negative speeds, rows with more
-/// cells than the header and gaps are refused. A gap is an empty line between rows, or, where at least ten rows come at
-/// even intervals, an interval of 1.5 of those or more.
+/// Nothing is guessed: empty fields, fields that are not numbers, NaN, times that do not ascend, negative speeds, rows
+/// with more cells than the header and gaps are errors. A gap is an empty line between rows, or an interval of at least
+/// 1.5 times the usual one if at least ten rows have equal intervals.
 /// @param text   UTF-8, with or without a byte order mark
-/// @param name   of the file, for messages
-/// @throws Error InvalidInput, naming the file, the row (its line in the file) and what is wrong, in one line
+/// @param name   name of the file for error messages
+/// @throws Error InvalidInput; the message names the file, the line and the problem
 DriveCycle parseDriveCycle(std::string_view text, const std::string& name);
 
-/// The same from a file.
-/// @throws Error InvalidInput, also where the file cannot be read
+/// Reads a drive cycle from a CSV file.
+/// @throws Error InvalidInput as parseDriveCycle(), or if the file cannot be read
 DriveCycle readDriveCycle(const std::filesystem::path& path);
 
 }  // namespace droplet

@@ -11,40 +11,40 @@
 
 namespace droplet {
 
-/// A sweep, what it found, and where its numbers are from.
+/// Sweep with its result and the origin of its parameters.
 struct TunnelRun {
-    std::string preset;  ///< empty: none
-    TunnelSweep swept;
-    Tunnel tunnel;
-    std::optional<double> falling_angle;   ///< that the hysteresis was taken from, at falling_volume [rad]
+    std::string preset;                    ///< name of the preset; empty: none
+    TunnelSweep swept;                     ///< input of the sweep
+    Tunnel tunnel;                         ///< result of the sweep
+    std::optional<double> falling_angle;   ///< falling angle that gave the hysteresis, at falling_volume [rad]
     std::optional<double> falling_volume;  ///< [m³]
-    std::optional<WindBand> measured;      ///< a still band that thresholds are compared with
+    std::optional<WindBand> measured;      ///< measured still band to compare with
 };
 
-/// Writes runs as one table, comma-separated, a line for every combination, SI units, angles in degrees. Lines before
-/// its head begin with `#` and hold everything that all lines of a run share: `# gravity_m_per_s2 = 9.81`. What does
-/// not exist is left empty.
+/// Writes runs as one CSV table with a line for every combination: SI units, angles in degrees. Lines before the header
+/// begin with `#` and hold everything that all lines of a run share: `# gravity_m_per_s2 = 9.81`. Fields without a
+/// value are empty.
 ///
-/// Guarantees: the same runs give the same bytes at any number of threads, and every number reads back as it was; the
-/// stream is left failed if it did not take everything.
+/// Guarantees: the same runs give the same bytes with any number of threads; every number reads back exactly; the
+/// stream is in a failed state if a write failed.
 void writeTunnelCsv(std::ostream& out, const std::vector<TunnelRun>& runs);
 
-/// Writes runs as JSON, schema `droplet-shape.wind-tunnel/1`: every key always present, in a fixed order, angles in
-/// degrees, the rest in SI units; null is what does not exist.
+/// Writes runs as JSON, schema `droplet-shape.wind-tunnel/1`: SI units, angles in degrees. Every key is always present,
+/// in a fixed order; a missing value is null.
 void writeTunnelJson(std::ostream& out, const std::vector<TunnelRun>& runs);
 
-/// One droplet's motion, and which droplet it was.
+/// Motion of one droplet with its parameters.
 struct TraceRun {
-    TunnelRun run;  ///< of one case and one wind
-    Gust wind;
-    MotionOptions options;
-    Motion motion;
+    TunnelRun run;          ///< sweep of one case and one wind
+    Gust wind;              ///< wind over time
+    MotionOptions options;  ///< options of traceMotion()
+    Motion motion;          ///< its result
 };
 
-/// Writes a series as a table as above: time, wind, position, velocity, acceleration.
+/// Writes a motion as a CSV table like writeTunnelCsv(): time, wind, position, velocity, acceleration.
 void writeTraceCsv(std::ostream& out, const TraceRun& run);
 
-/// Writes a series and its events as JSON, schema `droplet-shape.wind-trace/1`.
+/// Writes a motion and its events as JSON, schema `droplet-shape.wind-trace/1`.
 void writeTraceJson(std::ostream& out, const TraceRun& run);
 
 }  // namespace droplet

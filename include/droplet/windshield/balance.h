@@ -5,34 +5,36 @@ namespace droplet {
 
 struct WindshieldState;
 
-/// A sum of many small terms that forgets none (A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation
-/// endlicher Summen", ZAMM 54 (1974) 39).
-struct CarriedSum {
-    double sum = 0.0;
-    double carry = 0.0;
+/// Compensated sum: many small terms without loss by rounding (A. Neumaier, "Rundungsfehleranalyse einiger Verfahren
+/// zur Summation endlicher Summen", ZAMM 54 (1974) 39).
+struct CompensatedSum {
+    double sum = 0.0;    ///< rounded sum
+    double carry = 0.0;  ///< sum of the rounding errors
 
+    /// Adds a term.
     void add(double term);
+    /// Compensated value.
     [[nodiscard]] double value() const { return sum + carry; }
 
-    friend bool operator==(const CarriedSum&, const CarriedSum&) = default;
+    friend bool operator==(const CompensatedSum&, const CompensatedSum&) = default;  ///< Compares all members.
 };
 
-/// Where the water went since the start [m³].
+/// Balance of all water since the start [m³].
 struct WaterBalance {
-    double rained = 0.0;
-    double on_glass_still = 0.0;
-    double on_glass_running = 0.0;
-    double left = 0.0;    ///< over the edges
-    double wiped = 0.0;   ///< by wipers
-    double merged = 0.0;  ///< a flow on the glass: taken up by running droplets, from still ones, rain, and each other
-    double swept = 0.0;   ///< of that, from still droplets along tracks: the Lotus effect
-    double shed = 0.0;    ///< a flow on the glass: left behind as streaks
+    double rained = 0.0;            ///< volume of the raindrops that met the glass
+    double on_glass_still = 0.0;    ///< volume of the still droplets
+    double on_glass_running = 0.0;  ///< volume of the running droplets
+    double left = 0.0;              ///< volume that has run off over the edges
+    double wiped = 0.0;             ///< volume that wipers removed
+    double merged = 0.0;  ///< flow on the glass: still droplets, rain and others that running droplets absorbed
+    double swept = 0.0;   ///< part of `merged` from still droplets along tracks: the Lotus effect
+    double shed = 0.0;    ///< flow on the glass: water that running droplets left behind as streaks
 
-    /// rained − (on glass + left + wiped), relative to rained; 0 before any rain.
+    /// Relative error: (rained − on glass − left − wiped) / rained; 0 before any rain.
     [[nodiscard]] double residual() const;
 };
 
-/// Where the water is, summed up anew.
+/// Balance of a state; the volumes on the glass are summed up anew.
 WaterBalance balanceOf(const WindshieldState& state);
 
 }  // namespace droplet

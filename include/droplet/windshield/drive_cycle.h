@@ -5,27 +5,28 @@
 
 namespace droplet {
 
-/// A vehicle's speed over time: linear between rows, the first one's before them and the last one's after.
+/// Speed of a vehicle over time: linear between rows, constant before the first row and after the last row.
 struct DriveCycle {
-    std::vector<double> times{0.0};   ///< [s], rising, finite; at least one
-    std::vector<double> speeds{0.0};  ///< [m/s], ≥ 0, finite; as many
+    std::vector<double> times{0.0};   ///< [s], ascending, finite; at least one
+    std::vector<double> speeds{0.0};  ///< [m/s], ≥ 0, finite; one for each time
 
-    /// @param time  [s], any
-    /// @return      [m/s]
+    /// Speed at any time [m/s].
+    /// @param time  [s]
     [[nodiscard]] double speedAt(double time) const;
 
-    /// @param from, to  [s], from < to
-    /// @return          mean acceleration from one time to the other [m/s²]
+    /// Mean acceleration between two times [m/s²].
+    /// @param from  [s]
+    /// @param to    [s], > from
     [[nodiscard]] double meanAcceleration(double from, double to) const;
 
-    /// Guarantees: returns only when the invariants hold.
-    /// @throws Error InvalidArgument
+    /// Checks both lists.
+    /// @throws Error InvalidArgument if a value is out of its range or the lengths differ
     void validate() const;
 
-    friend bool operator==(const DriveCycle&, const DriveCycle&) = default;
+    friend bool operator==(const DriveCycle&, const DriveCycle&) = default;  ///< Compares all members.
 };
 
-/// The same speed always.
+/// Drive cycle with a constant speed.
 /// @param speed  [m/s], ≥ 0
 DriveCycle constantSpeed(double speed);
 

@@ -14,44 +14,46 @@
 
 namespace droplet {
 
-/// Random pushes along the glass from a vehicle that shakes (thesis 3.2: noise on the gravity along the windshield).
-/// Each droplet has its own: uniform values at times `interval` apart, its phase its own, with a smooth passage between
-/// them that keeps their variance; a function of seed, droplet and time alone.
+/// Random acceleration along the glass from a vehicle that shakes (thesis 3.2: noise on the gravity along the
+/// windshield). Each droplet has its own, with its own phase: uniform values at times `interval` apart, and between
+/// them a smooth transition that keeps the variance. It depends on seed, droplet and time alone.
 struct Fluctuation {
-    double acceleration = 0.5;  ///< root mean square of each component [m/s²], ≥ 0; never beyond √6 of it
+    double acceleration = 0.5;  ///< root mean square of each component [m/s²], ≥ 0; peaks are at most √6 times that
     double interval = 0.1;      ///< [s], > 0
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
-/// What running droplets leave behind: a film as wide as they are, which breaks up into still droplets.
+/// Film that running droplets leave behind: as wide as they are, it breaks up into still droplets.
 struct Streaks {
-    double film = 0.0;      ///< its thickness [m], ≥ 0; 0: none. Water-repellent glass stays dry
-    double spacing = 4e-3;  ///< mean distance of the droplets it becomes [m], > 0
+    double film = 0.0;      ///< thickness [m], ≥ 0; 0: no film, as on water-repellent glass
+    double spacing = 4e-3;  ///< mean distance of the still droplets [m], at least 0.1 mm
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
+/// Parameters of the rain on a windshield.
 struct WindshieldParameters {
-    Glass glass;
-    WindAlongGlass wind = WindAlongGlass::Turned;
-    ForceModel forces;
-    DriveCycle vehicle = constantSpeed(11.3);
-    double rainfall = 5.0 * kMillimetrePerHour;  ///< [m/s], ≥ 0
-    RaindropRange raindrops;
-    double still_diameter = 1e-3;  ///< raindrops of less make still droplets (thesis 3.1.5) [m], > 0, at most 2 mm
-    bool relative_wind = false;    ///< drag by the wind relative to the moving droplet, instead of to the glass
-    Fluctuation fluctuation;
-    Streaks streaks;
-    /// Droplets so high that the Weber number of the wind along the glass is more break up; > 0, infinity: none does.
-    double tear_off_weber = kTearOffWeber;
-    std::vector<Wiper> wipers;
-    std::uint64_t seed = 1;
+    Glass glass;                                   ///< at most 100 m²
+    WindAlongGlass wind = WindAlongGlass::Turned;  ///< speed of the air along the glass
+    ForceModel forces;                             ///< constants of the forces on droplets
+    DriveCycle vehicle = constantSpeed(11.3);      ///< speed of the vehicle
+    double rainfall = 5.0 * kMillimetrePerHour;    ///< [m/s], from 0 to 1000 mm/h
+    RaindropRange raindrops;                       ///< diameters that are simulated
+    double still_diameter = 1e-3;           ///< smaller raindrops are still (thesis 3.1.5) [m], > 0, at most 2 mm
+    bool relative_wind = false;             ///< true: drag uses the wind relative to the moving droplet
+    Fluctuation fluctuation;                ///< random acceleration
+    Streaks streaks;                        ///< film behind running droplets
+    double tear_off_weber = kTearOffWeber;  ///< Weber number above which droplets break up, > 0; infinity: none
+    std::vector<Wiper> wipers;              ///< empty: none
+    std::uint64_t seed = 1;                 ///< random seed
 
-    /// Guarantees: returns only when every field is in its documented range.
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 

@@ -9,17 +9,18 @@
 
 namespace droplet {
 
-/// A setting of the thesis's figures.
+/// Named parameters of one figure of the thesis.
 struct WindshieldPreset {
-    std::string name;         ///< "figure-3.10"
-    std::string description;  ///< what the thesis says of it, in a line
-    WindshieldParameters parameters;
+    std::string name;                 ///< such as "figure-3.10"
+    std::string description;          ///< one line: the parameters and the result in the thesis
+    WindshieldParameters parameters;  ///< valid
 };
 
-/// Figures 3.10, 3.11 and 3.12: 11.3 m/s with hysteresis 0.5, 11.3 m/s with 0.05, 15 m/s with 0.5.
+/// All presets: figures 3.10 (11.3 m/s, hysteresis 0.5), 3.11 (11.3 m/s, 0.05) and 3.12 (15 m/s, 0.5).
 const std::vector<WindshieldPreset>& windshieldPresets();
 
-/// @throws Error InvalidArgument, listing the names known
+/// Preset with a given name.
+/// @throws Error InvalidArgument if there is none; the message lists all names
 const WindshieldPreset& windshieldPresetNamed(std::string_view name);
 
 }  // namespace droplet

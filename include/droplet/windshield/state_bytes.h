@@ -8,9 +8,13 @@
 
 namespace droplet {
 
-/// The whole state, exactly; and back again.
-/// @throws Error InvalidInput, naming `name`, where it is no such state or cut off
+/// Exact bytes of a complete state.
 std::string bytesOf(const WindshieldState& state);
+
+/// State from its bytes.
+/// @param bytes   bytes of bytesOf()
+/// @param name    name of the source for error messages
+/// @throws Error  InvalidInput if the bytes are damaged, cut off or not a state
 WindshieldState stateFromBytes(std::string_view bytes, const std::string& name);
 
 }  // namespace droplet

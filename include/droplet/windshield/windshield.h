@@ -10,53 +10,58 @@
 
 namespace droplet {
 
-/// How many of what happened since the start.
+/// Event counters since the start.
 struct WindshieldCounts {
-    std::uint64_t raindrops = 0;  ///< that met the glass
-    std::uint64_t merged = 0;     ///< running droplets taken up by others
-    std::uint64_t swept = 0;      ///< still droplets taken up by running ones
+    std::uint64_t raindrops = 0;  ///< raindrops that met the glass
+    std::uint64_t merged = 0;     ///< running droplets that others absorbed
+    std::uint64_t swept = 0;      ///< still droplets that running ones absorbed
     std::uint64_t grown = 0;      ///< still droplets that became running ones
-    std::uint64_t torn = 0;       ///< droplets made by wind from larger ones
+    std::uint64_t torn = 0;       ///< droplets that the wind made from larger ones
     std::uint64_t left = 0;       ///< running droplets that left over the edges
-    std::uint64_t wiped = 0;      ///< droplets of both kinds
+    std::uint64_t wiped = 0;      ///< droplets of both kinds that wipers removed
 
-    friend bool operator==(const WindshieldCounts&, const WindshieldCounts&) = default;
+    friend bool operator==(const WindshieldCounts&, const WindshieldCounts&) = default;  ///< Compares all members.
 };
 
-/// All there is to know to go on. Plain values; made by startWindshield, step and stateFromBytes.
+/// Complete state of the simulation; the parameters are the only other input of a step. Made by startWindshield, step
+/// and stateFromBytes.
 struct WindshieldState {
     double time = 0.0;                     ///< [s]
-    std::vector<RunningDroplet> droplets;  ///< in the order of their ids
-    StillDroplets still;                   ///< all others
-    std::vector<TrackPiece> tracks;        ///< of the last step, of droplets that moved, in the order of ids
-    std::uint64_t next_id = 1;             ///< of a running droplet
-    std::uint64_t next_raindrop = 0;       ///< number of the raindrop that comes next
-    double until_raindrop = 0.0;           ///< until then, in raindrops expected
-    CarriedSum rained;                     ///< [m³], as are these
-    CarriedSum left;
-    CarriedSum wiped;
-    CarriedSum merged;
-    CarriedSum swept;
-    CarriedSum shed;
-    WindshieldCounts counts;
+    std::vector<RunningDroplet> droplets;  ///< running droplets, in the order of their ids
+    StillDroplets still;                   ///< still droplets
+    std::vector<TrackPiece> tracks;        ///< paths of the last step, of droplets that moved, in the order of ids
+    std::uint64_t next_id = 1;             ///< id of the next running droplet
+    std::uint64_t next_raindrop = 0;       ///< number of the next raindrop
+    double until_raindrop = 0.0;           ///< time until the next raindrop, as the expected number of raindrops
+    CompensatedSum rained;                 ///< WaterBalance::rained [m³]
+    CompensatedSum left;                   ///< WaterBalance::left [m³]
+    CompensatedSum wiped;                  ///< WaterBalance::wiped [m³]
+    CompensatedSum merged;                 ///< WaterBalance::merged [m³]
+    CompensatedSum swept;                  ///< WaterBalance::swept [m³]
+    CompensatedSum shed;                   ///< WaterBalance::shed [m³]
+    WindshieldCounts counts;               ///< event counters
 
-    friend bool operator==(const WindshieldState&, const WindshieldState&) = default;
+    friend bool operator==(const WindshieldState&, const WindshieldState&) = default;  ///< Compares all members.
 };
 
 /// Dry glass at time 0.
-/// @throws Error InvalidArgument
+/// @throws Error InvalidArgument if a parameter is out of its range
 WindshieldState startWindshield(const WindshieldParameters& parameters);
 
-/// Goes on by dt: rain arrives (Poisson), running droplets are moved by the forces (wind/forces.h), take up still ones
-/// along their way and merge where they touch; those too high for the wind break up into the fewest equal ones that are
-/// not, in a row along the wind; then wipers pass and what is beyond the edges has left. A vehicle's acceleration acts
-/// on the droplets as gravity does.
+/// Advances the state by dt:
+/// - Rain arrives (Poisson).
+/// - Forces (wind/forces.h) move running droplets. The vehicle's acceleration acts as gravity does.
+/// - Running droplets absorb still ones along their tracks and merge where they touch.
+/// - Droplets that are too high for the wind break up into the smallest number of equal ones that are not, in a row
+///   along the wind.
+/// - Wipers remove water. Droplets beyond the edges leave.
 ///
-/// Guarantees: the same bytes from the same arguments, at any number of threads; water is kept (balanceOf); droplets in
-/// the order of their ids; a droplet whose forces are within the retention limit stays exactly where it is.
-/// @param state  of these parameters
-/// @param dt     [s], > 0, finite; what happens between two droplets within it happens at its end: 1/30 s or less
-/// @throws Error InvalidArgument
+/// Guarantees: the same arguments give the same bytes with any number of threads; water is conserved (balanceOf);
+/// droplets are in the order of their ids; a droplet within its retention stays exactly in place.
+/// @param state       made with the same parameters
+/// @param parameters  valid
+/// @param dt          [s], > 0, finite; at most 1/30 s is advised, as interactions of droplets happen at its end
+/// @throws Error      InvalidArgument if an argument is out of its range
 WindshieldState step(WindshieldState state, const WindshieldParameters& parameters, double dt);
 
 }  // namespace droplet

@@ -9,28 +9,29 @@
 
 namespace droplet {
 
-/// A blade that sweeps back and forth about a pivot: its angle goes as a cosine from `first` to `last` and back in
-/// `stroke`, then rests at `first` for what is left of `period`. It takes all water it passes over off the glass:
-/// wiped.
+/// Blade that sweeps about a pivot. In the time `stroke` its angle moves from `first` to `last` and back as a cosine;
+/// then it rests at `first` until `period` is over. It removes all water that it passes over.
 struct Wiper {
-    Vec2 pivot{0.7, -0.05};          ///< on the rolled out glass, or beside it [m]
-    double inner = 0.1;              ///< where the blade begins, from the pivot [m], ≥ 0
-    double outer = 0.7;              ///< and ends [m], > inner
-    double first = 175.0 * kDegree;  ///< from the glass's x, towards its y [rad]
-    double last = 5.0 * kDegree;     ///< [rad]; differs from first, by at most 2π
-    double stroke = 1.2;             ///< there and back [s], > 0
-    double period = 1.2;             ///< [s], ≥ stroke
-    double start = 0.0;              ///< when it first leaves `first` [s]; at rest before
+    Vec2 pivot{0.7, -0.05};          ///< on the plane of the unrolled glass, on or beside the glass [m]
+    double inner = 0.1;              ///< distance of the blade's inner end from the pivot [m], ≥ 0
+    double outer = 0.7;              ///< distance of the blade's outer end from the pivot [m], > inner
+    double first = 175.0 * kDegree;  ///< angle at rest, from the glass's x towards its y [rad]
+    double last = 5.0 * kDegree;     ///< angle at the turn [rad]; differs from `first`, by at most 2π
+    double stroke = 1.2;             ///< time there and back [s], > 0
+    double period = 1.2;             ///< time from start to start [s], ≥ stroke
+    double start = 0.0;              ///< time of the first start [s]; at rest before
 
-    /// Its angle at a time [rad].
+    /// Angle at a time [rad].
     [[nodiscard]] double angleAt(double time) const;
 
-    /// @throws Error InvalidArgument
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
 };
 
-/// Two blades in tandem, as most cars have them, that between them reach most of the glass.
-/// @param period  of both [s], ≥ 1.2: they take 1.2 s there and back
+/// Two blades in tandem, as on most cars; together they reach most of the glass.
+/// @param glass   glass to wipe
+/// @param period  period of both [s], ≥ 1.2; a stroke takes 1.2 s
 std::vector<Wiper> tandemWipers(const Glass& glass, double period);
 
 }  // namespace droplet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wind_io/droplet_nets.h"
+#include "wind_io/droplet_meshes.h"
 
 #include <cmath>
 #include <map>
@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-/// From the vehicle's frame, y ahead, to one whose front is +Z once it is +Y up.
+/// Vector of the vehicle's frame, y ahead, in a frame whose front is +Z after yUp().
 Vec3 halfTurned(Vec3 v)
 {
     return {0.0 - v.x, 0.0 - v.y, v.z};
@@ -19,74 +19,74 @@ Vec3 halfTurned(Vec3 v)
 
 }  // namespace
 
-Net capNet(double angle, const CapDetail& detail)
+SceneMesh capMesh(double angle, const CapDetail& detail)
 {
     const std::uint32_t around = detail.around;
     const std::uint32_t rings = detail.rings;
-    Net net;
+    SceneMesh mesh;
     const double radius = 1.0 / std::sin(angle);
     const double centre = -radius * std::cos(angle);
-    net.positions.push_back({0.0, 0.0, radius + centre});
-    net.normals.push_back({0.0, 0.0, 1.0});
+    mesh.positions.push_back({0.0, 0.0, radius + centre});
+    mesh.normals.push_back({0.0, 0.0, 1.0});
     const auto turned = [&](std::uint32_t k) { return 2.0 * std::numbers::pi * (k % around) / around; };
     for (std::uint32_t ring = 1; ring <= rings; ++ring) {
         const double tilt = angle * ring / rings;
         for (std::uint32_t k = 0; k < around; ++k) {
             const Vec3 normal{std::sin(tilt) * std::cos(turned(k)), std::sin(tilt) * std::sin(turned(k)),
                               std::cos(tilt)};
-            net.normals.push_back(normal);
-            net.positions.push_back(radius * normal + Vec3{0.0, 0.0, centre});
+            mesh.normals.push_back(normal);
+            mesh.positions.push_back(radius * normal + Vec3{0.0, 0.0, centre});
             if (ring == rings) {
-                net.positions.back().z = 0.0;  // exactly on the glass
+                mesh.positions.back().z = 0.0;  // exactly on the glass
             }
         }
     }
     for (std::uint32_t k = 0; k < around; ++k) {
         const std::uint32_t next = (k + 1) % around;
-        net.triangles.push_back({0, 1 + k, 1 + next});
+        mesh.triangles.push_back({0, 1 + k, 1 + next});
         for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
             const std::uint32_t upper = 1 + ring * around;
             const std::uint32_t lower = upper + around;
-            net.triangles.push_back({upper + k, lower + k, lower + next});
-            net.triangles.push_back({upper + k, lower + next, upper + next});
+            mesh.triangles.push_back({upper + k, lower + k, lower + next});
+            mesh.triangles.push_back({upper + k, lower + next, upper + next});
         }
     }
-    // The base, where the droplet stands on the glass.
-    const auto first = static_cast<std::uint32_t>(net.positions.size());
-    net.positions.push_back({0.0, 0.0, 0.0});
-    net.normals.push_back({0.0, 0.0, -1.0});
+    // The base on the glass.
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back({0.0, 0.0, 0.0});
+    mesh.normals.push_back({0.0, 0.0, -1.0});
     for (std::uint32_t k = 0; k < around; ++k) {
-        net.positions.push_back({std::cos(turned(k)), std::sin(turned(k)), 0.0});
-        net.normals.push_back({0.0, 0.0, -1.0});
+        mesh.positions.push_back({std::cos(turned(k)), std::sin(turned(k)), 0.0});
+        mesh.normals.push_back({0.0, 0.0, -1.0});
     }
     for (std::uint32_t k = 0; k < around; ++k) {
-        net.triangles.push_back({first, first + 1 + (k + 1) % around, first + 1 + k});
+        mesh.triangles.push_back({first, first + 1 + (k + 1) % around, first + 1 + k});
     }
-    // Chords lie below the cap: as large as makes up for it.
+    // Chords lie below the cap: the mesh is enlarged to the cap's volume.
     const double volume = std::numbers::pi * (2.0 - 3.0 * std::cos(angle) + std::pow(std::cos(angle), 3)) /
                           (3.0 * std::pow(std::sin(angle), 3));
     double meshed = 0.0;
-    for (const auto& [a, b, c] : net.triangles) {
-        meshed += dot(net.positions[a], cross(net.positions[b], net.positions[c])) / 6.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        meshed += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6.0;
     }
-    for (Vec3& position : net.positions) {
+    for (Vec3& position : mesh.positions) {
         position = std::cbrt(volume / meshed) * position;
     }
-    return net;
+    return mesh;
 }
 
-Net glassNet(const Glass& glass)
+SceneMesh glassMesh(const Glass& glass)
 {
     constexpr int kAcross = 64;
     constexpr int kUpward = 32;
-    Net net;
+    SceneMesh mesh;
     std::map<std::pair<int, int>, std::uint32_t> knots;
     for (int j = 0; j <= kUpward; ++j) {
         for (int i = 0; i <= kAcross; ++i) {
             if (const auto place = glass.place({glass.width() * i / kAcross, glass.height() * j / kUpward})) {
-                knots[{i, j}] = static_cast<std::uint32_t>(net.positions.size());
-                net.positions.push_back(halfTurned(place->point));
-                net.normals.push_back(halfTurned(place->normal));
+                knots[{i, j}] = static_cast<std::uint32_t>(mesh.positions.size());
+                mesh.positions.push_back(halfTurned(place->point));
+                mesh.normals.push_back(halfTurned(place->normal));
             }
         }
     }
@@ -97,43 +97,42 @@ Net glassNet(const Glass& glass)
             const auto c = knots.find({i + 1, j + 1});
             const auto d = knots.find({i, j + 1});
             if (a != knots.end() && b != knots.end() && c != knots.end() && d != knots.end()) {
-                // Seen from inside x goes right and y up, so from outside this is counter-clockwise the other way
-                // round.
-                net.triangles.push_back({a->second, c->second, b->second});
-                net.triangles.push_back({a->second, d->second, c->second});
+                // From inside x goes right and y up, so this order is counter-clockwise from outside.
+                mesh.triangles.push_back({a->second, c->second, b->second});
+                mesh.triangles.push_back({a->second, d->second, c->second});
             }
         }
     }
-    return net;
+    return mesh;
 }
 
-int addNet(tinygltf::Model& model, const Net& net, const char* name, int material)
+int addMesh(tinygltf::Model& model, const SceneMesh& mesh, const char* name, int material)
 {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = material;
-    primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, net.positions.size());
-    addBounds(model.accessors.back(), net.positions);
-    primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, net.normals.size());
-    primitive.indices = addIndices(model, net.triangles.size(), net.positions.size());
-    tinygltf::Mesh mesh;
-    mesh.name = name;
-    mesh.primitives.push_back(std::move(primitive));
-    model.meshes.push_back(std::move(mesh));
+    primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.positions.size());
+    addBounds(model.accessors.back(), mesh.positions);
+    primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.normals.size());
+    primitive.indices = addIndices(model, mesh.triangles.size(), mesh.positions.size());
+    tinygltf::Mesh added;
+    added.name = name;
+    added.primitives.push_back(std::move(primitive));
+    model.meshes.push_back(std::move(added));
     return static_cast<int>(model.meshes.size()) - 1;
 }
 
-void writeNet(const Net& net, ByteStream& bytes)
+void writeMesh(const SceneMesh& mesh, ByteStream& bytes)
 {
-    writeVectors(net.positions, bytes);
-    writeVectors(net.normals, bytes);
-    writeIndices(net.triangles, net.positions.size(), bytes);
-    if (net.positions.size() < kVerticesBeyond16Bit && net.triangles.size() % 2 != 0) {
-        bytes.u16(0);  // to the next word
+    writeVectors(mesh.positions, bytes);
+    writeVectors(mesh.normals, bytes);
+    writeIndices(mesh.triangles, mesh.positions.size(), bytes);
+    if (mesh.positions.size() < kVerticesBeyond16Bit && mesh.triangles.size() % 2 != 0) {
+        bytes.u16(0);  // pads to the next word
     }
 }
 
-int addGlass(tinygltf::Model& model, const Net& pane)
+int addGlass(tinygltf::Model& model, const SceneMesh& pane)
 {
     tinygltf::Material glass;
     glass.name = "glass";
@@ -145,7 +144,7 @@ int addGlass(tinygltf::Model& model, const Net& pane)
     model.materials.push_back(std::move(glass));
     tinygltf::Node node;
     node.name = "glass";
-    node.mesh = addNet(model, pane, "glass", static_cast<int>(model.materials.size()) - 1);
+    node.mesh = addMesh(model, pane, "glass", static_cast<int>(model.materials.size()) - 1);
     model.nodes.push_back(std::move(node));
     return static_cast<int>(model.nodes.size()) - 1;
 }

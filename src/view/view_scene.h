@@ -15,15 +15,15 @@
 
 namespace droplet {
 
-/// A share in 255ths.
+/// Share from 0 to 1 as a level from 0 to 255.
 inline std::uint8_t level8(float share)
 {
     return static_cast<std::uint8_t>(nearest(255.0F * share, 255));
 }
 
-/// What the eye sees through dry glass, and how it looks.
-struct Sight {
-    Sight(const Glass& its_glass, const ViewOptions& its_options)
+/// Constant parts of the view: options, glass, eye, tiles and backdrop.
+struct ViewScene {
+    ViewScene(const Glass& its_glass, const ViewOptions& its_options)
         : options(its_options),
           glass(its_glass),
           eye(glass, options),
@@ -33,14 +33,14 @@ struct Sight {
     {
     }
 
-    /// Place of a ray within a pixel, from its middle: one of n in a row.
+    /// Offset from the middle of a pixel of the k-th ray in a row [px].
     [[nodiscard]] float offset(int k) const
     {
         return (static_cast<float>(k) + 0.5F) / static_cast<float>(options.samples) - 0.5F;
     }
 
-    /// Backdrop pixels that a ray through a droplet stands for: across a droplet goes about the whole picture.
-    /// @param diameter  [px]
+    /// Level of the backdrop for rays through a droplet, which shows about the whole picture across its diameter.
+    /// @param diameter  diameter of the droplet [px]
     [[nodiscard]] std::uint8_t levelFor(float diameter) const
     {
         constexpr float kShare = 0.8F;
@@ -48,8 +48,8 @@ struct Sight {
                                 std::max(diameter * static_cast<float>(options.samples), 1.0F));
     }
 
-    /// At how many moments something is looked at that moves while the shutter is open, so that it goes no further than
-    /// about a pixel from one to the next.
+    /// Number of moments at which a moving object is drawn while the shutter is open; from one to the next it moves
+    /// about a pixel.
     /// @return  a power of two
     [[nodiscard]] int momentsOf(Vec2 position, double speed) const
     {
@@ -64,7 +64,7 @@ struct Sight {
         return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(moments, 1.0, kMax))));
     }
 
-    /// When one of the moments is, from the state's time [s].
+    /// Time of a moment, relative to the state's time [s].
     [[nodiscard]] double timeOf(int moment, int moments) const
     {
         return options.open_time * ((moment + 0.5) / moments - 0.5);

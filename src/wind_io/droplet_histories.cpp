@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wind_io/droplet_lives.h"
+#include "wind_io/droplet_histories.h"
 
 #include <cmath>
 #include <utility>
@@ -10,10 +10,10 @@
 namespace droplet {
 namespace {
 
-/// The quaternion of a turn that takes the axes x, y and z to these, x first, w last.
+/// Quaternion of the rotation that turns the coordinate axes to x, y and z; x first, w last.
 std::array<double, 4> quaternion(Vec3 x, Vec3 y, Vec3 z)
 {
-    // S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978) 223: the largest first.
+    // S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978) 223: divides by the largest.
     const double trace = x.x + y.y + z.z;
     const std::array<double, 4> squares{1.0 + 2.0 * x.x - trace, 1.0 + 2.0 * y.y - trace, 1.0 + 2.0 * z.z - trace,
                                         1.0 + trace};
@@ -53,7 +53,7 @@ bool DropletPose::looksLike(const DropletPose& other) const
 {
     constexpr float kRadius = 0.01F;
     constexpr float kOutline = 0.25F;
-    double cosine = 0.0;  // of half the turn from one to the other
+    double cosine = 0.0;  // cosine of half the angle between the two
     for (std::size_t i = 0; i < 4; ++i) {
         cosine += static_cast<double>(turn[i] * other.turn[i]);
     }
@@ -65,7 +65,7 @@ bool DropletPose::looksLike(const DropletPose& other) const
            std::max(aside, std::abs(along - other.along)) <= kOutline * other.across;
 }
 
-const DropletPose& DropletLife::at(std::uint32_t frame) const
+const DropletPose& DropletHistory::at(std::uint32_t frame) const
 {
     const auto after = std::upper_bound(samples.begin(), samples.end(), frame,
                                         [](std::uint32_t f, const DropletSample& sample) { return f < sample.frame; });
@@ -74,7 +74,7 @@ const DropletPose& DropletLife::at(std::uint32_t frame) const
 
 Vec3 inFile(Vec3 v)
 {
-    return yUp({0.0 - v.x, 0.0 - v.y, v.z});  // its front is +Z once it is +Y up: half a turn
+    return yUp({0.0 - v.x, 0.0 - v.y, v.z});  // half a turn, so that the front is +Z after yUp()
 }
 
 Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v)
@@ -84,7 +84,8 @@ Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v)
     return v + static_cast<double>(turn[3]) * t + cross(u, t);
 }
 
-DropletPose DropletLives::poseOf(const RunningDroplet& droplet, const GlassPlace& place, const DropletLife& life) const
+DropletPose DropletHistories::poseOf(const RunningDroplet& droplet, const GlassPlace& place,
+                                     const DropletHistory& history) const
 {
     const double speed = length(droplet.velocity);
     const RunningShape rest = runningShape(droplet.volume, 0.0, shape_);
@@ -96,57 +97,57 @@ DropletPose DropletLives::poseOf(const RunningDroplet& droplet, const GlassPlace
     pose.place = {toFloat(point.x), toFloat(point.y), toFloat(point.z)};
     pose.along = toFloat(rest.contact_radius * longer);
     pose.across = toFloat(rest.contact_radius / std::sqrt(longer));
-    if (speed == 0.0 && !life.samples.empty()) {
-        pose.turn = life.samples.back().pose.turn;  // at rest it is the same all around
+    if (speed == 0.0 && !history.samples.empty()) {
+        pose.turn = history.samples.back().pose.turn;  // a droplet at rest is rotationally symmetric
         return pose;
     }
     const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
     const Vec3 x = inFile(along.x * place.across + along.y * place.up);
     const Vec3 y = inFile(place.normal);
-    // across, up and normal are left-handed; a turn is made of the way, the normal and what is square to both.
+    // (across, up, normal) is left-handed; the rotation takes the motion, the normal and their cross product.
     const std::array<double, 4> turn = quaternion(x, y, cross(x, y));
     std::transform(turn.begin(), turn.end(), pose.turn.begin(), toFloat);
     return pose;
 }
 
-void DropletLives::add(const WindshieldState& state)
+void DropletHistories::add(const WindshieldState& state)
 {
-    std::size_t there = 0;
+    std::size_t count = 0;
     for (const RunningDroplet& droplet : state.droplets) {
         const auto place = glass_.place(droplet.position);
         if (!place) {
             continue;
         }
-        ++there;
-        DropletLife& life = lives_[droplet.id];
-        if (!life.samples.empty() && life.end < frames_) {
-            earlier_.push_back(std::exchange(life, {}));
+        ++count;
+        DropletHistory& history = current_[droplet.id];
+        if (!history.samples.empty() && history.end < frames_) {
+            earlier_.push_back(std::exchange(history, {}));
         }
-        const DropletPose pose = poseOf(droplet, *place, life);
-        if (life.samples.empty() || life.samples.back().pose != pose) {
-            life.samples.push_back({frames_, pose});
+        const DropletPose pose = poseOf(droplet, *place, history);
+        if (history.samples.empty() || history.samples.back().pose != pose) {
+            history.samples.push_back({frames_, pose});
             ++samples_;
         }
-        life.end = frames_ + 1;
+        history.end = frames_ + 1;
     }
-    max_ = std::max(max_, there);
+    max_count_ = std::max(max_count_, count);
     ++frames_;
 }
 
-std::vector<const DropletLife*> DropletLives::all() const
+std::vector<const DropletHistory*> DropletHistories::all() const
 {
-    std::vector<const DropletLife*> all;
-    all.reserve(earlier_.size() + lives_.size());
-    for (const DropletLife& life : earlier_) {
-        all.push_back(&life);
+    std::vector<const DropletHistory*> all;
+    all.reserve(earlier_.size() + current_.size());
+    for (const DropletHistory& history : earlier_) {
+        all.push_back(&history);
     }
-    for (const auto& [id, life] : lives_) {
-        if (!life.samples.empty()) {
-            all.push_back(&life);
+    for (const auto& [id, history] : current_) {
+        if (!history.samples.empty()) {
+            all.push_back(&history);
         }
     }
     std::stable_sort(all.begin(), all.end(),
-                     [](const DropletLife* a, const DropletLife* b) { return a->begin() < b->begin(); });
+                     [](const DropletHistory* a, const DropletHistory* b) { return a->begin() < b->begin(); });
     return all;
 }
 

@@ -5,8 +5,8 @@
 
 namespace droplet {
 
-/// From 0 to 1, the same for the same number.
-inline float scattered(std::uint32_t n)
+/// Hash of an integer as a number in [0, 1).
+inline float hashedNumber(std::uint32_t n)
 {
     // C. Wellons, "Prospecting for Hash Functions" (2018): lowbias32.
     n ^= n >> 16;

@@ -5,8 +5,8 @@
 
 namespace droplet {
 
-/// A time as files tell it: steps add up to whole nanoseconds but for rounding [s].
-inline double wholeNanoseconds(double time)
+/// Time as written to files: rounded to whole nanoseconds, which removes the rounding errors of added steps [s].
+inline double roundedTime(double time)
 {
     return std::round(1e9 * time) / 1e9;
 }

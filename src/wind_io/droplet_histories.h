@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Droplets of a scene over time, independent of the file format.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <queue>
+#include <vector>
+
+#include "droplet/units.h"
+#include "droplet/vector.h"
+#include "droplet/windshield/glass.h"
+#include "droplet/windshield/running_shape.h"
+#include "droplet/windshield/windshield.h"
+
+namespace droplet {
+
+/// Tolerance of the normals of droplets; it shifts a rim by some micrometres.
+inline constexpr double kFacing = 1.5 * kDegree;
+
+/// Position, direction and size of a droplet in the file's frame: +Y up, +Z ahead.
+struct DropletPose {
+    std::array<float, 3> place{};                       ///< [m]
+    std::array<float, 4> turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< rotation: x along the motion, y off the glass
+    float along = 0.0F;                                 ///< scale of a cap of contact radius 1 m along the motion
+    float across = 0.0F;                                ///< scale across the motion and of the height
+    bool moves = false;
+
+    friend bool operator==(const DropletPose&, const DropletPose&) = default;
+
+    /// Contact radius of the cap of the same volume [m].
+    [[nodiscard]] float restRadius() const;
+    /// Direction off the glass.
+    [[nodiscard]] Vec3 normal() const;
+    /// Whether it may replace the other pose, apart from the place: their contact radii at rest differ by at most 1 %,
+    /// their outlines by a quarter of the width, and their normals by kFacing.
+    [[nodiscard]] bool looksLike(const DropletPose& other) const;
+};
+
+/// Pose from a frame on.
+struct DropletSample {
+    std::uint32_t frame = 0;
+    DropletPose pose;
+};
+
+/// Poses of one droplet over time.
+struct DropletHistory {
+    std::vector<DropletSample> samples;  ///< changes of the pose, in the order of frames; at least one
+    std::uint32_t end = 0;               ///< first frame without the droplet
+
+    [[nodiscard]] std::uint32_t begin() const { return samples.front().frame; }
+    /// @param frame  from begin() to end - 1
+    [[nodiscard]] const DropletPose& at(std::uint32_t frame) const;
+};
+
+/// Follows droplets from frame to frame.
+class DropletHistories {
+public:
+    DropletHistories(const Glass& glass, const ShapeOptions& shape) : glass_(glass), shape_(shape) {}
+
+    void add(const WindshieldState& state);
+
+    [[nodiscard]] std::uint32_t frames() const { return frames_; }
+    [[nodiscard]] std::size_t maxCount() const { return max_count_; }  ///< largest number of droplets at once
+    [[nodiscard]] std::size_t samples() const { return samples_; }     ///< number of samples of all histories
+    /// All histories in the order of their first frames; the pointers are valid until the next add().
+    [[nodiscard]] std::vector<const DropletHistory*> all() const;
+
+private:
+    [[nodiscard]] DropletPose poseOf(const RunningDroplet& droplet, const GlassPlace& place,
+                                     const DropletHistory& history) const;
+
+    Glass glass_;
+    ShapeOptions shape_;
+    std::map<std::uint64_t, DropletHistory> current_;  ///< by id
+    std::vector<DropletHistory> earlier_;              ///< former histories of droplets that came back
+    std::uint32_t frames_ = 0;
+    std::size_t max_count_ = 0;
+    std::size_t samples_ = 0;
+};
+
+/// Vector of the vehicle's frame, y ahead and z up, in the file's frame.
+Vec3 inFile(Vec3 v);
+
+/// Vector rotated by a quaternion, x first, w last.
+Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v);
+
+/// Assigns spans of time to the smallest number of slots, with a pause between the spans of a slot.
+///
+/// Guarantees: a span gets the lowest slot that is free.
+/// @param spans  spans with members begin and end, in the order of begin
+/// @param pause  smallest distance from the end of a span to the begin of the next one [frames]
+/// @return       for each slot the indices of its spans, in order
+template <typename Span>
+std::vector<std::vector<std::size_t>> assignSlots(const std::vector<Span>& spans, std::uint32_t pause)
+{
+    using Entry = std::pair<std::uint32_t, std::size_t>;  // frame from which the slot is free, slot
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> taken;
+    std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> free;
+    std::vector<std::vector<std::size_t>> slots;
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        while (!taken.empty() && taken.top().first <= spans[i].begin) {
+            free.push(taken.top().second);
+            taken.pop();
+        }
+        std::size_t slot = slots.size();
+        if (free.empty()) {
+            slots.emplace_back();
+        } else {
+            slot = free.top();
+            free.pop();
+        }
+        slots[slot].push_back(i);
+        taken.emplace(spans[i].end + pause, slot);
+    }
+    return slots;
+}
+
+}  // namespace droplet
