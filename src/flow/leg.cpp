@@ -65,8 +65,11 @@ double Coordinate::velocityAt(double time) const
     return std::exp(-x) * velocity + time * firstMean(x) * push;
 }
 
-double Coordinate::turningTime() const
+std::optional<double> Coordinate::turns() const
 {
+    if (velocity * push >= 0.0) {
+        return std::nullopt;
+    }
     return -(velocity / push) * logMean(-velocity * decay / push);
 }
 
@@ -80,9 +83,9 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
         if (push >= 0.0) {
             return std::nullopt;
         }
-        begin = std::max(from, turningTime());
+        begin = std::max(from, turns().value_or(from));
     } else if (push > 0.0) {
-        lowest = std::max(from, turningTime());
+        lowest = std::max(from, turns().value_or(from));
     } else if (push == 0.0 && decay > 0.0 && place + velocity / decay >= 0.0) {
         return std::nullopt;  // it stops before
     }

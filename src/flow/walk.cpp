@@ -19,6 +19,11 @@ constexpr double kCornerShare = 1e-12;
 constexpr double kLowestHop = 1e-3;
 // Velocities across a side less than this share of the whole are rounding.
 constexpr double kRounding = 1e-13;
+// Friction of hysteresis keeps its direction until the velocity has turned from it by a degree: tangent and cosine.
+constexpr double kCone = 0.017455;
+constexpr double kStraight = 0.99984;
+// A velocity less than this share of what it was, and gained since, is 0.
+constexpr double kStop = 1e-9;
 // So many events at one time are without end.
 constexpr int kMaxEventsAtOnce = 1000;
 
@@ -58,7 +63,7 @@ public:
             return;
         }
         d_.contact = FlowContact::Face;
-        d_.leg = {time, place, along, pushOn(face), f_.decay};
+        move(place, along, pushOn(face), true);
     }
 
 private:
@@ -68,6 +73,71 @@ private:
     {
         const Vec3& normal = faces_[face].normal;
         return f_.smoothness * (f_.acceleration - dot(f_.acceleration, normal) * normal);  // F ← F (1 − k_r)
+    }
+
+    /// Begins a leg; at rest if hysteresis holds the droplet.
+    /// @param push           without friction [m/s²]
+    /// @param keeps_heading  whether the heading of the last leg still serves
+    void move(Vec3 place, Vec3 velocity, Vec3 push, bool keeps_heading)
+    {
+        Vec3 friction;
+        if (f_.retention > 0.0 || f_.sliding > 0.0) {
+            const bool is_at_rest = velocity == Vec3{};
+            const Vec3 direction = is_at_rest ? push : velocity;
+            const double size = length(direction);
+            if (is_at_rest && size <= std::max(f_.retention, f_.sliding)) {
+                stop(place);
+                return;
+            }
+            if (!keeps_heading || dot(d_.heading, direction) < kStraight * size) {
+                d_.heading = (1.0 / size) * direction;
+            }
+            friction = f_.sliding * d_.heading;
+        }
+        d_.leg = {time_, place, velocity, push - friction, f_.decay};
+    }
+
+    /// When the velocity has turned away from the heading, or is 0; [s] after the leg's begin.
+    std::optional<double> endOfHeading() const
+    {
+        if (f_.sliding == 0.0) {
+            return std::nullopt;
+        }
+        const Vec3 across = droplet::cross(faces_[d_.face].normal, d_.heading);
+        std::optional<double> first;
+        for (const double side : {-1.0, 1.0}) {
+            // The velocity is within the heading's cone as long as its parts along both of these are positive.
+            const Vec3 inward = kCone * d_.heading + side * across;
+            const auto time =
+                Coordinate{0.0, dot(d_.leg.velocity, inward), dot(d_.leg.push, inward), d_.leg.decay}.turns();
+            if (time && (!first || *time < *first)) {
+                first = time;
+            }
+        }
+        return first;
+    }
+
+    /// Turns the friction to where the velocity has turned.
+    void turn()
+    {
+        const Vec3 place = d_.leg.placeAt(time_);
+        Vec3 velocity = d_.leg.velocityAt(time_);
+        if (length(velocity) <= kStop * (length(d_.leg.velocity) + length(d_.leg.push) * (time_ - d_.leg.begin))) {
+            velocity = {};
+        }
+        move(place, velocity, d_.contact == FlowContact::Edge ? pushAlong() : pushOn(d_.face), false);
+    }
+
+    /// Ends the leg where its heading does, if that is within a time of its begin.
+    bool turnsWithin(double time)
+    {
+        const auto turned = endOfHeading();
+        if (!turned || *turned >= time) {
+            return false;
+        }
+        time_ = d_.leg.begin + *turned;
+        turn();
+        return true;
     }
 
     bool advance(double end)
@@ -109,6 +179,9 @@ private:
                 first = time;
                 side = k;
             }
+        }
+        if (turnsWithin(first.value_or(end - d_.leg.begin))) {
+            return true;
         }
         if (!first) {
             return false;
@@ -182,12 +255,17 @@ private:
 
     void runAlong(std::uint32_t face, std::size_t side, Vec3 place, Vec3 velocity)
     {
-        const Vec3 edge = faces_[face].corners[(side + 1) % 3] - faces_[face].corners[side];
-        const Vec3 push = (f_.smoothness * dot(f_.acceleration, edge) / dot(edge, edge)) * edge;
         d_.contact = FlowContact::Edge;
         d_.face = face;
         d_.side = static_cast<std::uint32_t>(side);
-        d_.leg = {time_, place, velocity, push, f_.decay};
+        move(place, velocity, pushAlong(), false);
+    }
+
+    Vec3 pushAlong() const
+    {
+        const Face& face = faces_[d_.face];
+        const Vec3 edge = face.corners[(d_.side + 1) % 3] - face.corners[d_.side];
+        return (f_.smoothness * dot(f_.acceleration, edge) / dot(edge, edge)) * edge;
     }
 
     bool advanceAlongEdge(double end)
@@ -205,6 +283,9 @@ private:
                 first = time;
                 corner = k;
             }
+        }
+        if (turnsWithin(first.value_or(end - d_.leg.begin))) {
+            return true;
         }
         if (!first) {
             return false;

@@ -16,6 +16,8 @@ struct WalkForces {
     Vec3 fall;                   ///< acceleration in the air [m/s²]
     double decay = 0.0;          ///< viscous friction over mass, |k_f|/m [1/s], ≥ 0
     double smoothness = 1.0;     ///< 1 − k_r: what roughness leaves of the force, from 0 to 1
+    double retention = 0.0;      ///< acceleration up to which hysteresis holds a droplet at rest [m/s²], ≥ 0
+    double sliding = 0.0;        ///< part of it that still acts while it moves, against its velocity [m/s²], ≥ 0
     double adhesion = 0.0;       ///< normal acceleration up to which it adheres, D π r²/m [m/s²], ≥ 0
     double contact_width = 0.0;  ///< diameter of its contact circle [m], > 0
 };

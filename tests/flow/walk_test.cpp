@@ -167,6 +167,56 @@ TEST(Walk, DoesNotDependOnTheFrames)
     EXPECT_EQ(once.leg.begin, often.leg.begin);
 }
 
+TEST(Walk, StopsByHysteresisWhereCoulombsFrictionDoes)
+{
+    // Up a slope with v₀: v₀²/2(g sin + f). Retention holds it there.
+    const double slope = 10.0 * kDegree;
+    const Ground run(gridOf(7, 9, [&](double, double y) { return std::tan(slope) * y; }));
+    WalkForces f = forces();
+    f.sliding = 2.0;
+    f.retention = 2.5;
+    const double v = 1.2;
+    FlowDroplet droplet = run.dropletAt(f, {0.3, 0.2}, {0.0, v * std::cos(slope), v * std::sin(slope)});
+    const Vec3 start = droplet.leg.place;
+    walk(run.surface, run.landing, f, droplet, 5.0);
+    EXPECT_EQ(droplet.contact, FlowContact::Still);
+    const double way = v * v / (2.0 * (9.81 * std::sin(slope) + 2.0));
+    EXPECT_NEAR(length(droplet.leg.placeAt(5.0) - start), way, 1e-9);
+    // With less retention than its weight it slides back, with friction the other way.
+    f.retention = f.sliding = 1.0;
+    droplet = run.dropletAt(f, {0.3, 0.6});
+    walk(run.surface, run.landing, f, droplet, 0.5);
+    EXPECT_NEAR(0.5 * (9.81 * std::sin(slope) - 1.0) * 0.25, (0.6 - droplet.leg.placeAt(0.5).y) / std::cos(slope),
+                1e-12);
+}
+
+TEST(Walk, TurnsDownhillAsTheEquationOfMotionSays)
+{
+    const double slope = 40.0 * kDegree;
+    const double down = 9.81 * std::sin(slope);
+    WalkForces f = forces(1.5);
+    f.sliding = 3.0;
+    f.retention = 3.0;
+    // Reference: dv/dt = F − f v/|v| − c v in small steps.
+    Vec2 p;
+    Vec2 v{0.5, 0.0};
+    constexpr int kSteps = 200000;
+    const double dt = 0.3 / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+        const Vec2 a = Vec2{0.0, -down} - (3.0 / length(v)) * v - 1.5 * v;
+        v = v + dt * a;
+        p = p + dt * v;
+    }
+    for (const std::uint32_t n : {1U, 8U, 60U}) {
+        const Ground run(gridOf(n, n, [&](double, double y) { return std::tan(slope) * y; }));
+        FlowDroplet droplet = run.dropletAt(f, {0.2, 0.9}, {0.5, 0.0, 0.0});
+        walk(run.surface, run.landing, f, droplet, 0.3);
+        const Vec3 found = droplet.leg.placeAt(0.3);
+        EXPECT_NEAR(found.x - 0.2, p.x, 5e-3 * length(p)) << n;
+        EXPECT_NEAR((found.y - 0.9) / std::cos(slope), p.y, 5e-3 * length(p)) << n;
+    }
+}
+
 TEST(Walk, KeepsItsEnergyOverConvexEdges)
 {
     const Ground run(sphere(40, 0.1));

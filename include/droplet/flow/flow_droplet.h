@@ -25,6 +25,7 @@ struct FlowDroplet {
     std::uint32_t face = 0;  ///< number in FlowSurface::faces; in the air, the last one
     std::uint32_t side = 0;  ///< of the face, for contact Edge
     Leg leg;                 ///< the path since the last event
+    Vec3 heading;            ///< unit; friction of contact angle hysteresis acts against it; 0 if there is none
 };
 
 }  // namespace droplet

@@ -36,9 +36,9 @@ struct Coordinate {
     /// @return      in [from, to], exact to rounding, and the same for every `to`; empty if it does not pass
     [[nodiscard]] std::optional<double> fallsBelowZero(double from, double to) const;
 
-private:
-    /// When the velocity is 0, if it was of the other sign than push.
-    [[nodiscard]] double turningTime() const;
+    /// When the velocity changes its sign.
+    /// @return  [s], > 0; empty if it does not
+    [[nodiscard]] std::optional<double> turns() const;
 };
 
 }  // namespace droplet
