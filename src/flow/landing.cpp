@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A flight is a parabola: chords that stray from it by less than floats can tell find the face, the parabola itself the
+// time.
+#include "flow/landing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "rays/embree_device.h"
+#include "rays/nearest.h"
+
+namespace droplet {
+namespace {
+
+// Chords stray from the parabola by at most this share of the surface's size.
+constexpr double kSagitta = 1e-6;
+// A flight that ends sooner has not left the surface [s].
+constexpr double kShortestFlight = 1e-9;
+
+}  // namespace
+
+struct Landing::Scene {
+    EmbreeDevice device;
+    EmbreeDevice::Scene scene = device.newScene();
+    const std::vector<FlowSurface::Face>* faces = nullptr;
+    Vec3 middle;
+    double size = 0.0;  // half the longest side of the bounding box [m]
+
+    /// When the flight meets a face from outside, after it began; empty if it does not.
+    [[nodiscard]] std::optional<double> meets(const Leg& flight, const FlowSurface::Face& face) const
+    {
+        const Coordinate above{dot(flight.place - face.corners[0], face.normal), dot(flight.velocity, face.normal),
+                               dot(flight.push, face.normal), 0.0};
+        const auto time = above.fallsBelowZero(0.0, std::numeric_limits<double>::infinity());
+        if (!time || *time < kShortestFlight) {
+            return std::nullopt;
+        }
+        const Vec3 place = flight.placeAt(flight.begin + *time);
+        return length(place - nearestPoint(place, face.corners)) <= 2.0 * kSagitta * size
+                   ? std::optional(flight.begin + *time)
+                   : std::nullopt;
+    }
+
+    struct Context : RTCIntersectContext {
+        const Scene* scene = nullptr;
+        const Leg* flight = nullptr;
+    };
+
+    static void keepMet(const RTCFilterFunctionNArguments* arguments)
+    {
+        const auto& context = *static_cast<const Context*>(arguments->context);
+        const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);  // of one ray at a time
+        if (!context.scene->meets(*context.flight, (*context.scene->faces)[hit->primID])) {
+            arguments->valid[0] = 0;
+        }
+    }
+};
+
+Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 low{kInfinity, kInfinity, kInfinity};
+    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
+    for (const FlowSurface::Face& face : surface.faces) {
+        for (const Vec3 p : face.corners) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+    Scene& s = *scene_;
+    s.faces = &surface.faces;
+    s.middle = 0.5 * (low + high);
+    s.size = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    RTCGeometry geometry = rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 3 * sizeof(float), 3 * surface.faces.size()));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), surface.faces.size()));
+    s.device.check();
+    std::uint32_t number = 0;
+    for (const FlowSurface::Face& face : surface.faces) {
+        for (const Vec3 p : face.corners) {
+            const Vec3 q = (1.0 / s.size) * (p - s.middle);
+            *vertices++ = static_cast<float>(q.x);
+            *vertices++ = static_cast<float>(q.y);
+            *vertices++ = static_cast<float>(q.z);
+            *indices++ = number++;
+        }
+    }
+    rtcSetGeometryIntersectFilterFunction(geometry, &Scene::keepMet);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(s.scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(s.scene.get());
+    s.device.check();
+}
+
+Landing::~Landing() = default;
+Landing::Landing(Landing&& other) noexcept = default;
+
+std::optional<Landing::Hit> Landing::next(const Leg& flight, double from, double to) const
+{
+    const Scene& s = *scene_;
+    const double pull = length(flight.push);
+    const double chord = pull > 0.0 ? std::sqrt(8.0 * kSagitta * s.size / pull) : to - from;
+    double begin = from;
+    while (begin < to) {
+        const double end = std::min(begin + chord, to);
+        const Vec3 p = (1.0 / s.size) * (flight.placeAt(begin) - s.middle);
+        const Vec3 way = (1.0 / s.size) * (flight.placeAt(end) - s.middle) - p;
+        // Beyond the surface, on its way out for ever: both on the far side of a plane, and pulled farther.
+        const auto is_gone = [&](double place, double speed, double push) {
+            return std::abs(place) > 1.0 && place * speed >= 0.0 && place * push >= 0.0;
+        };
+        const Vec3 speed = flight.velocityAt(begin);
+        if (is_gone(p.x, speed.x, flight.push.x) || is_gone(p.y, speed.y, flight.push.y) ||
+            is_gone(p.z, speed.z, flight.push.z)) {
+            return std::nullopt;
+        }
+        RTCRayHit ray{};
+        ray.ray.org_x = static_cast<float>(p.x);
+        ray.ray.org_y = static_cast<float>(p.y);
+        ray.ray.org_z = static_cast<float>(p.z);
+        ray.ray.dir_x = static_cast<float>(way.x);
+        ray.ray.dir_y = static_cast<float>(way.y);
+        ray.ray.dir_z = static_cast<float>(way.z);
+        ray.ray.tfar = 1.0F;
+        ray.ray.mask = 0xFFFFFFFFU;
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        Scene::Context context;
+        rtcInitIntersectContext(&context);
+        context.scene = &s;
+        context.flight = &flight;
+        rtcIntersect1(s.scene.get(), &context, &ray);
+        if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+            const FlowSurface::Face& face = (*s.faces)[ray.hit.primID];
+            Hit hit{*s.meets(flight, face), ray.hit.primID, {}};
+            hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
+            return hit;
+        }
+        begin = end;
+    }
+    return std::nullopt;
+}
+
+}  // namespace droplet

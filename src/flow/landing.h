@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "droplet/flow/flow_surface.h"
+#include "droplet/flow/leg.h"
+
+namespace droplet {
+
+/// Where droplets in free flight meet a surface; for any number of threads.
+class Landing {
+public:
+    struct Hit {
+        double time = 0.0;  ///< [s]
+        std::uint32_t face = 0;
+        Vec3 place;  ///< on the face [m]
+    };
+
+    explicit Landing(const FlowSurface& surface);
+    ~Landing();
+    Landing(Landing&& other) noexcept;
+
+    /// The first face that the flight meets from outside.
+    /// @param flight  without friction: a parabola
+    /// @param from    [s], ≥ flight.begin
+    /// @param to      [s]
+    [[nodiscard]] std::optional<Hit> next(const Leg& flight, double from, double to) const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace droplet

@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// P. Fournier, A. Habibi, P. Poulin, "Simulating the flow of liquid droplets", Graphics Interface 1998, sections 2.1 to
+// 2.3. Departures: a droplet that both sides of a concave edge press against it runs along the edge, where the paper's
+// would cross it without end; one in the air lands again.
+#include "flow/walk.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace droplet {
+namespace {
+
+// Crossings come no nearer to a corner than this share of the side, so that they have one neighbour.
+constexpr double kCornerShare = 1e-12;
+// A hop over a concave edge lower than this share of the droplet's width is none.
+constexpr double kLowestHop = 1e-3;
+// Velocities across a side less than this share of the whole are rounding.
+constexpr double kRounding = 1e-13;
+// Friction of hysteresis keeps its direction until the velocity has turned from it by a degree: tangent and cosine.
+constexpr double kCone = 0.017455;
+constexpr double kStraight = 0.99984;
+// A velocity less than this share of what it was, and gained since, is 0.
+constexpr double kStop = 1e-9;
+// So many events at one time are without end.
+constexpr int kMaxEventsAtOnce = 1000;
+
+class Walk {
+public:
+    Walk(const FlowSurface& surface, const Landing& landing, const WalkForces& forces, FlowDroplet& droplet)
+        : faces_(surface.faces), landing_(landing), f_(forces), d_(droplet), time_(droplet.leg.begin)
+    {
+    }
+
+    WalkCounts until(double end)
+    {
+        int at_once = 0;
+        while (time_ < end) {
+            const double before = time_;
+            if (!advance(end)) {
+                break;
+            }
+            at_once = time_ > before ? 0 : at_once + 1;
+            if (at_once > kMaxEventsAtOnce) {
+                stop(d_.leg.placeAt(time_));
+                ++counts_.stuck;
+                break;
+            }
+        }
+        return counts_;
+    }
+
+    void enter(std::uint32_t face, double time, Vec3 place, Vec3 velocity)
+    {
+        time_ = time;
+        const Vec3& normal = faces_[face].normal;
+        const Vec3 along = velocity - dot(velocity, normal) * normal;
+        d_.face = face;
+        if (dot(f_.acceleration, normal) > f_.adhesion) {
+            launch(place, along);
+            return;
+        }
+        d_.contact = FlowContact::Face;
+        move(place, along, pushOn(face), true);
+    }
+
+private:
+    using Face = FlowSurface::Face;
+
+    Vec3 pushOn(std::uint32_t face) const
+    {
+        const Vec3& normal = faces_[face].normal;
+        return f_.smoothness * (f_.acceleration - dot(f_.acceleration, normal) * normal);  // F ← F (1 − k_r)
+    }
+
+    /// Begins a leg; at rest if hysteresis holds the droplet.
+    /// @param push           without friction [m/s²]
+    /// @param keeps_heading  whether the heading of the last leg still serves
+    void move(Vec3 place, Vec3 velocity, Vec3 push, bool keeps_heading)
+    {
+        Vec3 friction;
+        if (f_.retention > 0.0 || f_.sliding > 0.0) {
+            const bool is_at_rest = velocity == Vec3{};
+            const Vec3 direction = is_at_rest ? push : velocity;
+            const double size = length(direction);
+            if (is_at_rest && size <= std::max(f_.retention, f_.sliding)) {
+                stop(place);
+                return;
+            }
+            if (!keeps_heading || dot(d_.heading, direction) < kStraight * size) {
+                d_.heading = (1.0 / size) * direction;
+            }
+            friction = f_.sliding * d_.heading;
+        }
+        d_.leg = {time_, place, velocity, push - friction, f_.decay};
+    }
+
+    /// When the velocity has turned away from the heading, or is 0; [s] after the leg's begin.
+    std::optional<double> endOfHeading() const
+    {
+        if (f_.sliding == 0.0) {
+            return std::nullopt;
+        }
+        const Vec3 across = droplet::cross(faces_[d_.face].normal, d_.heading);
+        std::optional<double> first;
+        for (const double side : {-1.0, 1.0}) {
+            // The velocity is within the heading's cone as long as its parts along both of these are positive.
+            const Vec3 inward = kCone * d_.heading + side * across;
+            const auto time =
+                Coordinate{0.0, dot(d_.leg.velocity, inward), dot(d_.leg.push, inward), d_.leg.decay}.turns();
+            if (time && (!first || *time < *first)) {
+                first = time;
+            }
+        }
+        return first;
+    }
+
+    /// Turns the friction to where the velocity has turned.
+    void turn()
+    {
+        const Vec3 place = d_.leg.placeAt(time_);
+        Vec3 velocity = d_.leg.velocityAt(time_);
+        if (length(velocity) <= kStop * (length(d_.leg.velocity) + length(d_.leg.push) * (time_ - d_.leg.begin))) {
+            velocity = {};
+        }
+        move(place, velocity, d_.contact == FlowContact::Edge ? pushAlong() : pushOn(d_.face), false);
+    }
+
+    /// Ends the leg where its heading does, if that is within a time of its begin.
+    bool turnsWithin(double time)
+    {
+        const auto turned = endOfHeading();
+        if (!turned || *turned >= time) {
+            return false;
+        }
+        time_ = d_.leg.begin + *turned;
+        turn();
+        return true;
+    }
+
+    bool advance(double end)
+    {
+        switch (d_.contact) {
+            case FlowContact::Face:
+                return advanceOnFace(end);
+            case FlowContact::Edge:
+                return advanceAlongEdge(end);
+            case FlowContact::Air:
+                return advanceInAir(end);
+            case FlowContact::Still:
+                break;
+        }
+        return false;
+    }
+
+    /// The path's distance from a line or plane through `at`, from now on.
+    Coordinate coordinate(Vec3 at, Vec3 direction) const
+    {
+        return {dot(d_.leg.place - at, direction), dot(d_.leg.velocity, direction), dot(d_.leg.push, direction),
+                d_.leg.decay};
+    }
+
+    bool advanceOnFace(double end)
+    {
+        const Face& face = faces_[d_.face];
+        const double speed = length(d_.leg.velocity);
+        std::optional<double> first;
+        std::size_t side = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            Coordinate s = coordinate(face.corners[k], face.inward[k]);
+            s.place = std::max(s.place, 0.0);
+            if (std::abs(s.velocity) < kRounding * speed) {
+                s.velocity = 0.0;
+            }
+            const auto time = s.fallsBelowZero(0.0, first ? *first : end - d_.leg.begin);
+            if (time && (!first || *time < *first)) {
+                first = time;
+                side = k;
+            }
+        }
+        if (turnsWithin(first.value_or(end - d_.leg.begin))) {
+            return true;
+        }
+        if (!first) {
+            return false;
+        }
+        time_ = d_.leg.begin + *first;
+        cross(side);
+        return true;
+    }
+
+    void cross(std::size_t side)
+    {
+        ++counts_.crossings;
+        const std::uint32_t from = d_.face;
+        const Face& face = faces_[from];
+        const Vec3 a = face.corners[side];
+        const Vec3 edge = face.corners[(side + 1) % 3] - a;
+        const double share = dot(d_.leg.placeAt(time_) - a, edge) / dot(edge, edge);
+        const Vec3 place = a + std::clamp(share, kCornerShare, 1.0 - kCornerShare) * edge;
+        const Vec3 velocity = d_.leg.velocityAt(time_);
+        const std::uint32_t to = face.neighbour[side];
+        if (to == FlowSurface::kNone) {
+            launch(place, velocity);
+            return;
+        }
+        const Face& next = faces_[to];
+        const std::size_t next_side = sideTo(next, from);
+        const Vec3 along = (dot(velocity, edge) / dot(edge, edge)) * edge;
+        const double outward = std::max(-dot(velocity, face.inward[side]), 0.0);
+        const double rise = dot(face.normal, next.inward[next_side]);  // of the next face over this one's plane
+        const double cosine = dot(face.normal, next.normal);
+        const double onward = rise > 0.0 ? outward * std::max(cosine, 0.0) : outward;
+        const double push_next = dot(pushOn(to), next.inward[next_side]);
+        const double push_back = dot(pushOn(from), face.inward[side]);
+        if (rise < 0.0 && leavesAt(face, next, side, outward, cosine)) {
+            launch(place, velocity);
+            return;
+        }
+        // Inelastic at concave edges; at convex ones the speed stays.
+        const bool enters = rise > 0.0 && push_next < 0.0 && push_back <= 0.0
+                                ? onward * onward > 2.0 * kLowestHop * f_.contact_width * -push_next
+                                : onward > 0.0 || push_next >= 0.0 || push_back < 0.0;
+        if (enters) {
+            enter(to, time_, place, along + onward * next.inward[next_side]);
+        } else if (push_back > 0.0) {
+            enter(from, time_, place, along);
+        } else {
+            runAlong(from, side, place, along);
+        }
+    }
+
+    /// Whether adhesion fails where the path bends away: v²/R, with the bend spread over the faces or the droplet.
+    bool leavesAt(const Face& face, const Face& next, std::size_t side, double outward, double cosine) const
+    {
+        const auto height = [&](const Face& of, std::size_t k) {
+            return dot(of.corners[(k + 2) % 3] - of.corners[k], of.inward[k]);
+        };
+        const double spread = std::min(
+            0.5 * (height(face, side) + height(next, sideTo(next, static_cast<std::uint32_t>(&face - faces_.data())))),
+            f_.contact_width);
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        const Vec3 sum = face.normal + next.normal;
+        const double size = length(sum);
+        const double lift = size > 0.0 ? dot(f_.acceleration, sum) / size : 0.0;
+        return outward * outward * angle / spread + lift > f_.adhesion;
+    }
+
+    static std::size_t sideTo(const Face& face, std::uint32_t neighbour)
+    {
+        return face.neighbour[0] == neighbour ? 0 : face.neighbour[1] == neighbour ? 1 : 2;
+    }
+
+    void runAlong(std::uint32_t face, std::size_t side, Vec3 place, Vec3 velocity)
+    {
+        d_.contact = FlowContact::Edge;
+        d_.face = face;
+        d_.side = static_cast<std::uint32_t>(side);
+        move(place, velocity, pushAlong(), false);
+    }
+
+    Vec3 pushAlong() const
+    {
+        const Face& face = faces_[d_.face];
+        const Vec3 edge = face.corners[(d_.side + 1) % 3] - face.corners[d_.side];
+        return (f_.smoothness * dot(f_.acceleration, edge) / dot(edge, edge)) * edge;
+    }
+
+    bool advanceAlongEdge(double end)
+    {
+        const Face& face = faces_[d_.face];
+        std::optional<double> first;
+        std::size_t corner = 0;
+        for (const std::size_t k : {std::size_t{d_.side}, (std::size_t{d_.side} + 1) % 3}) {
+            const std::size_t other = k == d_.side ? (k + 1) % 3 : d_.side;
+            const Vec3 edge = face.corners[other] - face.corners[k];
+            Coordinate s = coordinate(face.corners[k], (1.0 / length(edge)) * edge);
+            s.place = std::max(s.place, 0.0);
+            const auto time = s.fallsBelowZero(0.0, first ? *first : end - d_.leg.begin);
+            if (time && (!first || *time < *first)) {
+                first = time;
+                corner = k;
+            }
+        }
+        if (turnsWithin(first.value_or(end - d_.leg.begin))) {
+            return true;
+        }
+        if (!first) {
+            return false;
+        }
+        time_ = d_.leg.begin + *first;
+        passCorner(corner);
+        return true;
+    }
+
+    /// A face around a corner.
+    struct Spoke {
+        std::uint32_t face = 0;
+        std::size_t corner = 0;
+    };
+
+    /// From the end of a concave edge onto a face or along another edge, whichever keeps most of the velocity; without
+    /// a velocity, whichever the force has most of. In a pit, where the force leads nowhere, small hops end.
+    void passCorner(std::size_t corner)
+    {
+        const Vec3 place = faces_[d_.face].corners[corner];
+        const Vec3 velocity = d_.leg.velocityAt(time_);
+        const std::vector<Spoke> fan = fanAround(d_.face, corner);
+        const std::optional<Way> downward = wayOf(fan, place, f_.acceleration);
+        const double hop = 2.0 * kLowestHop * f_.contact_width * f_.smoothness * length(f_.acceleration);
+        if (dot(velocity, velocity) > (downward ? 0.0 : hop)) {
+            if (const auto way = wayOf(fan, place, velocity)) {
+                take(*way, place, velocity);
+                return;
+            }
+        }
+        if (is_open_) {
+            launch(place, velocity);
+        } else if (downward) {
+            take(*downward, place, {});
+        } else {
+            stop(place);
+        }
+    }
+
+    /// A way on from a corner: over a face, or along the edge from its corner to the next.
+    struct Way {
+        std::uint32_t face = 0;
+        std::size_t corner = 0;
+        bool is_edge = false;
+    };
+
+    std::optional<Way> wayOf(const std::vector<Spoke>& fan, Vec3 place, Vec3 direction) const
+    {
+        std::optional<Way> best;
+        double largest = 0.0;
+        for (const Spoke& spoke : fan) {
+            const Face& face = faces_[spoke.face];
+            const Vec3 on = direction - dot(direction, face.normal) * face.normal;
+            const std::size_t before = (spoke.corner + 2) % 3;
+            if (dot(on, face.inward[spoke.corner]) >= 0.0 && dot(on, face.inward[before]) >= 0.0 &&
+                length(on) > largest) {
+                largest = length(on);
+                best = {spoke.face, spoke.corner, false};
+            }
+            const Vec3 edge = face.corners[(spoke.corner + 1) % 3] - place;
+            const double share = dot(direction, edge) / length(edge);
+            if (share > largest && isValley(spoke.face, spoke.corner)) {
+                largest = share;
+                best = {spoke.face, spoke.corner, true};
+            }
+        }
+        return best;
+    }
+
+    void take(const Way& way, Vec3 place, Vec3 velocity)
+    {
+        if (way.is_edge) {
+            const Vec3 edge = faces_[way.face].corners[(way.corner + 1) % 3] - place;
+            runAlong(way.face, way.corner, place, (dot(velocity, edge) / dot(edge, edge)) * edge);
+        } else {
+            enter(way.face, time_, place, velocity);
+        }
+    }
+
+    std::vector<Spoke> fanAround(std::uint32_t start, std::size_t corner)
+    {
+        std::vector<Spoke> fan{{start, corner}};
+        is_open_ = false;
+        for (const bool forward : {true, false}) {
+            Spoke at = fan.front();
+            for (;;) {
+                const std::size_t side = forward ? (at.corner + 2) % 3 : at.corner;
+                const std::uint32_t next = faces_[at.face].neighbour[side];
+                if (next == start) {
+                    return fan;
+                }
+                if (next == FlowSurface::kNone) {
+                    is_open_ = true;
+                    break;
+                }
+                const std::size_t beside = sideTo(faces_[next], at.face);
+                at = {next, forward ? beside : (beside + 1) % 3};
+                fan.push_back(at);
+            }
+        }
+        return fan;
+    }
+
+    /// Whether both faces of an edge press a droplet against it.
+    bool isValley(std::uint32_t from, std::size_t side) const
+    {
+        const Face& face = faces_[from];
+        const std::uint32_t to = face.neighbour[side];
+        if (to == FlowSurface::kNone) {
+            return false;
+        }
+        const std::size_t beyond = sideTo(faces_[to], from);
+        return dot(face.normal, faces_[to].inward[beyond]) > 0.0 && dot(pushOn(from), face.inward[side]) <= 0.0 &&
+               dot(pushOn(to), faces_[to].inward[beyond]) <= 0.0;
+    }
+
+    void launch(Vec3 place, Vec3 velocity)
+    {
+        ++counts_.launches;
+        d_.contact = FlowContact::Air;
+        d_.leg = {time_, place, velocity, f_.fall, 0.0};
+    }
+
+    bool advanceInAir(double end)
+    {
+        const auto hit = landing_.next(d_.leg, time_, end);
+        if (!hit) {
+            return false;
+        }
+        ++counts_.landings;
+        enter(hit->face, hit->time, hit->place, d_.leg.velocityAt(hit->time));
+        return true;
+    }
+
+    void stop(Vec3 place)
+    {
+        d_.contact = FlowContact::Still;
+        d_.leg = {time_, place, {}, {}, 0.0};
+    }
+
+    const std::vector<Face>& faces_;
+    const Landing& landing_;
+    const WalkForces& f_;
+    FlowDroplet& d_;
+    double time_;
+    bool is_open_ = false;  // the last fan
+    WalkCounts counts_;
+};
+
+}  // namespace
+
+WalkCounts walk(const FlowSurface& surface, const Landing& landing, const WalkForces& forces, FlowDroplet& droplet,
+                double until)
+{
+    return Walk(surface, landing, forces, droplet).until(until);
+}
+
+void putOnFace(const FlowSurface& surface, const WalkForces& forces, FlowDroplet& droplet, std::uint32_t face,
+               double time, Vec3 place, Vec3 velocity)
+{
+    const Landing* none = nullptr;
+    Walk(surface, *none, forces, droplet).enter(face, time, place, velocity);
+}
+
+}  // namespace droplet
