@@ -155,7 +155,7 @@ void registerSurface(const std::shared_ptr<Case>& footprint, std::size_t size)
         "Write" + at, repetitions(size), prepare,
         [footprint, size] {
             const WriteOptions known{.closed = true};
-            return writeWhole(
+            return writeAtomically(
                 kOutput, [&](std::ostream& out) { writeSurface(footprint->surface(size), out, Format::Glb, known); });
         },
         [triangles](std::uint64_t bytes, Counters& counters) {

@@ -96,7 +96,7 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
     const DefaultBackground road(options);
     const std::vector<Picture> roads{road.at(0.0), road.at(2.0)};
     WindshieldState state = begin_state;
-    view.lookAt(roads[0]);
+    view.setBackground(roads[0]);
     view.show(state);
     std::vector<double> look;
     std::vector<double> show;
@@ -108,9 +108,9 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
         const double processor_begin = processorTime();
         const double begin = now();
         if (background == Background::Changing) {
-            view.lookAt(roads[k % 2]);
+            view.setBackground(roads[k % 2]);
         } else if (background == Background::Road) {
-            view.lookAt(road.at(15.0 * kStep * static_cast<double>(k)));
+            view.setBackground(road.at(15.0 * kStep * static_cast<double>(k)));
         }
         const double looked = now();
         view.show(state);

@@ -200,7 +200,7 @@ private:
         droplet::FrameReport report = reportOf(*frame_, sequence_);
         report.input = picture.name;
         for (std::size_t i = 0; i < frame_->droplet.warnings.size(); ++i) {
-            warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.grave_warnings);
+            warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.severe_warnings);
         }
         if (options_.files) {
             progress_(Stage::Write);
@@ -301,7 +301,7 @@ private:
         render.framed = bounds_;
         if (!sequence_.droplet.solve.ground.flat()) {
             render.stand = droplet::groundMesh(sequence_.droplet.solve.ground, render.extent);
-            render.frames_stand = false;
+            render.shows_whole_stand = false;
         }
         return render;
     }
@@ -318,7 +318,7 @@ private:
     {
         const droplet::RenderOptions render = cameraOf(*options_.preview);
         for (const PreviewFrame& frame : preview_frames_) {
-            droplet::writeWhole(
+            droplet::writeAtomically(
                 options_.preview_files->at(frame.number),
                 [&](std::ostream& out) { droplet::writePng(draw(*frame.surface, render), out); }, options_.run.files);
         }
@@ -358,7 +358,7 @@ private:
         if (warned_.insert(kind).second) {
             report_.warnings.insert(is_grave ? report_.warnings.begin() : report_.warnings.end(),
                                     name + ": " + warning);
-            report_.grave_warnings += is_grave ? 1 : 0;
+            report_.severe_warnings += is_grave ? 1 : 0;
         }
     }
 
@@ -505,7 +505,7 @@ void printSummary(const droplet::SequenceReport& report, const RunOptions& run)
     if (!is_quiet && run.progress != ProgressMode::Json) {
         std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    const std::size_t printed = is_quiet ? report.grave_warnings : report.warnings.size();
+    const std::size_t printed = is_quiet ? report.severe_warnings : report.warnings.size();
     for (std::size_t i = 0; i < printed; ++i) {
         printWarning(report.warnings[i], run.progress);
     }

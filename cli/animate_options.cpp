@@ -146,8 +146,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     AnimateOptions options;
     options.footprint = readFootprint(line);
-    options.footprint.mask.may_be_dry = true;
-    options.footprint.trace.may_be_dry = true;
+    options.footprint.mask.allow_dry = true;
+    options.footprint.trace.allow_dry = true;
     options.settings = readDroplet(line);
     options.run = readRun(line);
     if (const auto json = line.value("--json")) {

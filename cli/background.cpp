@@ -82,7 +82,7 @@ void Background::requireSize(int width, int height) const
 
 Picture Background::fitted(Picture picture) const
 {
-    return options_.fit ? droplet::covering(picture, width_, height_) : std::move(picture);
+    return options_.fit ? droplet::scaledToCover(picture, width_, height_) : std::move(picture);
 }
 
 Picture Background::videoFrame()

@@ -6,7 +6,7 @@ namespace cli {
 BatchFigures figuresOf(const droplet::Report& report)
 {
     return {report.output.triangles, report.output.vertices, report.output.topology.closed, report.total.volume,
-            report.total.height_max, report.warnings,        report.grave_warnings};
+            report.total.height_max, report.warnings,        report.severe_warnings};
 }
 
 const char* name(ItemStatus status)

@@ -18,7 +18,7 @@ struct BatchFigures {
     double volume = 0.0;      ///< [m³]
     double height_max = 0.0;  ///< [m]
     std::vector<std::string> warnings;
-    std::size_t grave_warnings = 0;  ///< number of leading warnings that are printed in spite of --quiet
+    std::size_t severe_warnings = 0;  ///< number of leading warnings that are printed in spite of --quiet
 };
 
 /// Manifest figures of a droplet, taken from its report.

@@ -161,7 +161,7 @@ void writeManifest(const std::vector<ManifestRow>& rows, const std::vector<Batch
                           {"bytes", bytes},
                           {"triangles", triangles},
                           {"time_s", seconds}}}};
-    droplet::writeWhole(options.manifest, [&](std::ostream& out) {
+    droplet::writeAtomically(options.manifest, [&](std::ostream& out) {
         out << manifest.dump(1, ' ', false, Json::error_handler_t::replace) << "\n";
     });
 }

@@ -34,7 +34,7 @@ BatchProgress::BatchProgress(std::size_t items, const BatchOptions& options)
 void BatchProgress::reportItem(const BatchItem& item, const ManifestRow& row)
 {
     ++reported_;
-    for (std::size_t i = 0; row.file && i < row.file->figures.grave_warnings; ++i) {
+    for (std::size_t i = 0; row.file && i < row.file->figures.severe_warnings; ++i) {
         eraseBar();
         printWarning(item.name + ": " + row.file->figures.warnings[i], options_.progress);
     }

@@ -72,7 +72,7 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
     bytes.append(reinterpret_cast<const char*>(checkpoint.balance.data()),
                  checkpoint.balance.size() * sizeof(droplet::BalanceRow));
     put(bytes, bytesOf(checkpoint.state));
-    droplet::writeWhole(
+    droplet::writeAtomically(
         path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 

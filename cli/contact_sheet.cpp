@@ -84,7 +84,7 @@ void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& 
         drawn(++done);
     });
     const droplet::Picture picture = droplet::contactSheet(tiles, layout);
-    droplet::writeWhole(
+    droplet::writeAtomically(
         sheet.path, [&](std::ostream& out) { droplet::writePng(picture, out); }, options);
 }
 

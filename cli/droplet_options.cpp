@@ -120,7 +120,7 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
         refuse("--segment " + segment->text +
                " and --channel alpha exclude each other: alpha already separates liquid from dry");
     }
-    options.mask.insist = line.value("--threshold").has_value();
+    options.mask.accept_any = line.value("--threshold").has_value();
     const auto colour = line.value("--colour");
     if (colour && !isPreviewColour(colour->text)) {
         if (segment) {

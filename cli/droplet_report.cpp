@@ -70,8 +70,8 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
         report.pressure = report.droplets.front().pressure;
     }
     report.warnings = droplet.warnings;
-    report.grave_warnings = droplet.grave_warnings;
-    const auto grave_end = report.warnings.begin() + static_cast<std::ptrdiff_t>(report.grave_warnings);
+    report.severe_warnings = droplet.severe_warnings;
+    const auto grave_end = report.warnings.begin() + static_cast<std::ptrdiff_t>(report.severe_warnings);
     report.warnings.insert(grave_end, settings.warnings.begin(), settings.warnings.end());
     return report;
 }

@@ -117,11 +117,11 @@ void writeNested(std::span<const OutputFile> files, const droplet::OutputOptions
         return;
     }
     const std::string& path = files.front().path;
-    droplet::writeWhole(
+    droplet::writeAtomically(
         isStream(path) ? "/dev/stdout" : path,
         [&](std::ostream& out) {
             files.front().write(out);
-            if (out) {  // otherwise writeWhole reports the cause
+            if (out) {  // otherwise writeAtomically reports the cause
                 writeNested(files.subspan(1), options);
             }
         },
@@ -213,7 +213,7 @@ void writeTogether(const std::vector<OutputFile>& files, const droplet::OutputOp
 
 void print(const std::string& text)
 {
-    droplet::writeWhole("/dev/stdout", [&](std::ostream& out) { out << text; });
+    droplet::writeAtomically("/dev/stdout", [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace cli

@@ -37,7 +37,7 @@ constexpr const char* kPlaceholders = "{name}, {gid} or {codepoint}";
 
 std::string codePointOf(char32_t character)
 {
-    const std::string shown = droplet::shownCharacter(character);
+    const std::string shown = droplet::characterText(character);
     return shown.substr(0, shown.find(' '));
 }
 
@@ -81,7 +81,7 @@ std::string missingGlyphs(const std::vector<char32_t>& missing)
     constexpr std::size_t kMax = 10;
     std::string text = "the font has no glyph for ";
     for (std::size_t i = 0; i < std::min(kMax, missing.size()); ++i) {
-        text += (i > 0 ? ", " : "") + droplet::shownCharacter(missing[i]);
+        text += (i > 0 ? ", " : "") + droplet::characterText(missing[i]);
     }
     if (missing.size() > kMax) {
         text += " and " + std::to_string(missing.size() - kMax) + " more";
@@ -141,7 +141,7 @@ void equaliseHeights(const Font& font, const std::vector<GlyphRequest>& glyphs, 
 /// Em at which a text on an object is as large as a picture would be.
 double emOnObject(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
 {
-    const droplet::Vec2 extent = droplet::setText(font, *options.text, options.type).outline.extent;
+    const droplet::Vec2 extent = droplet::layOutText(font, *options.text, options.type).outline.extent;
     const double width = droplet::metresPerUv(object) * std::sqrt(extent.x / extent.y);
     return options.type.glyph.em * width / extent.x;
 }
@@ -156,7 +156,7 @@ int makeText(const Font& font, GlyphsOptions options)
         if (around.object && !options.sized) {
             options.type.glyph.em = emOnObject(*around.object, font, options);
         }
-        droplet::SetText set = droplet::setText(font, *options.text, options.type);
+        droplet::TextLayout set = droplet::layOutText(font, *options.text, options.type);
         if (set.outline.loops.empty()) {
             throw Error(ErrorCode::InvalidInput,
                         options.font + ": " +
@@ -226,7 +226,7 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         printWarning(missingGlyphs(selection.missing) + "; left out", options.shape.run.progress);
     }
     for (const char32_t character : selection.missing) {
-        set.batch.left_out.push_back({droplet::shownCharacter(character), "the font has no glyph for it"});
+        set.batch.left_out.push_back({droplet::characterText(character), "the font has no glyph for it"});
     }
     const Surroundings around = readSurroundings(options.shape.settings);
     const std::string settings = settingsFingerprint(options);

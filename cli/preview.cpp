@@ -83,14 +83,14 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.camera = options.camera;
     if (options.turns) {
         render.azimuth = 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(*options.turns);
-        render.fits_any_turn = true;
+        render.fit_all_azimuths = true;
     }
     render.look = droplet::lookOf(subject.material);
     render.extent = subject.extent;
     render.ground = subject.ground;
     render.environment = subject.light;
     render.stand = subject.stand;
-    render.frames_stand = subject.on_object;
+    render.shows_whole_stand = subject.on_object;
     if (options.colouring == Colouring::Contours) {
         render.paint = droplet::heightPaint(subject.surface);
     } else if (options.colouring == Colouring::ContactAngle) {

@@ -67,7 +67,7 @@ std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOp
     const double edge = options.mesh.edge ? *options.mesh.edge / droplet::pixelSize(mask, options.trace)
                                           : std::sqrt(equilateral * 4.0 / std::sqrt(3.0));
     const int side = std::max(mask.width, mask.height);
-    if (!mask.drawn_scale || edge >= kPixelsPerEdge || !(edge > 0.0) || side >= kLongest) {
+    if (!mask.raster_scale || edge >= kPixelsPerEdge || !(edge > 0.0) || side >= kLongest) {
         return std::nullopt;
     }
     return static_cast<int>(std::min<double>(kLongest, std::ceil(side * kPixelsPerEdge / edge)));
@@ -134,7 +134,7 @@ droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Out
     input.path = options.input;
     input.width_px = mask.width;
     input.height_px = mask.height;
-    input.drawn = mask.drawn_scale.has_value();
+    input.drawn = mask.raster_scale.has_value();
     input.pixel_size = outline.pixel_size;
     input.channel = mask.channel;
     input.inverted = mask.inverted;
@@ -317,7 +317,7 @@ void printSummary(const droplet::Report& report, const RunOptions& run)
     if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
         std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
     }
-    const std::size_t printed = run.verbosity == Verbosity::Quiet ? report.grave_warnings : report.warnings.size();
+    const std::size_t printed = run.verbosity == Verbosity::Quiet ? report.severe_warnings : report.warnings.size();
     for (std::size_t i = 0; i < printed; ++i) {
         printWarning(report.warnings[i], run.progress);
     }

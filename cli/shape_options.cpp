@@ -13,32 +13,32 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape", "make 3D droplets of liquid from the picture of a footprint",
-                                  "[OPTIONS] INPUT OUTPUT",
-                                  "Commands, each with a --help of its own:\n"
-                                  "  animate      Make animated droplets from frames or a video\n"
-                                  "  batch        Make droplets from many pictures\n"
-                                  "  compare      Measure the difference of two surfaces\n"
-                                  "  glyphs       Make droplets from type\n"
-                                  "  wind-tunnel  Compute how droplets move in the wind\n"
-                                  "  windshield   Show rain on the windshield of a moving car\n"
-                                  "\n" +
-                                      std::string(kUnitsText) +
-                                      "\n"
-                                      "Examples:\n"
-                                      "  droplet-shape logo.png logo.glb\n"
-                                      "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
-                                      "  droplet-shape logo.png wall.glb --tilt 90deg --width 1cm --contact-angle 20deg\n"
-                                      "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
-                                      "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
-                                      "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
-                                      "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
-                                      "  droplet-shape - - --format stl < logo.png > logo.stl\n"
-                                      "\n"
-                                      "Exit codes:\n"
-                                      "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-                                      "  4 output cannot be written; 5 no such droplet exists;\n"
-                                      "  6 some of many failed"};
+    static const CommandText text{
+        "droplet-shape", "make 3D droplets of liquid from the picture of a footprint", "[OPTIONS] INPUT OUTPUT",
+        "Commands, each with a --help of its own:\n"
+        "  animate      Make animated droplets from frames or a video\n"
+        "  batch        Make droplets from many pictures\n"
+        "  compare      Measure the difference of two surfaces\n"
+        "  glyphs       Make droplets from type\n"
+        "  wind-tunnel  Compute how droplets move in the wind\n"
+        "  windshield   Show rain on the windshield of a moving car\n"
+        "\n" +
+            std::string(kUnitsText) +
+            "\n"
+            "Examples:\n"
+            "  droplet-shape logo.png logo.glb\n"
+            "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
+            "  droplet-shape logo.png wall.glb --tilt 90deg --width 1cm --contact-angle 20deg\n"
+            "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
+            "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
+            "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+            "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
+            "  droplet-shape - - --format stl < logo.png > logo.stl\n"
+            "\n"
+            "Exit codes:\n"
+            "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
+            "  4 output cannot be written; 5 no such droplet exists;\n"
+            "  6 some of many failed"};
     return text;
 }
 
@@ -161,7 +161,7 @@ std::optional<std::string> readHtml(const CommandLine& line)
     if (!html) {
         return std::nullopt;
     }
-    if (!droplet::pageIsBuiltIn()) {
+    if (!droplet::hasPage()) {
         refuse("--html is not available: the program was built with DROPLET_PAGE=OFF");
     }
     return html->text;

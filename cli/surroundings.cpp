@@ -59,7 +59,7 @@ droplet::BaseSurface groundOf(const DropletSettings& settings, const Surrounding
 droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,
                                     const std::string& path)
 {
-    droplet::OntoResult result = droplet::layOnto(droplet.surface, object, {droplet.domain.extent});
+    droplet::OntoResult result = droplet::placeOnto(droplet.surface, object, {droplet.domain.extent});
     droplet.surface = std::move(result.surface);
     droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
     const droplet::OntoReport& onto = result.report;

@@ -41,13 +41,13 @@ std::string headOf(const droplet::TunnelRun& run, const droplet::TunnelCase& of)
     std::string line = run.preset + ": contact angle " +
                        fmt::format("{:.4g}", run.swept.model.wetting.contact_angle / droplet::kDegree) + "°, slope " +
                        fmt::format("{:.4g}", of.slope / droplet::kDegree) + "°, ";
-    if (const auto& angle = run.swept.model.wetting.falling_angle) {
+    if (const auto& angle = run.swept.model.wetting.sliding_angle) {
         line += "sliding angle " + fmt::format("{:.4g}", *angle / droplet::kDegree) + "° of every droplet";
     } else {
         line += "hysteresis " + fmt::format("{:.3g}", of.hysteresis);
-        if (run.falling_angle) {
-            line += " (sliding angle " + fmt::format("{:.4g}", *run.falling_angle / droplet::kDegree) + "° of " +
-                    volume(*run.falling_volume) + ")";
+        if (run.sliding_angle) {
+            line += " (sliding angle " + fmt::format("{:.4g}", *run.sliding_angle / droplet::kDegree) + "° of " +
+                    volume(*run.sliding_volume) + ")";
         }
     }
     if (of.critical_volume) {

@@ -60,7 +60,8 @@ void declare(CommandLine& line)
     line.add(kSweep, "--slope", "LIST", "Slopes of the ground, from horizontal [35deg]");
     line.add(kSweep, "--hysteresis", "LIST",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
-    line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE", "Hysteresis, by the slope at which a droplet begins to run");
+    line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE",
+             "Hysteresis, by the slope at which a droplet begins to run");
     line.add(kSweep, "--sliding-volume,--falling-volume", "V|every",
              "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]");
     declareForces(line);
@@ -208,17 +209,17 @@ void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
     droplet::ForceModel& model = run.swept.model;
     const double slope = quantity(*angle, kSlope);
     if (volume && volume->text == "every") {
-        model.wetting.falling_angle = slope;
-        run.falling_angle.reset();
+        model.wetting.sliding_angle = slope;
+        run.sliding_angle.reset();
         return;
     }
-    run.falling_angle = slope;
-    run.falling_volume = 30e-9;
+    run.sliding_angle = slope;
+    run.sliding_volume = 30e-9;
     if (volume) {
-        run.falling_volume =
+        run.sliding_volume =
             quantity(*volume, {kVolume.dimension, kVolume.min, kVolume.max, "from 0.001nL to 1L, or every"});
     }
-    model.wetting.hysteresis = droplet::hysteresisOf(model, slope, *run.falling_volume);
+    model.wetting.hysteresis = droplet::hysteresisOf(model, slope, *run.sliding_volume);
     if (model.wetting.hysteresis > 2.0) {
         refuse(*angle,
                "less steep, or --sliding-volume smaller: no contact angles can hold this droplet on this slope");
@@ -243,9 +244,9 @@ droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& pr
     if (const auto hystereses = line.value("--hysteresis")) {
         swept.hystereses = numbers(*hystereses, kHysteresis);
     }
-    if (preset.falling_angle && isAsMeasured(line)) {
-        run.falling_angle = preset.falling_angle;
-        run.falling_volume = preset.reference_volume;
+    if (preset.sliding_angle && isAsMeasured(line)) {
+        run.sliding_angle = preset.sliding_angle;
+        run.sliding_volume = preset.reference_volume;
     }
     readFallingAngle(line, run);
     run.measured = measuredBand(line);

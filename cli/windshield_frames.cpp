@@ -66,7 +66,7 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
         writeExr(droplet::FloatPicture{1, 1, 1, {0.0F}}, nowhere);
     }
     if (options_.environment) {
-        view_->surround(droplet::readEnvironment(*options_.environment));
+        view_->setEnvironment(droplet::readEnvironment(*options_.environment));
     }
 }
 
@@ -86,8 +86,8 @@ void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t n
 {
     const bool is_shown = options_.files || options_.is_video || is_last;
     if (is_shown) {
-        if (auto behind = background_.next(car.travelled, car.speed * view_options_.open_time)) {
-            view_->lookAt(*behind);
+        if (auto behind = background_.next(car.travelled, car.speed * view_options_.shutter_time)) {
+            view_->setBackground(*behind);
         }
         view_->show(state);
     } else {
@@ -103,7 +103,7 @@ void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t n
         saving_.wait();
         saving_.run(
             [layer = std::move(layer_), picture = std::move(picture_), path = options_.files->at(number), this] {
-                droplet::writeWhole(
+                droplet::writeAtomically(
                     path, [&](std::ostream& out) { writePicture(out, layer, picture, droplet::PngEffort::Fast); },
                     options_.output_options);
             });
@@ -126,7 +126,7 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
 void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
 {
     const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeWhole(mapPath(*options_.maps, number, kMapNames[map]), writer, options_.output_options);
+        droplet::writeAtomically(mapPath(*options_.maps, number, kMapNames[map]), writer, options_.output_options);
     };
     if (options_.are_maps_exr) {
         const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);

@@ -220,7 +220,7 @@ void readDroplets(const CommandLine& line, WindshieldOptions& options)
     forces = readForces(line, forces);
     if (const auto hysteresis = line.value("--hysteresis")) {
         forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
-        forces.wetting.falling_angle.reset();
+        forces.wetting.sliding_angle.reset();
     }
     readQuantity(line, "--still-diameter", kStill, options.parameters.still_diameter);
     readQuantity(line, "--film", kFilm, options.parameters.streaks.film);
@@ -309,7 +309,7 @@ void readShutter(const CommandLine& line, WindshieldOptions& options)
     if (share < 0.0 || share > 1.0) {
         refuse(*given, kAllowed);
     }
-    options.view.open_time = share / options.frames_per_second;
+    options.view.shutter_time = share / options.frames_per_second;
 }
 
 void readOutputs(const CommandLine& line, WindshieldOptions& options)

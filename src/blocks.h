@@ -54,7 +54,7 @@ double sumOverBlocks(std::size_t count, const Sum& sum)
 
 /// Sum of products, block by block.
 template <typename A>
-double dotOf(const std::vector<A>& a, const std::vector<double>& b)
+double dotProduct(const std::vector<A>& a, const std::vector<double>& b)
 {
     return sumOverBlocks(a.size(), [&](std::size_t begin, std::size_t end) {
         // Four independent sums, so that no addition waits for the one before.

@@ -207,7 +207,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.warnings = warningsOf(droplet, options);
     if (std::string tall = heightWarning(droplet, options.solve.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
-        droplet.grave_warnings = 1;
+        droplet.severe_warnings = 1;
     }
 }
 

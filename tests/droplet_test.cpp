@@ -672,12 +672,12 @@ TEST(Droplet, WarnsOfImpossibleHeights)
         const double length = *capillaryLength(options.solve.liquid, options.solve.gravity);
         ASSERT_TRUE(puddle.total.height_bound);
         EXPECT_NEAR(*puddle.total.height_bound, 2.0 * length * std::sin(20.0 * kDegree), 1e-9 * length);
-        EXPECT_EQ(puddle.grave_warnings, 0U) << ::testing::PrintToString(puddle.warnings);
+        EXPECT_EQ(puddle.severe_warnings, 0U) << ::testing::PrintToString(puddle.warnings);
     }
     options.solve.model = Model::Linear;
     options.solve.fill = {FillBy::Height, 30.0 * kMillimetre, FillSharing::Each};
     const Droplet tower = makeDroplet(mask, options);
-    ASSERT_EQ(tower.grave_warnings, 1U);
+    ASSERT_EQ(tower.severe_warnings, 1U);
     EXPECT_THAT(tower.warnings.front(), HasSubstr("30 mm high, but a puddle of this liquid"));
 
     // Without weight nothing limits the height; on a slope liquid collects at the lower end.
@@ -687,7 +687,7 @@ TEST(Droplet, WarnsOfImpossibleHeights)
     options.solve.tilt = 10.0 * kDegree;
     const Droplet inclined = makeDroplet(mask, options);
     EXPECT_FALSE(inclined.total.height_bound);
-    EXPECT_EQ(inclined.grave_warnings, 0U);
+    EXPECT_EQ(inclined.severe_warnings, 0U);
 }
 
 TEST(Droplet, RefusesDropletsThatDoNotExist)

@@ -17,15 +17,15 @@ int main(int argc, char** argv)
     try {
         droplet::TextOptions type;
         type.glyph.em = 30e-3;  // type size: 3 cm
-        droplet::SetText text = droplet::setText(droplet::readFont(argv[1]), argv[2], type);
+        droplet::TextLayout text = droplet::layOutText(droplet::readFont(argv[1]), argv[2], type);
         if (!text.missing.empty()) {
             std::cerr << text.missing.size() << " characters are not in the font\n";
         }
         const droplet::Droplet drop = droplet::makeDroplet(std::move(text.outline));
         droplet::WriteOptions look;
         look.material = droplet::Material::Ink;
-        droplet::writeWhole(argv[3],
-                            [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb, look); });
+        droplet::writeAtomically(
+            argv[3], [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb, look); });
     } catch (const droplet::Error& error) {
         std::cerr << error.what() << "\n";
         return 1;

@@ -20,7 +20,8 @@ int main(int argc, char** argv)
         for (const std::string& warning : drop.warnings) {
             std::cerr << "warning: " << warning << "\n";
         }
-        droplet::writeWhole(argv[2], [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb); });
+        droplet::writeAtomically(argv[2],
+                                 [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb); });
         std::cout << drop.figures.size() << " droplets, " << drop.total.volume * 1e9 << " uL\n";
     } catch (const droplet::Error& error) {
         std::cerr << error.what() << "\n";

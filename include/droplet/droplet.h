@@ -40,7 +40,7 @@ struct Droplet {
     ShapeFigures total;                 ///< figures of all droplets together
     Surface surface;                    ///< surface in space
     std::vector<std::string> warnings;  ///< one line each, the grave ones first
-    std::size_t grave_warnings = 0;     ///< number of warnings that say that the droplet cannot be right
+    std::size_t severe_warnings = 0;    ///< number of warnings that say that the droplet cannot be right
 };
 
 /// Runs all stages: trace, split, triangulate, solve, measure, loft.

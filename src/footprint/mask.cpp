@@ -230,7 +230,7 @@ Mask blankMask(const Picture& of)
     Mask mask;
     mask.width = of.width;
     mask.height = of.height;
-    mask.drawn_scale = of.drawn_scale;
+    mask.raster_scale = of.raster_scale;
     mask.physical_width = of.physical_width;
     return mask;
 }
@@ -392,8 +392,8 @@ Mask autoMask(std::span<const std::byte> encoded, const MaskOptions& options, Le
         other->segment_confidence >= kMinConfidence) {
         return std::move(*other);
     }
-    if (likeness.has_rim && mask.segment_confidence < kMinConfidence && !options.insist) {
-        if (!other && options.may_be_dry) {
+    if (likeness.has_rim && mask.segment_confidence < kMinConfidence && !options.accept_any) {
+        if (!other && options.allow_dry) {
             return dryMask(image, options, Segmentation::Threshold);
         }
         throw Error(ErrorCode::InvalidInput,
@@ -413,7 +413,7 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
             if (auto found = segmented(image, options, Segmentation::Colour)) {
                 return std::move(*found);
             }
-            if (options.may_be_dry) {
+            if (options.allow_dry) {
                 return dryMask(image, options, Segmentation::Colour);
             }
             throw Error(ErrorCode::InvalidInput, "nothing in the picture has the colour " + text(*options.colour) +
@@ -428,12 +428,12 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
         if (by_threshold) {
             const bool is_auto =
                 options.segment == Segmentation::Auto && options.channel == Channel::Auto && !options.levels;
-            return is_auto && !mask.drawn_scale ? autoMask(encoded, options, std::move(levels)) : std::move(mask);
+            return is_auto && !mask.raster_scale ? autoMask(encoded, options, std::move(levels)) : std::move(mask);
         }
         if (auto found = segmented(inFrontOfBlack(decode(encoded, options, true)), options, options.segment)) {
             return std::move(*found);
         }
-        if (options.may_be_dry) {
+        if (options.allow_dry) {
             return dryMask(mask, options, options.segment);
         }
         throw Error(ErrorCode::InvalidInput,
@@ -461,8 +461,8 @@ void Mask::validate() const
         throw Error(ErrorCode::InvalidInput,
                     "mask size " + std::to_string(width) + " x " + std::to_string(height) + " must be at least 1 x 1");
     }
-    if (drawn_scale && !(*drawn_scale > 0.0 && std::isfinite(*drawn_scale))) {
-        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + numberText(*drawn_scale) + " must be positive");
+    if (raster_scale && !(*raster_scale > 0.0 && std::isfinite(*raster_scale))) {
+        throw Error(ErrorCode::InvalidInput, "mask drawn_scale " + numberText(*raster_scale) + " must be positive");
     }
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (coverage.size() != pixels) {

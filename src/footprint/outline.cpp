@@ -470,7 +470,7 @@ double signedArea(const Loop& loop)
 
 double pixelSize(const Mask& mask, const TraceOptions& options)
 {
-    return options.pixel_size ? *options.pixel_size / mask.drawn_scale.value_or(1.0) : options.width / mask.width;
+    return options.pixel_size ? *options.pixel_size / mask.raster_scale.value_or(1.0) : options.width / mask.width;
 }
 
 Outline trace(const Mask& mask, const TraceOptions& options)
@@ -485,7 +485,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const Field field(mask, options.threshold);
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * kFull));
     const std::vector<Border> borders = followBorders(mask, level);
-    if (borders.empty() && !options.may_be_dry) {
+    if (borders.empty() && !options.allow_dry) {
         throw Error(ErrorCode::InvalidInput,
                     "no liquid in the mask: no pixel reaches --threshold " + numberText(options.threshold));
     }
@@ -530,7 +530,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         outline.loops.push_back(std::move(loop));
     }
     if (std::none_of(outline.loops.begin(), outline.loops.end(), [](const Loop& l) { return signedArea(l) > 0; })) {
-        if (options.may_be_dry) {
+        if (options.allow_dry) {
             outline.loops.clear();
             return outline;
         }

@@ -24,7 +24,7 @@ struct Image {
     bool premultiplied = false;                       ///< luma and colour are already weighted by alpha
     std::vector<std::array<std::uint8_t, 3>> colour;  ///< red, green, blue, as stored
 
-    std::optional<double> drawn_scale;     ///< as in Mask
+    std::optional<double> raster_scale;    ///< as in Mask
     std::optional<double> physical_width;  ///< as in Mask [m]
 };
 

@@ -109,7 +109,7 @@ Descriptor memoryFile()
     return Descriptor(::memfd_create("droplet-svg", MFD_CLOEXEC));
 }
 
-void writeWhole(const Descriptor& file, const void* bytes, std::size_t size)
+void writeAtomically(const Descriptor& file, const void* bytes, std::size_t size)
 {
     for (std::size_t done = 0; done < size;) {
         const ssize_t count = ::write(file.number(), static_cast<const char*>(bytes) + done, size - done);
@@ -253,7 +253,7 @@ Image imageOf(const SvgDrawing& drawing, const Pixels& pixels, const DecodeOptio
                               .keeps_colour = options.keeps_colour},
                              true);
     image.premultiplied = true;
-    image.drawn_scale = drawing.scale;
+    image.raster_scale = drawing.scale;
     if (drawing.physical_width > 0.0) {
         image.physical_width = drawing.physical_width;
     }
@@ -278,8 +278,8 @@ Image draw(std::span<const std::byte> text, std::size_t tags, const DecodeOption
     const Descriptor drawing_file = memoryFile();
     const SvgRequest request{options.max_pixels, options.vector_long_side, options.drawing.seconds,
                              options.drawing.memory, tags};
-    writeWhole(request_file, &request, sizeof request);
-    writeWhole(request_file, text.data(), text.size());
+    writeAtomically(request_file, &request, sizeof request);
+    writeAtomically(request_file, text.data(), text.size());
 
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {

@@ -519,8 +519,8 @@ void checkWritable(const fs::path& path, const OutputOptions& options)
     findWritable(path, options);
 }
 
-std::uint64_t writeWhole(const fs::path& path, const std::function<void(std::ostream&)>& write,
-                         const OutputOptions& options)
+std::uint64_t writeAtomically(const fs::path& path, const std::function<void(std::ostream&)>& write,
+                              const OutputOptions& options)
 {
     const Target target = findWritable(path, options);
     return target.replaceable() ? replaceWhole(path, target, write, options.no_clobber)

@@ -111,14 +111,14 @@ void base64(ByteStream& out, std::string_view bytes)
 
 }  // namespace
 
-bool pageIsBuiltIn() noexcept
+bool hasPage() noexcept
 {
     return !kPageParts[0].empty();
 }
 
 std::uint64_t writePage(std::ostream& out, const PageContent& content)
 {
-    if (!pageIsBuiltIn()) {
+    if (!hasPage()) {
         refuse("this library was built without the page (DROPLET_PAGE=OFF)");
     }
     check(content.glb);

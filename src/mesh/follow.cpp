@@ -339,7 +339,7 @@ std::optional<std::vector<const Loop*>> matchingLoops(const PlanarMesh& mesh, co
 
 }  // namespace
 
-PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
+PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
 {
     const std::uint32_t on_rim = mesh.rimVertexCount();
     if (rim.size() != on_rim) {
@@ -409,7 +409,7 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
         }
         rim.insert(rim.end(), moved->begin(), moved->end());
     }
-    PlanarMesh mesh = withRim(first, rim);
+    PlanarMesh mesh = moveRim(first, rim);
     const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                                    [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
     if (!whole || minAngle(mesh) < std::min(kMinAngle, kMinAngleShare * minAngle(first))) {

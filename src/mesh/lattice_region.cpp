@@ -200,7 +200,7 @@ LatticeRegion everySecond(const LatticeRegion& region)
     for (const RowInterval& i : region.intervals()) {
         if (i.row % 2 == 0) {
             const std::int32_t row = i.row / 2;
-            const std::int32_t origin = onFiner({row, 0}).column;
+            const std::int32_t origin = toFiner({row, 0}).column;
             result.push_back({row, ceilHalf(i.begin - origin), ceilHalf(i.end - origin)});
         }
     }

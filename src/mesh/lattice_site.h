@@ -65,14 +65,14 @@ constexpr std::array<Site, 6> neighboursOf(Site site)
 
 /// Converts a point of the lattice with twice the edge to a point of this lattice. Its six neighbours here are half-way
 /// to its neighbours there.
-constexpr Site onFiner(Site coarse)
+constexpr Site toFiner(Site coarse)
 {
     return {2 * coarse.row, 2 * coarse.column + (coarse.row & 1)};
 }
 
 /// Two points of the lattice with twice the edge between which a point lies half-way; the same point twice if it is one
 /// of them.
-constexpr std::array<Site, 2> onCoarser(Site fine)
+constexpr std::array<Site, 2> toCoarser(Site fine)
 {
     const std::int32_t low = fine.row >> 1;
     const std::int32_t odd = low & 1;

@@ -74,8 +74,8 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
     right_ = turn({-sin_azimuth, cos_azimuth, 0.0F});
     up_ = cross(back_, right_);
 
-    const std::vector<Vec3f> rings = options.fits_any_turn ? turned(points, turn) : std::vector<Vec3f>();
-    const std::vector<Vec3f>& framed = options.fits_any_turn ? rings : points;
+    const std::vector<Vec3f> rings = options.fit_all_azimuths ? turned(points, turn) : std::vector<Vec3f>();
+    const std::vector<Vec3f>& framed = options.fit_all_azimuths ? rings : points;
     Vec3f target;
     float distance = 12.0F;
     const float room = width_ - static_cast<float>(aside);

@@ -243,7 +243,7 @@ Picture over(const Layer& layer, const Picture& below)
     return mixed;
 }
 
-Picture covering(const Picture& picture, int width, int height)
+Picture scaledToCover(const Picture& picture, int width, int height)
 {
     picture.validate();
     constexpr int kMaxSide = 8192;

@@ -81,10 +81,10 @@ public:
         : options_(options),
           turn_(turnedBack(options.azimuth)),
           scene_(surface, options),
-          studio_(options.lighting, options.stand && options.frames_stand, turn_,
+          studio_(options.lighting, options.stand && options.shows_whole_stand, turn_,
                   options.environment ? &*options.environment : nullptr),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(options.stand && options.frames_stand ? scene_.shown() : scene_.droplets(), options,
+          camera_(options.stand && options.shows_whole_stand ? scene_.shown() : scene_.droplets(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -335,7 +335,8 @@ private:
             return grey(1.0F);
         }
         // An object is plain; curved ground has the table's ruling, projected from above.
-        return options_.stand && options_.frames_stand ? Vec3f{0.42F, 0.45F, 0.46F} : table_->at(meeting.place, width);
+        return options_.stand && options_.shows_whole_stand ? Vec3f{0.42F, 0.45F, 0.46F}
+                                                            : table_->at(meeting.place, width);
     }
 
     const RenderOptions& options_;

@@ -282,7 +282,7 @@ std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footpr
     Meshed moved{std::move(*mesh), {}};
     if (!first.bases.empty()) {
         const auto rim = moved.mesh.vertices.begin();
-        moved.base = withRim(first.bases[k], {rim, rim + moved.mesh.rimVertexCount()});
+        moved.base = moveRim(first.bases[k], {rim, rim + moved.mesh.rimVertexCount()});
         if (!std::all_of(moved.base->triangles.begin(), moved.base->triangles.end(),
                          [&](const Triangle& t) { return doubleArea(*moved.base, t) > 0.0; })) {
             return std::nullopt;

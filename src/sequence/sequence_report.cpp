@@ -85,7 +85,7 @@ std::size_t SequenceReport::dry() const
         std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.droplets.empty(); }));
 }
 
-std::optional<double> SequenceReport::meanKept() const
+std::optional<double> SequenceReport::meanVerticesKept() const
 {
     double sum = 0.0;
     std::size_t count = 0;
@@ -122,8 +122,9 @@ void writeSequenceReport(std::ostream& out, const SequenceReport& report)
     json["fill"] = fillSection(report.physics.fill, {});
     json["volume_mode"] = report.volume_mode == VolumeMode::Total ? "total" : "track";
     const std::size_t transitions = report.frames.empty() ? 0 : report.frames.size() - 1;
-    json["transitions"] = {
-        {"count", transitions}, {"vertices_kept", report.kept()}, {"vertices_kept_share", orNull(report.meanKept())}};
+    json["transitions"] = {{"count", transitions},
+                           {"vertices_kept", report.kept()},
+                           {"vertices_kept_share", orNull(report.meanVerticesKept())}};
     json["frames"] = ReportJson::array();
     for (const FrameReport& frame : report.frames) {
         json["frames"].push_back(frameRow(frame));

@@ -58,8 +58,8 @@ double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolve
         const std::vector<double>& y = solution.values;
         const std::vector<double> mass = massTimes(mesh, y);
         // Ky = Mx + λm and mᵀy = 0: the Rayleigh quotient is yᵀMx / yᵀMy.
-        const double quotient = dotOf(y, problem.right) / dotOf(y, mass);
-        const double scale = 1.0 / std::sqrt(dotOf(y, mass));
+        const double quotient = dotProduct(y, problem.right) / dotProduct(y, mass);
+        const double scale = 1.0 / std::sqrt(dotProduct(y, mass));
         x = std::move(solution.values);
         for (double& value : x) {
             value *= scale;

@@ -51,8 +51,8 @@ LatticeRegion parentsOf(const LatticeRegion& region, std::vector<RowInterval> ot
 {
     std::vector<RowInterval> parents = std::move(others);
     for (const RowInterval& i : region.intervals()) {
-        const std::array<Site, 2> first = onCoarser(i.first());
-        const std::array<Site, 2> last = onCoarser(i.last());
+        const std::array<Site, 2> first = toCoarser(i.first());
+        const std::array<Site, 2> last = toCoarser(i.last());
         for (std::size_t k = 0; k < 2; ++k) {
             parents.push_back({first[k].row, first[k].column, last[k].column + 1});
         }
@@ -73,7 +73,7 @@ LatticeGrid gridFor(const LatticeRegion& own, const LatticeRegion& parents, Inde
         add_with_neighbours(i.first(), i.last());
     }
     for (const RowInterval& i : parents.intervals()) {
-        add_with_neighbours(onFiner(i.first()), onFiner(i.last()));
+        add_with_neighbours(toFiner(i.first()), toFiner(i.last()));
     }
     return {LatticeRegion(std::move(storage)), first};
 }
@@ -436,7 +436,7 @@ void assembleFinest(const PlanarMesh& mesh, const Operator& op, Hierarchy& hiera
 /// Unknowns along a row of the coarser lattice, as points of the finer one.
 RestrictionRun restrictionOf(const LatticeGrid& coarse, const LatticeGrid& fine, const RowInterval& i)
 {
-    const Site first = onFiner(i.first());
+    const Site first = toFiner(i.first());
     return {coarse.at(i.first()), i.size(), fine.at(first), fine.at(neighbour(first, LatticeStep::BelowLeft)),
             fine.at(neighbour(first, LatticeStep::AboveLeft))};
 }
@@ -578,8 +578,8 @@ void addTransfer(const Plan& fine, const Plan& coarse, Level& level)
     }
     for (const RowInterval& i : fine.region.intervals()) {
         forEachPiece(i, [&](const RowInterval& piece) {
-            const std::array<Site, 2> parents = onCoarser(piece.first());
-            const std::array<Site, 2> next = onCoarser(neighbour(piece.first(), LatticeStep::Right));
+            const std::array<Site, 2> parents = toCoarser(piece.first());
+            const std::array<Site, 2> next = toCoarser(neighbour(piece.first(), LatticeStep::Right));
             const std::size_t early = next[0].column != parents[0].column ? 0 : 1;
             level.prolongation.push_back({fine.grid.at(piece.first()), piece.size(), coarse.grid.at(parents[early]),
                                           coarse.grid.at(parents[1 - early])});
@@ -601,7 +601,7 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
     fillRows(coarse.irregular, [&](std::size_t k, RowBuilder& result) {
         // Adds a·(row of P).
         const auto add_parents = [&](Site site, double a) {
-            for (const Site& parent : onCoarser(site)) {
+            for (const Site& parent : toCoarser(site)) {
                 const Index at = plan.grid.at(parent);
                 if (plan.isUnknown(at)) {
                     result.add(at, 0.5 * a);
@@ -624,7 +624,7 @@ void multiply(const Level& fine, const Plan& fine_plan, Level& coarse, const Pla
                 }
             }
         };
-        const Site centre = onFiner(plan.grid.siteOf(coarse.irregular.unknowns[k]));
+        const Site centre = toFiner(plan.grid.siteOf(coarse.irregular.unknowns[k]));
         const auto add_child = [&](Site child, double weight) {
             const Index index = fine_plan.grid.at(child);
             const Index row = fine_plan.row[index];

@@ -533,7 +533,7 @@ Unit solveUnit(const Hierarchy& hierarchy, const Cycle& cycle, double tolerance)
     Cycle::Workspace workspace(hierarchy.levels);
     const Product product(hierarchy.levels.front());
     const std::size_t size = hierarchy.load.size();
-    const double target = std::sqrt(dotOf(hierarchy.load, hierarchy.load));
+    const double target = std::sqrt(dotProduct(hierarchy.load, hierarchy.load));
     std::vector<double>& x = unit.solution;
     x.assign(size, 0.0);
     std::vector<double> r = hierarchy.load;
@@ -567,7 +567,7 @@ Unit solveUnit(const Hierarchy& hierarchy, const Cycle& cycle, double tolerance)
             }
         });
         product(p, q);
-        const double alpha = rz / dotOf(p, q);
+        const double alpha = rz / dotProduct(p, q);
         norm = std::sqrt(sumOverBlocks(size, [&](std::size_t begin, std::size_t end) {
             double sum = 0.0;
             for (std::size_t i = begin; i < end; ++i) {
@@ -624,12 +624,12 @@ public:
           load_(&hierarchy.load),
           product_(hierarchy.indefinite ? *hierarchy.indefinite : hierarchy.levels.front()),
           workspace_(hierarchy.levels),
-          load_norm_(std::sqrt(dotOf(hierarchy.load, hierarchy.load))),
+          load_norm_(std::sqrt(dotProduct(hierarchy.load, hierarchy.load))),
           weight_(weight)
     {
         precondition(hierarchy.load);
         unit_.assign(workspace_.result().begin(), workspace_.result().end());
-        unit_volume_ = dotOf(hierarchy.load, unit_);
+        unit_volume_ = dotProduct(hierarchy.load, unit_);
     }
 
     Projected solve(std::vector<double> right, double volume, double tolerance)
@@ -640,7 +640,7 @@ public:
         result.x.assign(size, 0.0);
         std::vector<double>& x = result.x;
         // Scaled to the range of single precision.
-        const double right_norm = std::sqrt(dotOf(right, right));
+        const double right_norm = std::sqrt(dotProduct(right, right));
         const double unit = std::max(right_norm, std::abs(volume / unit_volume_) * load_norm_);
         if (!(unit > 0.0)) {
             return result;
@@ -673,8 +673,8 @@ public:
         while (norm > tolerance * scale && result.iterations < kMaxIterations) {
             precondition(r);
             const std::vector<float>& z = workspace_.result();
-            const double shift = dotOf(z, load) / unit_volume_;
-            const double rz = dotOf(z, r) - shift * dotOf(unit_, r);
+            const double shift = dotProduct(z, load) / unit_volume_;
+            const double rz = dotProduct(z, r) - shift * dotProduct(unit_, r);
             if (!(rz > 0.0)) {
                 break;
             }
@@ -685,7 +685,7 @@ public:
                 }
             });
             product_(p, q);
-            const double curvature = dotOf(p, q);
+            const double curvature = dotProduct(p, q);
             if (!(curvature > 0.0)) {
                 result.indefinite = true;
                 break;
@@ -703,7 +703,7 @@ public:
             ++result.iterations;
         }
         // Corrects the round-off of the volume.
-        const double missing = (wanted - dotOf(load, x)) / unit_volume_;
+        const double missing = (wanted - dotProduct(load, x)) / unit_volume_;
         forBlocks(size, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 x[i] += missing * unit_[i];
@@ -735,7 +735,7 @@ private:
     double takeMultiplier(std::vector<double>& r, double& multiplier) const
     {
         const std::vector<double>& load = *load_;
-        const double more = -dotOf(load, r) / (load_norm_ * load_norm_);
+        const double more = -dotProduct(load, r) / (load_norm_ * load_norm_);
         multiplier += more;
         return std::sqrt(sumOverBlocks(r.size(), [&](std::size_t begin, std::size_t end) {
             double sum = 0.0;
@@ -797,7 +797,7 @@ public:
         const double scale = hierarchy_.edge * hierarchy_.edge;
         if (problem.right.empty() && !hierarchy_.indefinite) {
             const Unit unit = solveUnit(hierarchy_, *cycle_, problem.tolerance);
-            const double factor = problem.volume / (scale * dotOf(hierarchy_.load, unit.solution));
+            const double factor = problem.volume / (scale * dotProduct(hierarchy_.load, unit.solution));
             solution.values = gathered(hierarchy_, unit.solution, factor);
             solution.multiplier = factor / scale;
             solution.residual = unit.residual;

@@ -129,7 +129,7 @@ void OntoOptions::validate() const
     }
 }
 
-OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options)
+OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options)
 {
     options.validate();
     droplets.validate();

@@ -45,8 +45,8 @@ public:
                 last = character();
             }
             if (last < first) {
-                throw Error(ErrorCode::InvalidArgument, "charset: the range " + shownCharacter(first) + " to " +
-                                                            shownCharacter(last) + " runs backward");
+                throw Error(ErrorCode::InvalidArgument, "charset: the range " + characterText(first) + " to " +
+                                                            characterText(last) + " runs backward");
             }
             for (char32_t c = first; c <= last; ++c) {
                 add(c);
@@ -126,7 +126,7 @@ std::vector<char32_t> charactersOf(std::string_view text)
     return characters;
 }
 
-std::string shownCharacter(char32_t character)
+std::string characterText(char32_t character)
 {
     const bool shows = character > ' ' && (character < 0x7f || character > 0xa0) &&
                        (character < 0x2000 || character > 0x200f) && (character < 0x2028 || character > 0x202f) &&

@@ -193,12 +193,12 @@ bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options)
            !glyphOutline(font, glyph, options).loops.empty();
 }
 
-SetText setText(const Font& font, std::string_view text, const TextOptions& options)
+TextLayout layOutText(const Font& font, std::string_view text, const TextOptions& options)
 {
     options.validate();
     const FontFace& face = font.face();
     const std::vector<std::u32string> texts = linesOf(text);
-    SetText result;
+    TextLayout result;
     result.lines = texts.size();
     std::vector<TextLine> lines;
     double width = 0.0;

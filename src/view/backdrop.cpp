@@ -97,7 +97,7 @@ Backdrop::Level& Backdrop::addLevel(int width, int height, float across, float d
     return levels_.back();
 }
 
-void Backdrop::surround(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all)
+void Backdrop::setEnvironment(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all)
 {
     frame_ = frame;
     is_all_around_ = is_all;

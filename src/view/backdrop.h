@@ -71,7 +71,7 @@ public:
     /// @param frame        axes of the picture
     /// @param exposure     factor of all light
     /// @param is_all       true: directions within the picture show it, too
-    void surround(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all);
+    void setEnvironment(const Environment& environment, const PictureFrame& frame, float exposure, bool is_all);
 
     /// Place that a direction shows: x right, y ahead, z up.
     /// @param level  level of the picture

@@ -46,7 +46,7 @@ void ViewOptions::validate() const
     if (highlight_boost) {
         require(*highlight_boost >= 0.0 && *highlight_boost <= 4.0, "highlight_boost", *highlight_boost, "from 0 to 4");
     }
-    require(open_time >= 0.0 && open_time <= 1.0, "open_time", open_time, "from 0 to 1 s");
+    require(shutter_time >= 0.0 && shutter_time <= 1.0, "open_time", shutter_time, "from 0 to 1 s");
     require(background_blur >= 0.0 && background_blur <= 20.0 * kDegree, "background_blur", background_blur,
             "from 0 to 20 degrees");
     for (const Wiper& wiper : wipers) {
@@ -229,7 +229,7 @@ struct DriversView::Content {
     void restart()
     {
         if (around) {
-            scene.backdrop.surround(*around, scene.eye.frame(), exposure(), !has_picture);
+            scene.backdrop.setEnvironment(*around, scene.eye.frame(), exposure(), !has_picture);
         }
         stills.emplace(scene);
         running.emplace(scene);
@@ -550,7 +550,7 @@ DriversView::~DriversView() = default;
 DriversView::DriversView(DriversView&&) noexcept = default;
 DriversView& DriversView::operator=(DriversView&&) noexcept = default;
 
-void DriversView::lookAt(const Picture& picture)
+void DriversView::setBackground(const Picture& picture)
 {
     picture.validate();
     Content& content = *content_;
@@ -612,7 +612,7 @@ void DriversView::lookAt(const Picture& picture)
     }
 }
 
-void DriversView::surround(const Environment& environment)
+void DriversView::setEnvironment(const Environment& environment)
 {
     environment.validate();
     Content& content = *content_;

@@ -53,21 +53,21 @@ struct ViewScene {
     /// @return  a power of two
     [[nodiscard]] int momentsOf(Vec2 position, double speed) const
     {
-        const auto place = options.open_time > 0.0 && speed > 0.0 ? glass.place(position) : std::nullopt;
+        const auto place = options.shutter_time > 0.0 && speed > 0.0 ? glass.place(position) : std::nullopt;
         if (!place) {
             return 1;
         }
         constexpr double kApart = 1.25;  // [px]
         constexpr double kMax = 64.0;
         const double pixel = static_cast<double>(eye.tangent()) * std::max(eye.seen(*place).point.y, 1e-3);
-        const double moments = std::ceil(speed * options.open_time / (kApart * pixel));
+        const double moments = std::ceil(speed * options.shutter_time / (kApart * pixel));
         return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(moments, 1.0, kMax))));
     }
 
     /// Time of a moment, relative to the state's time [s].
     [[nodiscard]] double timeOf(int moment, int moments) const
     {
-        return options.open_time * ((moment + 0.5) / moments - 0.5);
+        return options.shutter_time * ((moment + 0.5) / moments - 0.5);
     }
 
     ViewOptions options;

@@ -66,8 +66,8 @@ void Wetting::validate() const
     require(within(contact_angle, kDegree, 179.0 * kDegree), "wetting.contact_angle", contact_angle,
             "from 1 to 179 degrees, in rad");
     require(within(hysteresis, 0.0, 2.0), "wetting.hysteresis", hysteresis, "from 0 to 2");
-    if (falling_angle) {
-        require(within(*falling_angle, 0.0, 0.5 * kPi), "wetting.falling_angle", *falling_angle, "from 0 to pi/2");
+    if (sliding_angle) {
+        require(within(*sliding_angle, 0.0, 0.5 * kPi), "wetting.sliding_angle", *sliding_angle, "from 0 to pi/2");
     }
     require(within(kinetic_fraction, 0.0, 1.0), "wetting.kinetic_fraction", kinetic_fraction, "from 0 to 1");
     require(atLeastZero(viscosity_factor), "wetting.viscosity_factor", viscosity_factor, "finite and at least 0 Pa.s");
@@ -102,7 +102,7 @@ DropletForces forcesOn(const ForceModel& model, const CapSize& cap)
     const double mass = model.liquid.density * cap.volume;
     const double weight = mass * model.gravity;
     const double slowed = windAt(model.air, 1.0, cap.height);
-    const double retention = wetting.falling_angle ? weight * std::sin(*wetting.falling_angle)
+    const double retention = wetting.sliding_angle ? weight * std::sin(*wetting.sliding_angle)
                                                    : 0.5 * kPi * cap.contact_radius * model.liquid.surface_tension *
                                                          wetting.hysteresis;  // (3.2)
     return {mass,
@@ -164,10 +164,10 @@ std::optional<double> terminalVelocity(const DropletForces& forces, double drivi
     return std::isfinite(velocity) ? std::optional(velocity) : std::nullopt;
 }
 
-double hysteresisOf(const ForceModel& model, double falling_angle, double volume)
+double hysteresisOf(const ForceModel& model, double sliding_angle, double volume)
 {
     const CapSize cap = capOf(volume, model.wetting.contact_angle);
-    return model.liquid.density * volume * model.gravity * std::sin(falling_angle) /
+    return model.liquid.density * volume * model.gravity * std::sin(sliding_angle) /
            (0.5 * kPi * cap.contact_radius * model.liquid.surface_tension);
 }
 
@@ -214,7 +214,7 @@ ForcePreset hashimoto()
     ForceModel& model = preset.model;
     constexpr double kContactAngle = 105.0 * kDegree;
     model.wetting.contact_angle = kContactAngle;
-    model.wetting.hysteresis = hysteresisOf(model, *preset.falling_angle, preset.reference_volume);
+    model.wetting.hysteresis = hysteresisOf(model, *preset.sliding_angle, preset.reference_volume);
     model.wetting.viscosity_factor =
         wedgeViscosityFactor(kWaterViscosity, kContactAngle, capOf(preset.reference_volume, kContactAngle).radius);
     model.air.boundary_layer = fittedBoundaryLayer(preset);

@@ -8,7 +8,7 @@
 //
 //   W ∝ V_d,  F ∝ V_d^(1/3),  D ∝ V_d^((2 + 2n)/3) below the boundary layer's edge, ∝ V_d^(2/3) above it.
 //
-// With a falling angle for every volume, F ∝ V_d. So a balance divided by V_d^(1/3) is a + b V_d^p + c V_d^q on either
+// With a sliding angle for every volume, F ∝ V_d. So a balance divided by V_d^(1/3) is a + b V_d^p + c V_d^q on either
 // side of the edge. It turns at one volume at most, which has a closed form. Between these volumes its sign changes at
 // most once, and bisection finds the root.
 #include "droplet/wind/tunnel.h"
@@ -102,7 +102,7 @@ std::vector<double> turningVolumes(const ForceModel& model, const TunnelSetting&
     const double slowed_drag =
         model.air.boundary_layer > 0.0 ? full_drag * std::pow(cap.height / model.air.boundary_layer, 2.0 * n) : 0.0;
     // Terms proportional to the volume: the weight, and the retention if it is, with either sign.
-    const double retention = model.wetting.falling_angle ? one.retention : 0.0;
+    const double retention = model.wetting.sliding_angle ? one.retention : 0.0;
     for (const double held : {weight - retention, weight, weight + retention}) {
         // d/dV (D − W) V^(−1/3) = 0, with D = d V^e: V^(e − 1) = (2/3) w / ((e − 1/3) d).
         const auto add_turn = [&](double drag, double exponent) {
@@ -159,7 +159,7 @@ std::optional<double> criticalVolume(const ForceModel& model, double slope)
     return changes.empty() ? std::nullopt : std::optional(changes.front().volume);
 }
 
-std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap)
+std::optional<double> tearOffWind(const ForceModel& model, const CapSize& cap)
 {
     const double wind = std::sqrt(kTearOffWeber * model.liquid.surface_tension / (model.air.density * cap.height));
     return std::isfinite(wind) ? std::optional(wind) : std::nullopt;
@@ -180,9 +180,9 @@ void TunnelSweep::validate() const
     requireAll("winds", winds, "finite, in m/s", [](double v) { return std::isfinite(v); });
     requireAll("slopes", slopes, "from 0 to pi/2", [](double v) { return v >= 0.0 && v <= 0.5 * std::numbers::pi; });
     requireAll("hystereses", hystereses, "from 0 to 2", [](double v) { return v >= 0.0 && v <= 2.0; });
-    if (!hystereses.empty() && model.wetting.falling_angle) {
+    if (!hystereses.empty() && model.wetting.sliding_angle) {
         throw Error(ErrorCode::InvalidArgument,
-                    "hystereses and model.wetting.falling_angle exclude each other: both set the retention");
+                    "hystereses and model.wetting.sliding_angle exclude each other: both set the retention");
     }
     double rows = static_cast<double>(std::max<std::size_t>(1, hystereses.size()));
     for (const auto* values : {&volumes, &winds, &slopes}) {
@@ -227,15 +227,15 @@ std::vector<Incline> inclinesOf(const TunnelSweep& what)
 TunnelCase caseOf(const Incline& incline, double volume)
 {
     const ForceModel& model = incline.model;
-    const std::optional<double> falling_angle = model.wetting.falling_angle;
+    const std::optional<double> sliding_angle = model.wetting.sliding_angle;
     TunnelCase found;
-    found.hysteresis = falling_angle ? hysteresisOf(model, *falling_angle, volume) : model.wetting.hysteresis;
+    found.hysteresis = sliding_angle ? hysteresisOf(model, *sliding_angle, volume) : model.wetting.hysteresis;
     found.slope = incline.slope;
     found.cap = capOf(volume, model.wetting.contact_angle);
     found.forces = forcesOn(model, found.cap);
     found.thresholds = thresholdsOf(found.forces, incline.slope);
     found.critical_volume = incline.critical_volume;
-    found.shedding_wind = sheddingWind(model, found.cap);
+    found.shedding_wind = tearOffWind(model, found.cap);
     return found;
 }
 

@@ -80,8 +80,8 @@ std::vector<Panel> panelsOf(const TunnelSweep& swept, const Tunnel& tunnel, Draw
 std::string captionOf(const TunnelSweep& swept, const TunnelCase& tunnel_case)
 {
     std::string text = "slope " + written(tunnel_case.slope / kDegree, 4) + "°, ";
-    if (const auto& falling_angle = swept.model.wetting.falling_angle) {
-        return text + "falling angle " + written(*falling_angle / kDegree, 4) + "°";
+    if (const auto& sliding_angle = swept.model.wetting.sliding_angle) {
+        return text + "sliding angle " + written(*sliding_angle / kDegree, 4) + "°";
     }
     return text + "hysteresis " + written(tunnel_case.hysteresis, 3);
 }

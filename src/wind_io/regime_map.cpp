@@ -74,7 +74,7 @@ std::vector<Level> levelsOf(const ForceModel& model, double slope, const Scale& 
     for (const double volume : volumes) {
         const CapSize cap = capOf(volume, model.wetting.contact_angle);
         const Thresholds found = thresholdsOf(forcesOn(model, cap), slope);
-        const auto shedding = sheddingWind(model, cap);
+        const auto shedding = tearOffWind(model, cap);
         const auto inside = [&](const std::optional<double>& wind) {
             const double rounding = 1e-6 * (x.high - x.low);
             return wind && *wind >= x.low - rounding && *wind <= x.high + rounding;
@@ -207,7 +207,7 @@ Drawing regimeMap(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOpt
     for (const Panel& panel : panels) {
         const TunnelCase& first = *panel.cases.front();
         ForceModel model = swept.model;
-        if (!model.wetting.falling_angle) {
+        if (!model.wetting.sliding_angle) {
             model.wetting.hysteresis = first.hysteresis;
         }
         Plot plot(drawing, panel, 20.0);

@@ -41,7 +41,7 @@ std::optional<double> ratioOf(const Thresholds& thresholds)
 Json parameters(const TunnelRun& run)
 {
     const ForceModel& model = run.swept.model;
-    const auto& own_angle = model.wetting.falling_angle;
+    const auto& own_angle = model.wetting.sliding_angle;
     Json json = {{"preset", run.preset.empty() ? Json() : Json(run.preset)}};
     json["liquid"] = {{"name", model.liquid.name},
                       {"surface_tension_n_per_m", model.liquid.surface_tension},
@@ -52,8 +52,8 @@ Json parameters(const TunnelRun& run)
                    {"boundary_layer_m", model.air.boundary_layer},
                    {"profile_exponent", model.air.profile_exponent}};
     json["wetting"] = {{"contact_angle_deg", model.wetting.contact_angle / kDegree},
-                       {"falling_angle_deg", orNull(own_angle ? own_angle : run.falling_angle, kDegree)},
-                       {"falling_volume_m3", orNull(own_angle ? std::nullopt : run.falling_volume)},
+                       {"falling_angle_deg", orNull(own_angle ? own_angle : run.sliding_angle, kDegree)},
+                       {"falling_volume_m3", orNull(own_angle ? std::nullopt : run.sliding_volume)},
                        {"kinetic_fraction", model.wetting.kinetic_fraction},
                        {"viscosity_factor_pa_s", model.wetting.viscosity_factor}};
     json["measured_still_m_per_s"] = run.measured ? Json{run.measured->from, run.measured->to} : Json();

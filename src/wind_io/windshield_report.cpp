@@ -43,7 +43,7 @@ ReportJson forcesSection(const ForceModel& forces)
             {"contact_angle_deg", forces.wetting.contact_angle / kDegree},
             {"hysteresis", forces.wetting.hysteresis},
             {"falling_angle_deg",
-             forces.wetting.falling_angle ? ReportJson(*forces.wetting.falling_angle / kDegree) : ReportJson()},
+             forces.wetting.sliding_angle ? ReportJson(*forces.wetting.sliding_angle / kDegree) : ReportJson()},
             {"kinetic_fraction", forces.wetting.kinetic_fraction},
             {"viscosity_factor_pa_s", forces.wetting.viscosity_factor},
             {"air_density_kg_per_m3", forces.air.density},
@@ -120,7 +120,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                     {"look_at_m", placeOrNull(report.view.look_at)},
                     {"ior", report.view.ior},
                     {"background_blur_deg", report.view.background_blur / kDegree},
-                    {"shutter_open_s", report.view.open_time},
+                    {"shutter_open_s", report.view.shutter_time},
                     {"exposure", report.view.exposure},
                     {"highlight_boost", orNull(report.view.highlight_boost)}};
     json["balance"] = ReportJson::array();

@@ -79,7 +79,7 @@ class HtmlTest : public ::testing::Test {
 protected:
     HtmlTest()
     {
-        if (!pageIsBuiltIn()) {
+        if (!hasPage()) {
             throw std::logic_error("this test needs a program with --html built in");
         }
         writeFile(directory() / "disc.pgm", discPicture(64, 24.0));

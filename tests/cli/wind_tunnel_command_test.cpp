@@ -172,8 +172,8 @@ TEST_F(WindTunnelRefusal, NamesOptionsByTheirNewNamesAndAcceptsTheOld)
 {
     const std::vector<std::string> volume{"--volume", "10uL", "--wind", "5m/s"};
     const auto cases = [](std::vector<std::string> arguments, const std::string& prefix) {
-        for (const std::string& argument : {"--" + prefix + "-angle", std::string("12deg"), "--" + prefix + "-volume",
-                                            std::string("40uL")}) {
+        for (const std::string& argument :
+             {"--" + prefix + "-angle", std::string("12deg"), "--" + prefix + "-volume", std::string("40uL")}) {
             arguments.push_back(argument);
         }
         return reportOf(arguments).at("runs").at(0).at("cases");
@@ -384,7 +384,7 @@ TEST(WindTunnelCommand, FallingAngleAppliesToOneVolumeOrToAll)
     EXPECT_NEAR(held(of_every[0]), 12.0, 1e-9);
     EXPECT_NEAR(held(of_every[1]), 12.0, 1e-9);
     EXPECT_TRUE(of_every[0].at("critical_volume_m3").is_null());
-    // Without wind, at 35° with a falling angle of 10° (WIND: g (sin 35° − sin 10°)).
+    // Without wind, at 35° with a sliding angle of 10° (WIND: g (sin 35° − sin 10°)).
     for (const Json& one :
          cases({"--volume", "1..100uL:33", "--sliding-angle", "10deg", "--sliding-volume", "every"})) {
         EXPECT_NEAR(one.at("acceleration_m_per_s2").at(0).get<double>(), -3.92, 0.005);
@@ -511,7 +511,7 @@ TEST(WindTunnelCommand, TraceFollowsOneDroplet)
               (static_cast<std::ptrdiff_t>(json.at("events").size()) + 1) / 2);
 }
 
-// WIND: 30 µL with a falling angle of 10° reach 0.11 m/s at 35°.
+// WIND: 30 µL with a sliding angle of 10° reach 0.11 m/s at 35°.
 TEST(WindTunnelCommand, TraceEndsAtTheTerminalSpeed)
 {
     const Table table(

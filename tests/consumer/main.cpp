@@ -8,5 +8,6 @@ int main()
     options.trace.width = 30e-3;
     options.solve.liquid = droplet::liquidNamed("glycerol");
     const droplet::Droplet drop = droplet::makeDroplet(droplet::readMask("logo.png"), options);
-    droplet::writeWhole("logo.glb", [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb); });
+    droplet::writeAtomically("logo.glb",
+                             [&](std::ostream& out) { writeSurface(drop.surface, out, droplet::Format::Glb); });
 }

@@ -107,7 +107,7 @@ TEST(FootprintColour, MissingColourIsAnErrorThatListsTheCommonOnes)
 TEST(FootprintColour, MissingColourMayGiveADryFrame)
 {
     MaskOptions options = of("lime");
-    options.may_be_dry = true;
+    options.allow_dry = true;
     EXPECT_EQ(covered(decodeMask(bytesOf(icon()), options)), 0.0);
 }
 

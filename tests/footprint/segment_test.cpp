@@ -266,7 +266,7 @@ TEST_P(NoMaskTest, IsRejectedUnlessInsistIsSet)
     EXPECT_THAT(messageOf(picture),
                 ::testing::AllOf(HasSubstr("does not look like a footprint"), HasSubstr("--segment")));
     MaskOptions options;
-    options.insist = true;
+    options.accept_any = true;
     EXPECT_LT(decodeMask(picture, options).segment_confidence, 0.3);
     EXPECT_NO_THROW(decodeMask(picture, by(Segmentation::Threshold)));
 }
@@ -329,7 +329,7 @@ TEST(Segment, PictureWithoutAnEdgeMayGiveADryFrame)
     for (const Segmentation segment : {Segmentation::Auto, Segmentation::Adaptive, Segmentation::GrabCut}) {
         for (const bool invert : {false, true}) {
             MaskOptions options = by(segment);
-            options.may_be_dry = true;
+            options.allow_dry = true;
             options.invert = invert;
             const Mask mask = decodeMask(paper, options);
             mask.validate();

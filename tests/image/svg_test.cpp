@@ -237,8 +237,8 @@ TEST(Svg, PageHasTheStatedSize)
         const Mask mask = decodeMask(svg(page.attributes, R"(<rect x="1" y="1" width="7" height="7"/>)"), side(200));
         EXPECT_EQ(mask.width, page.width) << page.attributes;
         EXPECT_EQ(mask.height, page.height) << page.attributes;
-        ASSERT_TRUE(mask.drawn_scale) << page.attributes;
-        EXPECT_NEAR(mask.width / *mask.drawn_scale, page.page_px, 1e-9 * page.page_px) << page.attributes;
+        ASSERT_TRUE(mask.raster_scale) << page.attributes;
+        EXPECT_NEAR(mask.width / *mask.raster_scale, page.page_px, 1e-9 * page.page_px) << page.attributes;
         ASSERT_EQ(mask.physical_width.has_value(), page.physical.has_value()) << page.attributes;
         EXPECT_NEAR(mask.physical_width.value_or(0.0), page.physical.value_or(0.0), 1e-12) << page.attributes;
     }

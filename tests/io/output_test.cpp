@@ -185,7 +185,7 @@ TEST_F(Output, WritesEveryByteAndCountsThem)
         for (std::size_t i = 0; i < size; ++i) {
             bytes[i] = static_cast<char>(i * 31);
         }
-        EXPECT_EQ(writeWhole(target, text(bytes)), size);
+        EXPECT_EQ(writeAtomically(target, text(bytes)), size);
         EXPECT_EQ(contentOf(target), bytes);
         // The same data in small pieces and single characters, across the buffer's end.
         const auto in_pieces = [&](std::ostream& out) {
@@ -194,7 +194,7 @@ TEST_F(Output, WritesEveryByteAndCountsThem)
                 out.write(bytes.data() + i + 1, static_cast<std::streamsize>(std::min<std::size_t>(7, size - i - 1)));
             }
         };
-        EXPECT_EQ(writeWhole(target, in_pieces), size);
+        EXPECT_EQ(writeAtomically(target, in_pieces), size);
         EXPECT_EQ(contentOf(target), bytes);
     }
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
@@ -207,7 +207,7 @@ TEST_F(Output, WritesAWholeSurfaceInEveryFormat)
         std::ostringstream expected;
         const std::uint64_t size = writeSurface(surface, expected, format);
         EXPECT_EQ(size, expected.str().size());
-        const auto bytes = writeWhole(target, [&](std::ostream& out) { writeSurface(surface, out, format); });
+        const auto bytes = writeAtomically(target, [&](std::ostream& out) { writeSurface(surface, out, format); });
         EXPECT_EQ(bytes, expected.str().size());
         EXPECT_EQ(contentOf(target), expected.str());
     }
@@ -218,7 +218,7 @@ TEST_F(Output, AnExistingFileIsReplacedAndKeepsItsPermissions)
     for (const mode_t mode : {0600U, 0640U, 0664U, 0755U}) {
         store(target, kOld);
         ASSERT_EQ(::chmod(target.c_str(), mode), 0);
-        writeWhole(target, text("new"));
+        writeAtomically(target, text("new"));
         EXPECT_EQ(contentOf(target), "new");
         EXPECT_EQ(modeOf(target), mode);
     }
@@ -228,7 +228,7 @@ TEST_F(Output, AnExistingFileIsReplacedAndKeepsItsPermissions)
 TEST_F(Output, ANewFileHasThePermissionsOfAnyNewFile)
 {
     const mode_t before = ::umask(027);
-    writeWhole(target, text("new"));
+    writeAtomically(target, text("new"));
     ::umask(before);
     EXPECT_EQ(modeOf(target), 0640U);
 }
@@ -236,7 +236,7 @@ TEST_F(Output, ANewFileHasThePermissionsOfAnyNewFile)
 TEST_F(Output, TheFileAppearsOnlyWhenComplete)
 {
     store(target, kOld);
-    writeWhole(target, [&](std::ostream& out) {
+    writeAtomically(target, [&](std::ostream& out) {
         out << std::string(200'000, 'x') << std::flush;
         EXPECT_EQ(contentOf(target), kOld);
     });
@@ -249,10 +249,10 @@ TEST_F(Output, ExceptionsOfTheWriterPassAndNothingChanges)
         out << std::string(200'000, 'x');
         throw std::out_of_range("mid-way");
     };
-    EXPECT_THROW(writeWhole(target, break_off), std::out_of_range);
+    EXPECT_THROW(writeAtomically(target, break_off), std::out_of_range);
     EXPECT_THAT(names(), IsEmpty());
     store(target, kOld);
-    EXPECT_THROW(writeWhole(target, break_off), std::out_of_range);
+    EXPECT_THROW(writeAtomically(target, break_off), std::out_of_range);
     EXPECT_EQ(contentOf(target), kOld);
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
 }
@@ -261,7 +261,7 @@ TEST_F(Output, AFailedStreamIsAFailedFile)
 {
     store(target, kOld);
     const std::string said = complaint([&] {
-        writeWhole(target, [](std::ostream& out) {
+        writeAtomically(target, [](std::ostream& out) {
             out << "half";
             out.setstate(std::ios::badbit);
         });
@@ -278,7 +278,7 @@ TEST_F(Output, AFullDiskIsReportedAndTheOldFileStays)
         ::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit = {100'000, 100'000};
         demand(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
-        const std::string said = complaint([&] { writeWhole(target, text(std::string(100'001, 'x'))); });
+        const std::string said = complaint([&] { writeAtomically(target, text(std::string(100'001, 'x'))); });
         demand(said.find("File too large") != std::string::npos);
     });
     EXPECT_EQ(status, 0);
@@ -289,13 +289,13 @@ TEST_F(Output, AFullDiskIsReportedAndTheOldFileStays)
 TEST_F(Output, DevFullIsFullForManyBytesAndForFew)
 {
     for (const std::size_t size : {1U, 1'000'000U}) {
-        EXPECT_THAT(complaint([&] { writeWhole("/dev/full", text(std::string(size, 'x'))); }),
+        EXPECT_THAT(complaint([&] { writeAtomically("/dev/full", text(std::string(size, 'x'))); }),
                     HasSubstr("output \"/dev/full\": No space left on device"));
     }
     for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl}) {
         EXPECT_NE(complaint([&] {
-                      writeWhole("/dev/full",
-                                 [&](std::ostream& out) { writeSurface(testing::roundDroplet(), out, format); });
+                      writeAtomically("/dev/full",
+                                      [&](std::ostream& out) { writeSurface(testing::roundDroplet(), out, format); });
                   }),
                   "");
     }
@@ -304,7 +304,7 @@ TEST_F(Output, DevFullIsFullForManyBytesAndForFew)
 
 TEST_F(Output, DevNullTakesEverythingEvenWithNoClobber)
 {
-    EXPECT_EQ(writeWhole("/dev/null", text("gone"), {.no_clobber = true}), 4U);
+    EXPECT_EQ(writeAtomically("/dev/null", text("gone"), {.no_clobber = true}), 4U);
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
@@ -342,7 +342,7 @@ TEST_F(Output, CheckingFindsUnwritablePaths)
         const fs::path place = hopeless.place(folder);
         EXPECT_THAT(complaint([&] { checkWritable(place); }), HasSubstr(hopeless.cause));
         bool called = false;
-        EXPECT_THAT(complaint([&] { writeWhole(place, [&](std::ostream&) { called = true; }); }),
+        EXPECT_THAT(complaint([&] { writeAtomically(place, [&](std::ostream&) { called = true; }); }),
                     HasSubstr(hopeless.cause));
         EXPECT_FALSE(called);
     }
@@ -352,7 +352,7 @@ TEST_F(Output, CheckingFindsUnwritablePaths)
 
 TEST_F(Output, ProcTakesNoNewFiles)
 {
-    EXPECT_THAT(complaint([] { writeWhole("/proc/droplet.glb", text("new")); }), HasSubstr("/proc/droplet.glb"));
+    EXPECT_THAT(complaint([] { writeAtomically("/proc/droplet.glb", text("new")); }), HasSubstr("/proc/droplet.glb"));
 }
 
 TEST_F(Output, ReadOnlyFoldersAndFilesAreRefused)
@@ -363,7 +363,8 @@ TEST_F(Output, ReadOnlyFoldersAndFilesAreRefused)
         fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
         for (const fs::path& place : {target, folder / "new.glb"}) {
             demand(complaint([&] { checkWritable(place); }).find("Permission denied") != std::string::npos);
-            demand(complaint([&] { writeWhole(place, text("new")); }).find("Permission denied") != std::string::npos);
+            demand(complaint([&] { writeAtomically(place, text("new")); }).find("Permission denied") !=
+                   std::string::npos);
         }
     });
     EXPECT_EQ(folder_status, 0);
@@ -372,7 +373,7 @@ TEST_F(Output, ReadOnlyFoldersAndFilesAreRefused)
         giveUpCapabilities();
         fs::permissions(target, fs::perms::owner_read);
         demand(complaint([&] { checkWritable(target); }).find("Permission denied") != std::string::npos);
-        demand(complaint([&] { writeWhole(target, text("new")); }).find("Permission denied") != std::string::npos);
+        demand(complaint([&] { writeAtomically(target, text("new")); }).find("Permission denied") != std::string::npos);
     });
     EXPECT_EQ(file_status, 0);
     EXPECT_EQ(contentOf(target), kOld);
@@ -395,19 +396,19 @@ TEST_F(Output, NoClobberRefusesAnExistingFile)
     store(target, kOld);
     const std::string cause = "output \"" + target.string() + "\": exists and must not be replaced";
     EXPECT_EQ(complaint([&] { checkWritable(target, {.no_clobber = true}); }), cause);
-    EXPECT_EQ(complaint([&] { writeWhole(target, text("new"), {.no_clobber = true}); }), cause);
+    EXPECT_EQ(complaint([&] { writeAtomically(target, text("new"), {.no_clobber = true}); }), cause);
     EXPECT_EQ(contentOf(target), kOld);
 }
 
 TEST_F(Output, NoClobberRefusesAFileThatAppearedMeanwhile)
 {
     const std::string said = complaint([&] {
-        writeWhole(target,
-                   [&](std::ostream& out) {
-                       out << "new";
-                       store(target, kOld);
-                   },
-                   {.no_clobber = true});
+        writeAtomically(target,
+                        [&](std::ostream& out) {
+                            out << "new";
+                            store(target, kOld);
+                        },
+                        {.no_clobber = true});
     });
     EXPECT_THAT(said, HasSubstr("exists and must not be replaced"));
     EXPECT_EQ(contentOf(target), kOld);
@@ -416,7 +417,7 @@ TEST_F(Output, NoClobberRefusesAFileThatAppearedMeanwhile)
 
 TEST_F(Output, NoClobberWritesANewFile)
 {
-    EXPECT_EQ(writeWhole(target, text("new"), {.no_clobber = true}), 3U);
+    EXPECT_EQ(writeAtomically(target, text("new"), {.no_clobber = true}), 3U);
     EXPECT_EQ(contentOf(target), "new");
     EXPECT_THAT(names(), ElementsAre("droplet.glb"));
 }
@@ -434,7 +435,7 @@ TEST_F(Output, WorksWithoutNamelessFiles)
             store(leftover, "of another");
             bool threw = false;
             try {
-                writeWhole(target, [&](std::ostream& out) {
+                writeAtomically(target, [&](std::ostream& out) {
                     out << "half" << std::flush;
                     demand(names().size() == 3);
                     throw std::out_of_range("mid-way");
@@ -445,13 +446,13 @@ TEST_F(Output, WorksWithoutNamelessFiles)
             demand(threw);
             demand(contentOf(leftover) == "of another" && ::unlink(leftover.c_str()) == 0);
             demand(names().size() == 1 && contentOf(target) == kOld);
-            demand(writeWhole(target, text("new")) == 3);
+            demand(writeAtomically(target, text("new")) == 3);
             demand(contentOf(target) == "new" && modeOf(target) == 0604);
-            demand(writeWhole(fresh, text("fresh"), {.no_clobber = true}) == 5);
+            demand(writeAtomically(fresh, text("fresh"), {.no_clobber = true}) == 5);
             demand(contentOf(fresh) == "fresh");
             demand(::unlink(fresh.c_str()) == 0);
-            const std::string said =
-                complaint([&] { writeWhole(fresh, [&](std::ostream&) { store(fresh, kOld); }, {.no_clobber = true}); });
+            const std::string said = complaint(
+                [&] { writeAtomically(fresh, [&](std::ostream&) { store(fresh, kOld); }, {.no_clobber = true}); });
             demand(said.find("exists and must not be replaced") != std::string::npos);
             demand(contentOf(fresh) == kOld);
         });
@@ -467,7 +468,7 @@ TEST_F(Output, AKilledProcessLeavesNothingBehind)
     }
     store(target, kOld);
     const int status = inChild([&] {
-        writeWhole(target, [](std::ostream& out) {
+        writeAtomically(target, [](std::ostream& out) {
             out << std::string(200'000, 'x') << std::flush;
             ::raise(SIGKILL);
         });
@@ -489,7 +490,7 @@ TEST_F(Output, ASignalHandlerRemovesUnfinishedFiles)
             ::raise(signal);
         };
         demand(::sigaction(SIGTERM, &action, nullptr) == 0);
-        writeWhole(target, [&](std::ostream& out) {
+        writeAtomically(target, [&](std::ostream& out) {
             out << std::string(200'000, 'x') << std::flush;
             demand(names().size() == 2);
             ::raise(SIGTERM);
@@ -504,7 +505,7 @@ TEST_F(Output, LeftoversOfOthersStay)
 {
     const std::string leftover = ".droplet-shape-" + std::to_string(::getpid()) + "-0.tmp";
     store(folder / leftover, kOld);
-    writeWhole(target, text("new"));
+    writeAtomically(target, text("new"));
     EXPECT_EQ(contentOf(target), "new");
     EXPECT_EQ(contentOf(folder / leftover), kOld);
     EXPECT_THAT(names(), ElementsAre(leftover, "droplet.glb"));
@@ -517,13 +518,13 @@ TEST_F(Output, ALinkIsFollowedAndKept)
     fs::create_symlink("elsewhere/real.glb", folder / "near");
     fs::create_symlink(folder / "near", target);
     for (const char* content : {"into a dangling link", "into the file it points to"}) {
-        writeWhole(target, text(content));
+        writeAtomically(target, text(content));
         EXPECT_EQ(contentOf(real), content);
         EXPECT_FALSE(fs::is_symlink(real));
         EXPECT_EQ(fs::read_symlink(target), folder / "near");
         EXPECT_EQ(fs::read_symlink(folder / "near"), "elsewhere/real.glb");
     }
-    EXPECT_THAT(complaint([&] { writeWhole(target, text("new"), {.no_clobber = true}); }), HasSubstr("exists"));
+    EXPECT_THAT(complaint([&] { writeAtomically(target, text("new"), {.no_clobber = true}); }), HasSubstr("exists"));
     EXPECT_THAT(names(), ElementsAre("droplet.glb", "elsewhere", "near"));
 }
 
@@ -531,7 +532,7 @@ TEST_F(Output, ARelativeNameMeansTheWorkingFolder)
 {
     const int status = inChild([&] {
         fs::current_path(folder);
-        writeWhole("droplet.glb", text("new"));
+        writeAtomically("droplet.glb", text("new"));
     });
     EXPECT_EQ(status, 0);
     EXPECT_EQ(contentOf(target), "new");
@@ -540,7 +541,7 @@ TEST_F(Output, ARelativeNameMeansTheWorkingFolder)
 TEST_F(Output, TheLongestNameIsAccepted)
 {
     const fs::path longest = folder / std::string(255, 'x');
-    writeWhole(longest, text("new"));
+    writeAtomically(longest, text("new"));
     EXPECT_EQ(contentOf(longest), "new");
 }
 
@@ -556,7 +557,7 @@ TEST_F(Output, APipeGetsEverything)
     const std::string bytes(300'000, 'x');
     std::string received;
     std::thread reader([&] { received = contentOf(pipe); });
-    EXPECT_EQ(writeWhole(pipe, text(bytes), {.no_clobber = true}), bytes.size());
+    EXPECT_EQ(writeAtomically(pipe, text(bytes), {.no_clobber = true}), bytes.size());
     reader.join();
     EXPECT_EQ(received, bytes);
     EXPECT_TRUE(fs::is_fifo(pipe));
@@ -570,7 +571,7 @@ TEST_F(Output, StandardOutputIsAppendedToNotReplaced)
             const int file = ::open(target.c_str(), O_WRONLY | O_APPEND);
             demand(::dup2(file, STDOUT_FILENO) == STDOUT_FILENO);
             checkWritable(place, {.no_clobber = true});
-            demand(writeWhole(place, text("between "), {.no_clobber = true}) == 8);
+            demand(writeAtomically(place, text("between "), {.no_clobber = true}) == 8);
             demand(::write(STDOUT_FILENO, "after", 5) == 5);
         });
         EXPECT_EQ(status, 0) << place;
@@ -587,7 +588,7 @@ TEST_F(Output, APipeWithoutReaderIsReported)
         demand(::pipe(ends.data()) == 0);
         ::close(ends[0]);
         demand(::dup2(ends[1], STDOUT_FILENO) == STDOUT_FILENO);
-        const std::string said = complaint([] { writeWhole("/dev/stdout", text("unheard")); });
+        const std::string said = complaint([] { writeAtomically("/dev/stdout", text("unheard")); });
         demand(said.find("Broken pipe") != std::string::npos);
     });
     EXPECT_EQ(status, 0);
@@ -608,7 +609,7 @@ TEST_F(Output, ANonBlockingPipeIsWaitedFor)
             }
         }
     });
-    EXPECT_EQ(writeWhole("/proc/self/fd/" + std::to_string(ends[1]), text(bytes)), bytes.size());
+    EXPECT_EQ(writeAtomically("/proc/self/fd/" + std::to_string(ends[1]), text(bytes)), bytes.size());
     reader.join();
     ::close(ends[0]);
     ::close(ends[1]);
@@ -619,7 +620,7 @@ TEST_F(Output, OfTwoConcurrentWritesOneIsComplete)
 {
     const auto write_many = [&](char letter) {
         for (int i = 0; i < 50; ++i) {
-            writeWhole(target, text(std::string(100'000, letter)));
+            writeAtomically(target, text(std::string(100'000, letter)));
         }
     };
     std::thread other(write_many, 'a');

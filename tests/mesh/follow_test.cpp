@@ -225,13 +225,13 @@ TEST(WithRim, MovesAffinelyIfTheRimDoes)
         for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
             rim.push_back(map(mesh.vertices[v]));
         }
-        const PlanarMesh moved = withRim(mesh, rim);
-        const PlanarMesh base = withRim(cover(mesh), rim);
+        const PlanarMesh moved = moveRim(mesh, rim);
+        const PlanarMesh base = moveRim(cover(mesh), rim);
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             EXPECT_LT(length(moved.vertices[v] - map(mesh.vertices[v])), 1e-12);
         }
         EXPECT_NEAR(area(base), area(moved), 1e-12);
-        EXPECT_THROW(withRim(mesh, {}), Error);
+        EXPECT_THROW(moveRim(mesh, {}), Error);
     }
 }
 

@@ -179,7 +179,7 @@ TEST(LatticeRegion, EverySecondPointIsOnTheCoarserLattice)
         Points wanted;
         for (std::int32_t r = -9; r < 10; ++r) {
             for (std::int32_t c = -9; c < 10; ++c) {
-                if (region.contains(onFiner({r, c}))) {
+                if (region.contains(toFiner({r, c}))) {
                     wanted.emplace(r, c);
                 }
             }
@@ -374,12 +374,12 @@ TEST(LatticeSite, CoarserPointsAreFinerOnesAndAllOthersLieHalfWay)
 {
     for (std::int32_t r = -17; r < 18; ++r) {
         for (std::int32_t c = -17; c < 18; ++c) {
-            const Site finer = onFiner({r, c});
+            const Site finer = toFiner({r, c});
             EXPECT_NEAR(length(latticePoint(1.0, finer) - latticePoint(2.0, {r, c})), 0.0, 1e-14);
-            for (const Site& back : onCoarser(finer)) {
+            for (const Site& back : toCoarser(finer)) {
                 EXPECT_TRUE(back == (Site{r, c}));
             }
-            const std::array<Site, 2> parents = onCoarser({r, c});
+            const std::array<Site, 2> parents = toCoarser({r, c});
             const Vec2 a = latticePoint(2.0, parents[0]);
             const Vec2 b = latticePoint(2.0, parents[1]);
             EXPECT_NEAR(length(0.5 * (a + b) - latticePoint(1.0, {r, c})), 0.0, 1e-14) << r << " " << c;

@@ -93,14 +93,14 @@ TEST(Covering, KeepsTheMiddleOfThePicture)
     for (int i = 0; i < 3 * 64 * 36; ++i) {
         uneven.rgb.push_back(static_cast<std::uint8_t>(i * i % 251));
     }
-    EXPECT_EQ(covering(uneven, 64, 36), uneven);
+    EXPECT_EQ(scaledToCover(uneven, 64, 36), uneven);
     // A plain colour does not change at any size.
     for (const auto& [w, h] : {std::pair(1, 1), std::pair(100, 3), std::pair(7, 90), std::pair(200, 150)}) {
         Picture plain{33, 21, {}};
         for (int i = 0; i < 33 * 21; ++i) {
             plain.rgb.insert(plain.rgb.end(), {200, 100, 30});
         }
-        const Picture scaled = covering(plain, w, h);
+        const Picture scaled = scaledToCover(plain, w, h);
         EXPECT_EQ(scaled.width, w);
         EXPECT_EQ(scaled.height, h);
         for (std::size_t i = 0; i < scaled.rgb.size(); ++i) {
@@ -115,13 +115,13 @@ TEST(Covering, KeepsTheMiddleOfThePicture)
             stripes.rgb.push_back(c == stripe ? 255 : 0);
         }
     }
-    const Picture middle = covering(stripes, 10, 10);
+    const Picture middle = scaledToCover(stripes, 10, 10);
     for (int i = 0; i < 100; ++i) {
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i + 1)], 255);
         EXPECT_EQ(middle.rgb[static_cast<std::size_t>(3 * i)], 0);
     }
-    EXPECT_THROW(covering(uneven, 0, 5), Error);
-    EXPECT_THROW(covering(uneven, 5, 9000), Error);
+    EXPECT_THROW(scaledToCover(uneven, 0, 5), Error);
+    EXPECT_THROW(scaledToCover(uneven, 5, 9000), Error);
 }
 
 // Every value is preserved exactly, whatever its size, in its channel.

@@ -394,7 +394,7 @@ TEST(Camera, FramesATurntableForAllTurns)
 {
     const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
-    options.fits_any_turn = true;
+    options.fit_all_azimuths = true;
     const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
     for (const double azimuth : {0.5, 2.0, 4.5}) {
         options.azimuth = azimuth;

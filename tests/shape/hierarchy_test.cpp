@@ -26,7 +26,7 @@ using testing::reversed;
 
 using Vector = std::vector<double>;
 
-double dotOf(const Vector& a, const Vector& b)
+double dotProduct(const Vector& a, const Vector& b)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -274,9 +274,9 @@ TEST(Hierarchy, RestrictionIsTheTransposeOfProlongation)
                 for (int k = 0; k < 3; ++k) {
                     const Vector x = randomVector(coarse, random);
                     const Vector y = randomVector(fine, random);
-                    const double there = dotOf(prolonged(fine, x), y);
-                    const double back = dotOf(x, restricted(fine, coarse.size, y));
-                    EXPECT_NEAR(there, back, 1e-12 * std::sqrt(dotOf(x, x) * dotOf(y, y))) << l;
+                    const double there = dotProduct(prolonged(fine, x), y);
+                    const double back = dotProduct(x, restricted(fine, coarse.size, y));
+                    EXPECT_NEAR(there, back, 1e-12 * std::sqrt(dotProduct(x, x) * dotProduct(y, y))) << l;
                 }
             }
         }
@@ -305,11 +305,11 @@ TEST(Hierarchy, CoarserLevelsAreGalerkinProducts)
                 forEachUnknown(coarse,
                                [&](std::uint32_t i) { EXPECT_NEAR(product[i], wanted[i], 1e-12 * scale) << l; });
                 const Vector y = randomVector(coarse, random);
-                EXPECT_NEAR(dotOf(prolonged(fine, y), applied(fine, prolonged(fine, x))), dotOf(y, product),
-                            1e-12 * std::sqrt(dotOf(y, y) * dotOf(product, product)))
+                EXPECT_NEAR(dotProduct(prolonged(fine, y), applied(fine, prolonged(fine, x))), dotProduct(y, product),
+                            1e-12 * std::sqrt(dotProduct(y, y) * dotProduct(product, product)))
                     << l;
-                EXPECT_NEAR(dotOf(x, applied(coarse, y)), dotOf(y, product),
-                            1e-12 * std::sqrt(dotOf(y, y) * dotOf(product, product)))
+                EXPECT_NEAR(dotProduct(x, applied(coarse, y)), dotProduct(y, product),
+                            1e-12 * std::sqrt(dotProduct(y, y) * dotProduct(product, product)))
                     << l;
             }
         }

@@ -65,7 +65,7 @@ void expectRefused(const Surface& droplets, const TexturedMesh& object, const On
                    const std::string& words)
 {
     try {
-        (void)layOnto(droplets, object, options);
+        (void)placeOnto(droplets, object, options);
         ADD_FAILURE() << "placed";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), code);
@@ -78,7 +78,7 @@ TEST(Onto, ThePicturesPlaneChangesNothing)
     Surface droplets = together(roundDroplet({.inner = 1e-3, .outer = 3e-3, .centre = {-5e-3, 2e-3}}),
                                 roundDroplet({.outer = 2e-3, .centre = {6e-3, -6e-3}}));
     droplets.mean_height = 0.5e-3;
-    const OntoResult result = layOnto(droplets, meshOf(plane()), kPicture);
+    const OntoResult result = placeOnto(droplets, meshOf(plane()), kPicture);
     const Surface& surface = result.surface;
     ASSERT_NO_THROW(surface.validate());
     ASSERT_EQ(surface.positions.size(), droplets.positions.size());
@@ -109,7 +109,7 @@ TEST(Onto, FollowsTheObjectsPositionRotationAndSize)
     Sheet sheet = plane();
     sheet.place = [&](Vec2 uv) { return shift + kSize * turn({flatOf(uv).x, flatOf(uv).y, 0.0}); };
     sheet.normal = [&](Vec2) { return turn({0, 0, 1}); };
-    const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
+    const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
         EXPECT_LT(length(result.surface.positions[v] - (shift + kSize * turn(droplet.positions[v]))), 1e-14);
         EXPECT_LT(length(result.surface.normals[v] - turn(droplet.normals[v])), 1e-12);
@@ -150,7 +150,7 @@ TEST(Onto, FollowsACanToSecondOrder)
     double normal_before = 1.0;
     for (const std::uint32_t columns : {10U, 20U, 40U}) {
         SCOPED_TRACE(columns);
-        const OntoResult result = layOnto(droplet, meshOf(can(columns)), kPicture);
+        const OntoResult result = placeOnto(droplet, meshOf(can(columns)), kPicture);
         const Surface& surface = result.surface;
         const double facet = kExtent / columns;
         double place = 0.0;
@@ -194,7 +194,7 @@ TEST(Onto, DropletOnACanHasItsVolume)
     for (const std::uint32_t rings : {8U, 16U, 32U}) {
         const Surface droplet =
             roundDroplet({.outer = kRadius, .height = kHeight, .rings = rings, .segments = 4 * rings});
-        const Surface surface = layOnto(droplet, meshOf(can(5 * rings)), kPicture).surface;
+        const Surface surface = placeOnto(droplet, meshOf(can(5 * rings)), kPicture).surface;
         const double error = std::abs(volume(surface) / exact - 1.0);
         EXPECT_LT(error, before / (rings == 8 ? 1.0 : 3.5));
         before = error;
@@ -213,7 +213,7 @@ TEST(Onto, BaseLeavesTheObjectOnlyAtItsEdges)
     constexpr std::uint32_t kColumns = 10;
     constexpr double kTurn = kExtent / kColumns / kCan;  // angle between facets
     const Surface droplet = roundDroplet({.outer = 7e-3, .rings = 16, .segments = 48});
-    const Surface surface = layOnto(droplet, meshOf(can(kColumns)), kPicture).surface;
+    const Surface surface = placeOnto(droplet, meshOf(can(kColumns)), kPicture).surface;
     double worst = 0.0;
     for (const Triangle& t : surface.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -241,7 +241,7 @@ TEST(Onto, TurnedTextureTurnsTheDroplet)
     const Surface droplet = roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}});
     Sheet sheet = plane();  // x of the picture runs along y in space
     sheet.place = [](Vec2 uv) { return Vec3{-flatOf(uv).y, flatOf(uv).x, 0.0}; };
-    const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
+    const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
         const Vec3 p = droplet.positions[v];
         EXPECT_LT(length(result.surface.positions[v] - Vec3{-p.y, p.x, p.z}), 1e-16);
@@ -255,7 +255,7 @@ TEST(Onto, TrianglesOnMirroredChartsAreReportedAndWindOutward)
     Sheet sheet = plane();
     sheet.place = [](Vec2 uv) { return Vec3{-flatOf(uv).x, flatOf(uv).y, 0.0}; };
     sheet.turned = true;
-    const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
+    const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
     EXPECT_EQ(result.report.mirrored, 1U);
     EXPECT_EQ(result.report.flipped_charts, 1U);
     EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("mirrored")));
@@ -275,7 +275,7 @@ TEST(Onto, NormalsDefineTheOutside)
     sheet.normal = [](Vec2) { return Vec3{0.0, 0.0, -1.0}; };
     for (const bool turned_triangles : {false, true}) {
         sheet.turned = turned_triangles;
-        const OntoResult result = layOnto(droplet, meshOf(sheet), kPicture);
+        const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
         EXPECT_EQ(result.report.mirrored, 1U);  // from below, the picture is mirrored
         EXPECT_GT(volume(result.surface), 0.0);
         EXPECT_TRUE(windsOutward(result.surface));
@@ -291,8 +291,8 @@ TEST(Onto, TheFirstOfOverlappingChartsIsUsedAndReported)
     upper.place = [](Vec2 uv) { return Vec3{flatOf(uv).x, flatOf(uv).y, 1.0}; };
     const TexturedMesh a = meshOf(plane());
     const TexturedMesh b = meshOf(upper);
-    const OntoResult below = layOnto(droplet, together(a, b), kPicture);
-    const OntoResult above = layOnto(droplet, together(b, a), kPicture);
+    const OntoResult below = placeOnto(droplet, together(a, b), kPicture);
+    const OntoResult above = placeOnto(droplet, together(b, a), kPicture);
     EXPECT_LT(below.surface.positions[0].z, 0.1);
     EXPECT_GT(above.surface.positions[0].z, 0.9);
     for (const OntoResult* result : {&below, &above}) {
@@ -317,7 +317,7 @@ TEST(Onto, ALeafsBackDoesNotDisturbItsFront)
         woven.push_back(leaf.triangles[half + t]);
     }
     leaf.triangles = woven;
-    const OntoResult result = layOnto(droplet, leaf, kPicture);
+    const OntoResult result = placeOnto(droplet, leaf, kPicture);
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
         EXPECT_LT(length(result.surface.positions[v] - droplet.positions[v]), 1e-16);
         EXPECT_LT(length(result.surface.normals[v] - droplet.normals[v]), 1e-12);
@@ -343,7 +343,7 @@ TEST(Onto, DropletsBesideOrAcrossChartsAreLeftOut)
     const Surface middle = roundDroplet({.outer = 2e-3, .centre = {1e-3, 0}});
     const Surface right = roundDroplet({.outer = 2e-3, .centre = {5e-3, 0}});
     const Surface off = roundDroplet({.outer = 2e-3, .centre = {0, 9e-3}});
-    const OntoResult result = layOnto(together(together(middle, left), together(off, right)), halves(), kPicture);
+    const OntoResult result = placeOnto(together(together(middle, left), together(off, right)), halves(), kPicture);
     EXPECT_EQ(result.report.laid, 2U);
     EXPECT_EQ(result.report.across, 1U);
     EXPECT_EQ(result.report.outside, 1U);
@@ -362,11 +362,11 @@ TEST(Onto, DropletsBesideOrAcrossChartsAreLeftOut)
 TEST(Onto, EdgesBelongToTheChart)
 {
     const double radius = 0.5 * kExtent;
-    const OntoResult result = layOnto(roundDroplet({.outer = radius}), meshOf(plane()), kPicture);
+    const OntoResult result = placeOnto(roundDroplet({.outer = radius}), meshOf(plane()), kPicture);
     EXPECT_EQ(result.report.laid, 1U);
     for (const double centre : {-radius / 2, radius / 2}) {
         const Surface touching = roundDroplet({.outer = radius / 2, .centre = {centre, 0}});
-        EXPECT_EQ(layOnto(touching, halves(), kPicture).report.laid, 1U);
+        EXPECT_EQ(placeOnto(touching, halves(), kPicture).report.laid, 1U);
     }
 }
 
@@ -381,7 +381,7 @@ TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
         sheet.columns = columns;
         sheet.rows = columns;
         sheet.place = [](Vec2 uv) { return Vec3{kExtent * (uv.x + 2.0 * uv.x * uv.x), flatOf(uv).y, 0.0}; };
-        const Surface surface = layOnto(droplet, meshOf(sheet), kPicture).surface;
+        const Surface surface = placeOnto(droplet, meshOf(sheet), kPicture).surface;
         double worst = 0.0;
         for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
             const double z = droplet.positions[v].z;
@@ -405,7 +405,7 @@ TEST(Onto, AnisotropicStretchTiltsNormals)
     droplet.contact_angle[rim] = 0.4F;
     Sheet sheet = plane();
     sheet.place = [](Vec2 uv) { return Vec3{2.25 * flatOf(uv).x, flatOf(uv).y, 0.0}; };
-    const Surface surface = layOnto(droplet, meshOf(sheet), kPicture).surface;
+    const Surface surface = placeOnto(droplet, meshOf(sheet), kPicture).surface;
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
         const Vec3 p = droplet.positions[v];
         const Vec3 n = droplet.normals[v];
@@ -434,8 +434,8 @@ TEST(Onto, FacetedNormalsAreSmoothed)
         }
         faceted.triangles.push_back({first, first + 1, first + 2});
     }
-    const OntoResult result = layOnto(droplet, faceted, kPicture);
-    const Surface wanted = layOnto(droplet, smooth, kPicture).surface;
+    const OntoResult result = placeOnto(droplet, faceted, kPicture);
+    const Surface wanted = placeOnto(droplet, smooth, kPicture).surface;
     EXPECT_EQ(result.report.laid, 1U);
     const double facet_angle = kExtent / 40 / kCan;
     for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
@@ -455,7 +455,7 @@ TEST(Onto, DropletsThatWouldFoldAreLeftOut)
     tube.normal = [](Vec2 uv) { return Vec3{-std::sin(flatOf(uv).x / kTube), 0.0, std::cos(flatOf(uv).x / kTube)}; };
     const Surface low = roundDroplet({.outer = 2e-3, .height = 1e-3, .centre = {-3e-3, 0}});
     const Surface high = roundDroplet({.outer = 2e-3, .height = 4.5e-3, .centre = {3e-3, 0}});
-    const OntoResult result = layOnto(together(low, high), meshOf(tube), kPicture);
+    const OntoResult result = placeOnto(together(low, high), meshOf(tube), kPicture);
     EXPECT_EQ(result.report.laid, 1U);
     EXPECT_EQ(result.report.folded, 1U);
     EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("hollow")));
@@ -467,7 +467,7 @@ TEST(Onto, TrianglesWithoutAreaAreIgnored)
     TexturedMesh object = meshOf(plane());
     object.triangles.insert(object.triangles.begin(), {0, 1, 1});
     object.triangles.insert(object.triangles.begin(), {0, 1, 2});  // in line
-    EXPECT_EQ(layOnto(roundDroplet(), object, kPicture).report.laid, 1U);
+    EXPECT_EQ(placeOnto(roundDroplet(), object, kPicture).report.laid, 1U);
     object.triangles = {{0, 1, 2}};
     expectRefused(roundDroplet(), object, kPicture, ErrorCode::InvalidInput, "area");
     EXPECT_THROW((void)metresPerUv(object), Error);
@@ -477,7 +477,7 @@ TEST(Onto, TrianglesWithoutAreaAreIgnored)
 TEST(Onto, SameBitsAtAnyNumberOfThreads)
 {
     const Surface droplet = roundDroplet({.outer = 8e-3, .rings = 100, .segments = 200});
-    const auto placed = [&] { return layOnto(droplet, meshOf(can(50)), kPicture).surface; };
+    const auto placed = [&] { return placeOnto(droplet, meshOf(can(50)), kPicture).surface; };
     const Surface parallel = placed();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Surface sequential = placed();
@@ -495,7 +495,8 @@ TEST(Onto, MetresPerUvMatchTheObject)
     // A picture with that aspect and √a times that width has scale 1.
     const double width = metresPerUv(meshOf(oblong)) * std::sqrt(4.0 / 9.0);
     Surface droplet = roundDroplet();
-    EXPECT_NEAR(layOnto(droplet, meshOf(oblong), {.extent = {width, width * 9.0 / 4.0}}).report.max_scale, 1.0, 1e-12);
+    EXPECT_NEAR(placeOnto(droplet, meshOf(oblong), {.extent = {width, width * 9.0 / 4.0}}).report.max_scale, 1.0,
+                1e-12);
     // A lid with less area, unwrapped small, does not change the median.
     Sheet lid = plane();
     lid.uv_end = {0.01, 0.01};

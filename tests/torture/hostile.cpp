@@ -215,7 +215,7 @@ Verdict tryFont(const Item& item)
                 // Only this glyph is broken.
             }
         }
-        setText(font, "fA\u0301V \u05d0\u0628\u0629 ffi\n&");
+        layOutText(font, "fA\u0301V \u05d0\u0628\u0629 ffi\n&");
     });
 }
 

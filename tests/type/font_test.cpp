@@ -180,7 +180,7 @@ void useAll(std::span<const std::byte> encoded)
                 EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << error.what();
             }
         }
-        setText(font, "AVfi\nשלום");
+        layOutText(font, "AVfi\nשלום");
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << error.what();
     }
@@ -250,12 +250,12 @@ TEST(Charset, OfATextHasItsVisibleCharacters)
 
 TEST(Charset, CharactersAreShownByCodePoint)
 {
-    EXPECT_EQ(shownCharacter('A'), "U+0041 'A'");
-    EXPECT_EQ(shownCharacter(U'é'), "U+00E9 'é'");
-    EXPECT_EQ(shownCharacter(U'水'), "U+6C34 '水'");
-    EXPECT_EQ(shownCharacter(U'\U0001F4A7'), "U+1F4A7 '\U0001F4A7'");
-    EXPECT_EQ(shownCharacter('\n'), "U+000A");
-    EXPECT_EQ(shownCharacter(0x202e), "U+202E") << "it would reverse the line";
+    EXPECT_EQ(characterText('A'), "U+0041 'A'");
+    EXPECT_EQ(characterText(U'é'), "U+00E9 'é'");
+    EXPECT_EQ(characterText(U'水'), "U+6C34 '水'");
+    EXPECT_EQ(characterText(U'\U0001F4A7'), "U+1F4A7 '\U0001F4A7'");
+    EXPECT_EQ(characterText('\n'), "U+000A");
+    EXPECT_EQ(characterText(0x202e), "U+202E") << "it would reverse the line";
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST(Glyph, HasTheLoopsAndCornersOfTheFont)
         {'%', 5, 2, 4}, {U'Θ', 3, 1, 4}, {U'●', 1, 0, 0}, {U'◉', 3, 1, 0},
     };
     for (const auto& [character, loops, holes, corners] : cases) {
-        SCOPED_TRACE(shownCharacter(character));
+        SCOPED_TRACE(characterText(character));
         const Outline outline = glyphOf(font, character);
         EXPECT_EQ(outline.loops.size(), loops);
         EXPECT_EQ(holesIn(outline), holes);
@@ -215,7 +215,7 @@ TEST(Glyph, EnclosesTheExactAreaOfItsCurves)
         const Font font = readFont(path);
         const RenderedFont rendered(path, 2048);  // one pixel per unit, so that nothing is rounded
         for (char32_t character = '!'; character <= '~'; ++character) {
-            SCOPED_TRACE(shownCharacter(character));
+            SCOPED_TRACE(characterText(character));
             const GlyphId glyph = font.glyphOf(character).value();
             const double exact = rendered.exactArea(glyph);
             // Chords of length s cut off s²/12r per length, and pieces are shorter than em/256.
@@ -286,7 +286,7 @@ TEST(WholeFont, OneFontServesSeveralThreads)
     const auto work = [&](std::vector<double>& areas) {
         for (GlyphId glyph = 0; glyph < 400; glyph += 3) {
             areas.push_back(inkArea(glyphOutline(font, glyph)));
-            areas.push_back(inkArea(setText(font, font.nameOf(glyph)).outline));
+            areas.push_back(inkArea(layOutText(font, font.nameOf(glyph)).outline));
         }
     };
     std::vector<double> alone;
@@ -317,7 +317,7 @@ TEST(VariableFont, AxesChangeTheShapes)
               inkArea(glyphOf(readFont(kVariable), 'H')));
     // Letters are wider, and text uses the new widths.
     const auto width = [](double weight) {
-        return setText(readFont(kVariable, {0, {{"wght", weight}}}), "mm").outline.extent.x;
+        return layOutText(readFont(kVariable, {0, {{"wght", weight}}}), "mm").outline.extent.x;
     };
     EXPECT_GT(width(900), 1.05 * width(400));
 }
@@ -341,7 +341,7 @@ TEST(GlyphOptions, AreChecked)
     EXPECT_THROW(glyphOutline(font, 6253), Error);
     TextOptions spacing;
     spacing.line_spacing = 0.0;
-    EXPECT_THROW(setText(font, "a", spacing), Error);
+    EXPECT_THROW(layOutText(font, "a", spacing), Error);
 }
 
 // Text.
@@ -350,7 +350,7 @@ Outline textOf(const Font& font, const char* text)
 {
     TextOptions options;
     options.glyph = inEms();
-    return setText(font, text, options).outline;
+    return layOutText(font, text, options).outline;
 }
 
 /// Checks that the loops of one outline are those of another, shifted along x and y.
@@ -439,14 +439,14 @@ TEST(Text, MayHaveSeveralLines)
     const Font font = readFont(kSans);
     TextOptions options;
     options.glyph = inEms();
-    const auto set = [&](const char* text) { return setText(font, text, options); };
-    const SetText two = set("HHH\nl");
+    const auto set = [&](const char* text) { return layOutText(font, text, options); };
+    const TextLayout two = set("HHH\nl");
     EXPECT_EQ(two.lines, 2U);
     const double pitch = 2384.0 / 2048.0;
     EXPECT_NEAR(two.outline.extent.y, 2 * pitch, 1e-9);
     EXPECT_NEAR(two.outline.extent.x, set("HHH").outline.extent.x, 1e-12);
     // The bar of l, found by its area, and its place for every alignment.
-    const auto bar = [&](const SetText& text) {
+    const auto bar = [&](const TextLayout& text) {
         const double area = signedArea(glyphOf(font, 'l').loops[0]);
         for (const Loop& loop : text.outline.loops) {
             if (std::abs(signedArea(loop) - area) < 1e-6) {
@@ -489,14 +489,14 @@ TEST(Text, MissingCharactersAreLeftOutAndReported)
     const Font font = readFont(kSans);
     TextOptions options;
     options.glyph = inEms();
-    const SetText text = setText(font, "H水H火水", options);
+    const TextLayout text = layOutText(font, "H水H火水", options);
     EXPECT_THAT(text.missing, ElementsAre(U'水', U'火'));
     expectMoved(text.outline, textOf(font, "HH"));
     EXPECT_NEAR(text.outline.extent.x, textOf(font, "HH").extent.x, 1e-12);
-    EXPECT_TRUE(setText(font, "水").outline.loops.empty());
-    EXPECT_TRUE(setText(font, "").outline.loops.empty());
-    EXPECT_TRUE(setText(font, " \t\n").missing.empty());
-    EXPECT_THROW(setText(font, "a\xff"), Error);
+    EXPECT_TRUE(layOutText(font, "水").outline.loops.empty());
+    EXPECT_TRUE(layOutText(font, "").outline.loops.empty());
+    EXPECT_TRUE(layOutText(font, " \t\n").missing.empty());
+    EXPECT_THROW(layOutText(font, "a\xff"), Error);
 }
 
 TEST(Text, OverlappingLettersAreJoined)
@@ -521,7 +521,7 @@ TEST(Text, IsOneSurface)
     const Font font = readFont(kSans);
     DropletOptions options;
     options.mesh.triangles = 3000;
-    const Droplet droplet = makeDroplet(setText(font, "Water").outline, options);
+    const Droplet droplet = makeDroplet(layOutText(font, "Water").outline, options);
     const Topology shape = topology(droplet.surface);
     EXPECT_TRUE(shape.closed);
     EXPECT_EQ(shape.components, 5U);
@@ -530,8 +530,8 @@ TEST(Text, IsOneSurface)
     options.solve.gravity = 0.0;
     TextOptions large;
     large.glyph.em *= 2.0;
-    const double small_volume = makeDroplet(setText(font, "Water").outline, options).total.volume;
-    const double large_volume = makeDroplet(setText(font, "Water", large).outline, options).total.volume;
+    const double small_volume = makeDroplet(layOutText(font, "Water").outline, options).total.volume;
+    const double large_volume = makeDroplet(layOutText(font, "Water", large).outline, options).total.volume;
     EXPECT_NEAR(large_volume, 8.0 * small_volume, 1e-6 * large_volume);
 }
 

@@ -137,7 +137,7 @@ TEST(View, DryGlassShowsThePictureThroughThePane)
     const WindshieldParameters parameters = heavyRain();
     DriversView view(parameters.glass, options);
     const Picture behind = slanted(160, 90);
-    view.lookAt(behind);
+    view.setBackground(behind);
     view.show(startWindshield(parameters));
     EXPECT_EQ(view.frame(), behind);
     const Layer layer = view.layer();
@@ -154,7 +154,7 @@ TEST(View, DropletsTurnTheSceneUpsideDown)
     options.eye_distance = 0.01;
     options.shape.contact_angle = 90.0 * kDegree;
     DriversView view(parameters.glass, options);
-    view.lookAt(filled(160, 160, {255, 0, 0}, {0, 0, 255}));
+    view.setBackground(filled(160, 160, {255, 0, 0}, {0, 0, 255}));
     view.show(oneDroplet(parameters, 20e-9));
     const Layer layer = view.layer();
     const auto at = [&](int x, int y) { return layer.rgba.data() + 4 * (160 * y + x); };
@@ -224,11 +224,11 @@ protected:
         state_ = startWindshield(parameters_);
     }
 
-    void look(double time, double open_time = 0.0)
+    void look(double time, double shutter_time = 0.0)
     {
-        options_.open_time = open_time;
+        options_.shutter_time = shutter_time;
         view_.emplace(parameters_.glass, options_);
-        view_->lookAt(slanted(320, 180));
+        view_->setBackground(slanted(320, 180));
         state_.time = time;
         view_->show(state_);
         layer_ = view_->layer();
@@ -372,7 +372,7 @@ TEST(View, RaysBeyondThePictureShowThePanorama)
         const PictureFrame frame =
             is_turned ? PictureFrame{{0.0F, -1.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}} : PictureFrame{};
         for (const bool is_all : {false, true}) {
-            backdrop.surround(environment, frame, 2.0F, is_all);
+            backdrop.setEnvironment(environment, frame, 2.0F, is_all);
             for (double longitude = -172.5; longitude < 180.0; longitude += 15.0) {
                 for (double latitude = -82.5; latitude < 90.0; latitude += 15.0) {
                     const double level = std::cos(latitude * kDegree);
@@ -405,7 +405,7 @@ TEST(View, PanoramaIsTheWholeBackgroundWithoutAPicture)
     options.field_of_view = 90.0 * kDegree;
     const WindshieldParameters parameters = heavyRain();
     DriversView view(parameters.glass, options);
-    view.surround(environment);
+    view.setEnvironment(environment);
     const double pixel = 2.0 / options.width;
     for (const auto& [longitude, latitude] : {std::pair(7.5, 7.5), {-37.5, -7.5}, {22.5, 22.5}, {37.5, -22.5}}) {
         const double right = std::tan(longitude * kDegree);
@@ -423,16 +423,16 @@ TEST(View, PanoramaIsTheWholeBackgroundWithoutAPicture)
     const Picture around = view.frame();
     EXPECT_NE(around, view.bare());
     DriversView other(parameters.glass, options);
-    other.lookAt(slanted(160, 90));
+    other.setBackground(slanted(160, 90));
     other.show(state);
     const Layer mirrored = other.layer();
-    other.surround(environment);
+    other.setEnvironment(environment);
     other.show(state);
     EXPECT_NE(other.layer(), mirrored);
-    view.lookAt(slanted(160, 90));
+    view.setBackground(slanted(160, 90));
     view.show(state);
     EXPECT_EQ(view.layer(), other.layer());
-    EXPECT_THROW(view.surround({}), Error);
+    EXPECT_THROW(view.setEnvironment({}), Error);
 }
 
 TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
@@ -451,7 +451,7 @@ TEST(View, PointsOfLightOutOfFocusBecomeDiscs)
         const int y0 = 90;
         std::fill_n(behind.rgb.begin() + 3 * (y0 * 320 + x0), 3, std::uint8_t{255});
         DriversView view(Glass(), options);
-        view.lookAt(behind);
+        view.setBackground(behind);
         const auto light = [&](int x, int y) {
             return static_cast<double>(displayLevels()[view.bare().rgb[static_cast<std::size_t>(3 * (y * 320 + x))]]);
         };
@@ -483,7 +483,7 @@ TEST(View, DropletsStaySharpInFrontOfABlurredBackground)
     ViewOptions options = small();
     const auto seen = [&] {
         DriversView view(parameters.glass, options);
-        view.lookAt(slanted(160, 90));
+        view.setBackground(slanted(160, 90));
         view.show(rained(parameters, 60));
         return std::pair(view.layer(), view.bare());
     };
@@ -512,12 +512,12 @@ protected:
     [[nodiscard]] double pixel() const { return 2.0 * 0.06 * std::tan(22.5 * kDegree) / 200; }
 
     /// Frame and layer.
-    [[nodiscard]] std::pair<Picture, Layer> seen(const WindshieldState& state, double open_time) const
+    [[nodiscard]] std::pair<Picture, Layer> seen(const WindshieldState& state, double shutter_time) const
     {
         ViewOptions options = options_;
-        options.open_time = open_time;
+        options.shutter_time = shutter_time;
         DriversView view(parameters_.glass, options);
-        view.lookAt(slanted(200, 200));
+        view.setBackground(slanted(200, 200));
         view.show(state);
         return {view.frame(), view.layer()};
     }
@@ -559,8 +559,8 @@ TEST_F(Shutter, TheFrameIsTheMeanOfItsMoments)
 
 TEST_F(Shutter, DropletsAreAsLongAsTheirMotion)
 {
-    const auto extents = [&](double open_time) {
-        const Layer layer = seen(state_, open_time).second;
+    const auto extents = [&](double shutter_time) {
+        const Layer layer = seen(state_, shutter_time).second;
         int left = 200;
         int right = 0;
         int top = 200;
@@ -578,10 +578,10 @@ TEST_F(Shutter, DropletsAreAsLongAsTheirMotion)
         return std::array{right - left, bottom - top, bottom + top};
     };
     const auto sharp = extents(0.0);
-    for (const double open_time : {1e-3, 5e-3, 0.02}) {
-        const auto blurred = extents(open_time);
+    for (const double shutter_time : {1e-3, 5e-3, 0.02}) {
+        const auto blurred = extents(shutter_time);
         EXPECT_NEAR(blurred[0], sharp[0], 1);
-        EXPECT_NEAR(blurred[1] - sharp[1], 1.2 * open_time / pixel(), 2.0) << open_time;
+        EXPECT_NEAR(blurred[1] - sharp[1], 1.2 * shutter_time / pixel(), 2.0) << shutter_time;
         EXPECT_NEAR(blurred[2], sharp[2], 2) << "half before, half after";
     }
 }
@@ -652,7 +652,7 @@ TEST(View, LayerOverTheBarePictureIsTheFrame)
         ViewOptions options = small();
         options.samples = samples;
         DriversView view(parameters.glass, options);
-        view.lookAt(slanted(160, 90));
+        view.setBackground(slanted(160, 90));
         view.show(rained(parameters, 60));
         EXPECT_NE(view.frame(), view.bare());
         EXPECT_EQ(over(view.layer(), view.bare()), view.frame());
@@ -664,7 +664,7 @@ TEST(View, ManyUpdatesEqualOneUpdate)
     const WindshieldParameters parameters = heavyRain();
     const Picture behind = slanted(160, 90);
     DriversView followed(parameters.glass, small());
-    followed.lookAt(behind);
+    followed.setBackground(behind);
     WindshieldState state = startWindshield(parameters);
     for (int k = 0; k < 90; ++k) {
         state = step(std::move(state), parameters, 1.0 / 60.0);
@@ -674,7 +674,7 @@ TEST(View, ManyUpdatesEqualOneUpdate)
     EXPECT_GT(state.counts.wiped, 0U);
     DriversView anew(parameters.glass, small());
     anew.show(state);
-    anew.lookAt(behind);
+    anew.setBackground(behind);
     EXPECT_EQ(followed.layer(), anew.layer());
     // Unchanged cells are not drawn again.
     const std::size_t drawn = followed.cellsDrawn();
@@ -735,7 +735,7 @@ TEST(View, SameBytesAtAnyNumberOfThreads)
     const auto seen = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         DriversView view(parameters.glass, small());
-        view.lookAt(slanted(160, 90));
+        view.setBackground(slanted(160, 90));
         view.show(state);
         const GlassMaps maps = glassMaps(parameters.glass, state, {.width = 200});
         return std::tuple(view.frame(), view.layer(), maps.normal, maps.thickness, maps.velocity);
@@ -790,7 +790,7 @@ TEST(View, DropletsKeepTheHueOfTheBackground)
         options.glass_colour = {1.0, 1.0, 1.0};
         options.highlight_boost = boost;
         DriversView view(parameters.glass, options);
-        view.lookAt(filled(160, 90, sky, sky));
+        view.setBackground(filled(160, 90, sky, sky));
         view.show(state);
         const Layer layer = view.layer();
         std::size_t bright = 0;
@@ -826,7 +826,7 @@ TEST(View, LampsByNightAreBrighterThanTheirPixels)
         ViewOptions options = small();
         options.highlight_boost = boost;
         DriversView view(parameters.glass, options);
-        view.lookAt(night);
+        view.setBackground(night);
         view.show(state);
         const Layer layer = view.layer();
         return std::accumulate(layer.rgba.begin(), layer.rgba.end(), 0.0);
@@ -843,7 +843,7 @@ TEST(View, AStopDoublesTheLight)
         ViewOptions options = small();
         options.exposure = exposure;
         DriversView view(parameters.glass, options);
-        view.lookAt(filled(160, 90, {70, 90, 120}, {60, 50, 40}));
+        view.setBackground(filled(160, 90, {70, 90, 120}, {60, 50, 40}));
         view.show(state);
         double sum = 0.0;
         for (const std::uint8_t level : view.frame().rgb) {
@@ -879,7 +879,7 @@ TEST(View, TheEyeFollowsItsOptions)
     ASSERT_TRUE(left && right);
     EXPECT_NEAR(0.5 * (left->x + right->x), 0.43, 1e-4);
     EXPECT_NEAR(0.5 * (left->y + right->y), 0.27, 1e-4);
-    view.lookAt(filled(200, 100, {200, 200, 200}, {50, 50, 50}));
+    view.setBackground(filled(200, 100, {200, 200, 200}, {50, 50, 50}));
     view.show(state);
     const Layer layer = view.layer();
     Vec2 sum;
@@ -912,7 +912,7 @@ TEST(View, RejectsInvalidArguments)
     EXPECT_THROW(DriversView(glass, {.samples = 5}), Error);
     EXPECT_THROW(DriversView(glass, {.glass_colour = {1.1, 1.0, 1.0}}), Error);
     DriversView view(glass, small());
-    EXPECT_THROW(view.lookAt(filled(90, 160, {0, 0, 0}, {0, 0, 0})), Error);
+    EXPECT_THROW(view.setBackground(filled(90, 160, {0, 0, 0}, {0, 0, 0})), Error);
 }
 
 TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)

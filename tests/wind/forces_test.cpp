@@ -114,7 +114,7 @@ TEST(Forces, OfAHemisphereMatchTheEquations)
 TEST(Forces, FallingAngleGivesRetentionOverWeight)
 {
     ForceModel model;
-    model.wetting.falling_angle = 10.0 * kDegree;
+    model.wetting.sliding_angle = 10.0 * kDegree;
     for (const double volume : {1e-9, 30e-9, 200e-9}) {
         const DropletForces forces = forcesOn(model, volume);
         EXPECT_NEAR(forces.retention, forces.weight * std::sin(10.0 * kDegree), 1e-15 * forces.weight);
@@ -136,7 +136,7 @@ TEST(Forces, HysteresisOfAFallingAngleHoldsItsVolume)
     }
 }
 
-// Figure 3.4: no wind, slope 35°, falling angle 10°.
+// Figure 3.4: no wind, slope 35°, sliding angle 10°.
 TEST(Forces, WithoutWindAccelerationFollowsFromTheAngles)
 {
     const ForcePreset& preset = forcePresetNamed("hashimoto");
@@ -155,7 +155,7 @@ TEST(Forces, WithoutWindAccelerationFollowsFromTheAngles)
 TEST(Forces, TerminalSpeedOf30MicrolitresMatches)
 {
     ForceModel model;
-    model.wetting.falling_angle = 10.0 * kDegree;
+    model.wetting.sliding_angle = 10.0 * kDegree;
     const auto speed = [&](double factor) {
         model.wetting.viscosity_factor = factor;
         const DropletForces forces = forcesOn(model, 30e-9);
@@ -281,7 +281,7 @@ TEST(ForceModel, RejectsFieldsOutOfRange)
     expect_refused("wetting.contact_angle", [](ForceModel& m) { m.wetting.contact_angle = 0.0; });
     expect_refused("wetting.contact_angle", [](ForceModel& m) { m.wetting.contact_angle = kPi; });
     expect_refused("wetting.hysteresis", [](ForceModel& m) { m.wetting.hysteresis = 2.01; });
-    expect_refused("wetting.falling_angle", [&](ForceModel& m) { m.wetting.falling_angle = nan; });
+    expect_refused("wetting.sliding_angle", [&](ForceModel& m) { m.wetting.sliding_angle = nan; });
     expect_refused("wetting.kinetic_fraction", [](ForceModel& m) { m.wetting.kinetic_fraction = 1.1; });
     expect_refused("wetting.viscosity_factor", [](ForceModel& m) { m.wetting.viscosity_factor = -1.0; });
     expect_refused("liquid.density", [](ForceModel& m) { m.liquid.density = 0.0; });

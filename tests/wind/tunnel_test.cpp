@@ -66,7 +66,7 @@ TEST(CriticalVolume, OfHemispheresMatchesTheClosedForm)
     EXPECT_FALSE(criticalVolume(hemispheres(0.5), 0.0).has_value()) << "on the level nothing runs";
     EXPECT_FALSE(criticalVolume(hemispheres(0.0), 1.0).has_value()) << "without hysteresis everything does";
     ForceModel model = hemispheres(0.0);
-    model.wetting.falling_angle = 10.0 * kDegree;
+    model.wetting.sliding_angle = 10.0 * kDegree;
     EXPECT_FALSE(criticalVolume(model, 20.0 * kDegree).has_value()) << "every volume begins at one slope";
 }
 
@@ -107,9 +107,9 @@ TEST(Thresholds, OfTheMeasuredPlaneAreNearTheMeasuredBand)
         EXPECT_LT(std::abs(distance->lower), 0.15) << volume;
         EXPECT_LT(std::abs(distance->upper), 0.15) << volume;
     }
-    // With the falling angle for every volume, all have the same band.
+    // With the sliding angle for every volume, all have the same band.
     ForceModel model = preset.model;
-    model.wetting.falling_angle = 10.0 * kDegree;
+    model.wetting.sliding_angle = 10.0 * kDegree;
     for (const double volume : preset.volumes) {
         const Thresholds same = thresholdsOf(forcesOn(model, volume), preset.slope);
         EXPECT_NEAR(*same.lower, *found.lower, 1e-12);
@@ -142,7 +142,7 @@ TEST(Thresholds, AreMissingWhereNothingMoves)
     model.air.density = 0.0;
     EXPECT_FALSE(thresholdsOf(forcesOn(model, 30e-9), 0.5 * kPi).upper.has_value());
     EXPECT_FALSE(thresholdsOf(forcesOn(model, 30e-9), 0.5 * kPi).lower.has_value());
-    EXPECT_FALSE(sheddingWind(model, capOf(30e-9, 1.0)).has_value());
+    EXPECT_FALSE(tearOffWind(model, capOf(30e-9, 1.0)).has_value());
 }
 
 TEST(SheddingWind, HasTheCriticalWeberNumber)
@@ -151,7 +151,7 @@ TEST(SheddingWind, HasTheCriticalWeberNumber)
     for (const auto& [height, wind] : {std::pair(2.5e-3, 13.5), std::pair(3e-3, 12.3), std::pair(4e-3, 10.6)}) {
         CapSize cap;
         cap.height = height;
-        EXPECT_NEAR(*sheddingWind(model, cap), wind, 0.1) << height;
+        EXPECT_NEAR(*tearOffWind(model, cap), wind, 0.1) << height;
     }
 }
 
@@ -191,7 +191,7 @@ TEST(RegimeChanges, AreCompleteOnAnyProfile)
         model.wetting.contact_angle = between(random, 20.0, 160.0) * kDegree;
         model.wetting.hysteresis = between(random, 0.01, 1.0);
         if (k % 4 == 0) {
-            model.wetting.falling_angle = between(random, 1.0, 60.0) * kDegree;
+            model.wetting.sliding_angle = between(random, 1.0, 60.0) * kDegree;
         }
         model.air.profile_exponent = k % 5 == 0 ? 0.5 : between(random, 0.0, 1.5);
         model.air.boundary_layer = k % 7 == 0 ? 0.0 : anyOf(random, 1e-4, 1e-1);
@@ -373,7 +373,7 @@ TEST(Sweep, ReportsTheHysteresisOfAFallingAngle)
 {
     TunnelSweep what = smallSweep();
     what.hystereses.clear();
-    what.model.wetting.falling_angle = 10.0 * kDegree;
+    what.model.wetting.sliding_angle = 10.0 * kDegree;
     for (const TunnelCase& found : sweep(what).cases) {
         EXPECT_NEAR(0.5 * kPi * found.cap.contact_radius * what.model.liquid.surface_tension * found.hysteresis,
                     found.forces.retention, 1e-15 * found.forces.retention);
@@ -422,7 +422,7 @@ TEST(Sweep, RejectsFieldsOutOfRange)
     expect_refused("winds[2]", [&](TunnelSweep& s) { s.winds[2] = nan; });
     expect_refused("slopes[0]", [](TunnelSweep& s) { s.slopes[0] = -0.1; });
     expect_refused("hystereses[1]", [](TunnelSweep& s) { s.hystereses[1] = 2.5; });
-    expect_refused("exclude each other", [](TunnelSweep& s) { s.model.wetting.falling_angle = 0.1; });
+    expect_refused("exclude each other", [](TunnelSweep& s) { s.model.wetting.sliding_angle = 0.1; });
     expect_refused("at most 10000000", [](TunnelSweep& s) {
         s.winds.assign(10'000, 1.0);
         s.volumes.assign(1000, 1e-9);

@@ -149,7 +149,7 @@ TEST(AccelerationChart, IsLegibleForAnySweep)
     }
     sweeps[2].slopes = {0.0, 0.5, 1.0};
     sweeps[2].hystereses = {0.0, 0.05, 0.5, 1.9};
-    sweeps[3].model.wetting.falling_angle = 0.2;
+    sweeps[3].model.wetting.sliding_angle = 0.2;
     sweeps[4].model.air.density = 0.0;
     sweeps[4].winds = {3.0};
     for (const TunnelSweep& what : sweeps) {
@@ -252,7 +252,7 @@ TEST(RegimeMap, AreasMatchTheModel)
         for (double wind = 0.3; wind < 16.0; wind += 0.71) {
             const CapSize cap = capOf(volume, what.model.wetting.contact_angle);
             const auto regime =
-                wind > sheddingWind(what.model, cap).value()
+                wind > tearOffWind(what.model, cap).value()
                     ? 3U
                     : static_cast<std::size_t>(regimeOf(forces, drivingForce(forces, what.slopes[0], wind)));
             double x = 0.0;

@@ -760,7 +760,7 @@ std::vector<std::vector<double>> motions(std::size_t count, int times, double dt
     p.glass = Glass({.width = 0.4, .height = 0.4, .radius = 1e9, .slope = 0.0});
     p.fluctuation = {.acceleration = 2.0, .interval = 0.05};
     constexpr double kVolume = 5.0 * kMicrolitre;
-    p.forces.wetting.falling_angle = std::asin(2.5 / kStandardGravity);
+    p.forces.wetting.sliding_angle = std::asin(2.5 / kStandardGravity);
     WindshieldState state = startWindshield(p);
     std::vector<std::vector<double>> series(count);
     const auto row = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));

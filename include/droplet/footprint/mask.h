@@ -35,9 +35,9 @@ struct MaskOptions {
     int vector_long_side = 2048;                    ///< longer side at which an SVG is drawn [px], 1 … 32767
     Segmentation segment = Segmentation::Auto;  ///< segmentation method, ignored if alpha is read; Auto means Threshold
                                                 ///< if channel is not Auto
-    bool insist = false;                        ///< accept a picture that does not look like a mask
-    bool may_be_dry = false;  ///< a picture without an edge, or without the colour, is not an error but gives a mask
-                              ///< without liquid
+    bool accept_any = false;                    ///< accept a picture that does not look like a mask
+    bool allow_dry = false;  ///< a picture without an edge, or without the colour, is not an error but gives a mask
+                             ///< without liquid
     std::optional<CssColour> colour = {};  ///< everything of this colour is liquid; overrides segment and channel
     double vector_seconds = 10.0;          ///< limit for drawing an SVG [s], of wall-clock time and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< limit for drawing an SVG, without its pixels [B], ≥ 64 MiB
@@ -63,7 +63,7 @@ struct Mask {
     std::optional<MaskLevels> found;  ///< with Channel::Auto: levels found in the image itself, before `invert`; empty
                                       ///< if nothing stands out, as in an image of one level
 
-    std::optional<double> drawn_scale;     ///< for an SVG image: pixels of the mask per CSS px of the page, > 0
+    std::optional<double> raster_scale;    ///< for an SVG image: pixels of the mask per CSS px of the page, > 0
     std::optional<double> physical_width;  ///< for an SVG image with a size in cm, mm, in, pt or pc: its width [m]
 
     /// Coverage of the pixel in column x and row y, both from 0; the range is not checked.
@@ -110,7 +110,7 @@ struct Mask {
 /// @param options  channel, inversion, segmentation, limits
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, an unsupported format, missing
 ///                 codecs, no alpha although Channel::Alpha is set; no mask by any method, unless insist; no edge, or
-///                 nothing of the colour, unless may_be_dry; SVG: no area; over 64 MiB, 250 000 tags, 500 000
+///                 nothing of the colour, unless allow_dry; SVG: no area; over 64 MiB, 250 000 tags, 500 000
 ///                 references, vector_seconds or vector_memory; nested too deeply; librsvg or the program that draws
 ///                 with it missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});

@@ -44,7 +44,7 @@ struct TraceOptions {
     double speck_size = 3.0;           ///< area below which loops are dropped [px²], ≥ 0
     bool corners = true;               ///< keep sharp corners sharp; if false, the whole rim is faired
     CleanOptions clean = {};           ///< changes made to the mask first
-    bool may_be_dry = false;           ///< a mask without liquid gives an outline without loops instead of an error
+    bool allow_dry = false;            ///< a mask without liquid gives an outline without loops instead of an error
 
     /// @throws Error InvalidArgument if a value is out of its range
     void validate() const;
@@ -63,7 +63,7 @@ double pixelSize(const Mask& mask, const TraceOptions& options);
 /// @param mask     valid
 /// @param options  threshold, physical size, speck size
 /// @throws Error   InvalidArgument for options; InvalidInput if the mask holds no liquid or only specks, unless
-///                 may_be_dry; InvalidInput if a border is longer than 2²¹ sides of pixels, or all borders together are
+///                 allow_dry; InvalidInput if a border is longer than 2²¹ sides of pixels, or all borders together are
 ///                 longer than 3·2²⁰
 Outline trace(const Mask& mask, const TraceOptions& options = {});
 

@@ -61,8 +61,8 @@ void checkWritable(const std::filesystem::path& path, const OutputOptions& optio
 /// @param options  treatment of an existing file
 /// @return         bytes written
 /// @throws Error   OutputFailed, naming path and cause; whatever `write` throws
-std::uint64_t writeWhole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
-                         const OutputOptions& options = {});
+std::uint64_t writeAtomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
+                              const OutputOptions& options = {});
 
 /// Removes temporary files that have a name, and prevents new ones. For a signal handler that is about to end the
 /// process; async-signal-safe.

@@ -15,7 +15,7 @@ struct PageContent {
 };
 
 /// Whether the library was built with the page (CMake's DROPLET_PAGE).
-bool pageIsBuiltIn() noexcept;
+bool hasPage() noexcept;
 
 /// Writes one HTML file that shows a droplet in a browser. The reader can turn the droplet, look through it, choose its
 /// ground, read the figures of its report, and download it. The file contains everything, three.js too; it works from

@@ -123,7 +123,7 @@ struct Report {
     std::optional<Retention> retention;      ///< forces of all droplets together
     std::vector<DropletReport> droplets;     ///< in the order of the meshes
     std::vector<std::string> warnings;       ///< one line each; grave ones first
-    std::size_t grave_warnings = 0;          ///< number of warnings that --quiet does not silence
+    std::size_t severe_warnings = 0;         ///< number of warnings that --quiet does not silence
     std::array<double, kStageCount> time{};  ///< indexed by Stage [s]
     double time_total = 0.0;                 ///< [s]
     std::uint64_t peak_memory = 0;           ///< [bytes]

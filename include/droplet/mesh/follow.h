@@ -14,7 +14,7 @@ namespace droplet {
 /// @param rim    new places of the rim's vertices [m], as many as the mesh has
 /// @return       the moved mesh, without its lattice; triangles may be turned over
 /// @throws Error InvalidArgument if the number of places is wrong
-PlanarMesh withRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
+PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 
 /// Moves a mesh to a footprint that moved and changed little, so that vertices keep their identity.
 ///

@@ -106,7 +106,7 @@ std::uint64_t writeExr(const FloatPicture& picture, std::ostream& out);
 /// @param picture        valid
 /// @param width, height  of the frame [px] 1 … 8192
 /// @throws Error         InvalidArgument
-Picture covering(const Picture& picture, int width, int height);
+Picture scaledToCover(const Picture& picture, int width, int height);
 
 /// Default size limit of decoded pictures: 8192 × 8192 pixels.
 inline constexpr std::size_t kMaxPicturePixels = std::size_t{1} << 26;

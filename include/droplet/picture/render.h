@@ -50,7 +50,7 @@ struct RenderOptions {
     View view = View::ThreeQuarter;          ///< of the camera
     std::optional<CameraPlace> camera = {};  ///< replaces the view's direction
     double azimuth = 0.0;                    ///< turn of the droplet, counter-clockwise seen from above [rad]
-    bool fits_any_turn = false;              ///< frame the droplet so that it fits at every azimuth, for a turntable
+    bool fit_all_azimuths = false;           ///< frame the droplet so that it fits at every azimuth, for a turntable
     int samples = 16;                        ///< rays per pixel with detail; a quarter of it elsewhere. 4 … 256
     Look look;                               ///< of the liquid: lookOf(material)
     Lighting lighting = Lighting::Studio;    ///< Uniform ignores `environment`
@@ -59,7 +59,7 @@ struct RenderOptions {
     Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
     std::optional<TexturedMesh> stand = {};  ///< ground instead of the plane z = 0, uv as the droplet's
-    bool frames_stand = true;                ///< true: the stand is an object, shown whole; false: ground
+    bool shows_whole_stand = true;           ///< true: the stand is an object, shown whole; false: ground
     std::optional<ViewBox> framed = {};  ///< box for the camera, the ruling and the light, so that pictures of several
                                          ///< surfaces are comparable; contains the surface. Empty: the surface's box
     std::optional<Paint> paint = {};     ///< opaque colours instead of the material

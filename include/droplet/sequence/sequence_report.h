@@ -49,12 +49,12 @@ struct SequenceReport {
     GroundReport ground;                         ///< ground under the droplets
     std::vector<FrameReport> frames;             ///< one per frame
     std::vector<std::string> warnings;           ///< the grave ones first
-    std::size_t grave_warnings = 0;  ///< number of warnings, from the first, that are shown even in quiet mode
-    double time_total = 0.0;         ///< run time [s]
-    std::uint64_t peak_memory = 0;   ///< [bytes]
+    std::size_t severe_warnings = 0;  ///< number of warnings, from the first, that are shown even in quiet mode
+    double time_total = 0.0;          ///< run time [s]
+    std::uint64_t peak_memory = 0;    ///< [bytes]
 
     /// Mean vertices_kept of all frames that have it; empty if none has.
-    [[nodiscard]] std::optional<double> meanKept() const;
+    [[nodiscard]] std::optional<double> meanVerticesKept() const;
     /// Number of frames without liquid.
     [[nodiscard]] std::size_t dry() const;
     /// Number of frames that continue the one before.

@@ -10,7 +10,7 @@
 
 namespace droplet {
 
-/// Options of layOnto().
+/// Options of placeOnto().
 struct OntoOptions {
     Vec2 extent;  ///< size of the picture [m], as for loft(): it fills uv from (0,0) to (1,1); both > 0
 
@@ -58,7 +58,7 @@ struct OntoResult {
 /// @param options   extent of the picture
 /// @throws Error    InvalidArgument; InvalidInput: no triangle of the object has an area in uv; NoSuchDroplet: all
 ///                  droplets are left out
-OntoResult layOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options);
+OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const OntoOptions& options);
 
 /// Measures the length on the object per unit of uv [m]: √(area / area in uv), the median weighted by area, so that a
 /// lid unwrapped small does not count as much as a wall. A picture with the aspect a = width/height has the size of the

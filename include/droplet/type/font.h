@@ -92,6 +92,6 @@ std::vector<char32_t> parseCharset(std::string_view charset);
 std::vector<char32_t> charactersOf(std::string_view text);
 
 /// Writes a character for a message: `U+0041 'A'`, or the code point alone if the character is invisible.
-std::string shownCharacter(char32_t character);
+std::string characterText(char32_t character);
 
 }  // namespace droplet

@@ -48,7 +48,7 @@ enum class TextAlign {
     End,     ///< right; for lines from right to left, left
 };
 
-/// Options of setText().
+/// Options of layOutText().
 struct TextOptions {
     GlyphOptions glyph;                  ///< options of every glyph
     TextAlign align = TextAlign::Start;  ///< alignment of the lines
@@ -60,7 +60,7 @@ struct TextOptions {
 };
 
 /// Outline of a text, with figures.
-struct SetText {
+struct TextLayout {
     Outline outline;                ///< without loops if the text has no ink
     std::vector<char32_t> missing;  ///< characters that the font lacks, in order of first occurrence, each once
     std::size_t lines = 0;          ///< number of lines
@@ -76,6 +76,6 @@ struct SetText {
 /// @param text     UTF-8; line feeds separate lines, and a tab counts as a space
 /// @param options  size, alignment and line spacing
 /// @throws Error   InvalidArgument: options, or text that is not UTF-8; InvalidInput: the font is damaged
-SetText setText(const Font& font, std::string_view text, const TextOptions& options = {});
+TextLayout layOutText(const Font& font, std::string_view text, const TextOptions& options = {});
 
 }  // namespace droplet

@@ -40,7 +40,7 @@ struct ViewOptions {
     double background_blur = 0.0;
     /// Time that the shutter is open, half before and half after the state's time [s], 0 … 1. Moving droplets are
     /// blurred along their way.
-    double open_time = 0.0;
+    double shutter_time = 0.0;
     /// Visible wipers, with the water that they push and leave. Empty: wipers are invisible.
     std::vector<Wiper> wipers = {};
     Vec3 glass_colour{0.97, 0.985, 0.98};  ///< transmittance of the pane for red, green and blue; 0 … 1
@@ -104,12 +104,13 @@ public:
     /// Sets the picture behind the glass; black before the first call.
     /// @param picture  valid, with the size of the frame: see covering()
     /// @throws Error   InvalidArgument if the size differs
-    void lookAt(const Picture& picture);
+    void setBackground(const Picture& picture);
 
     /// Sets the panorama around the car, its middle straight ahead. Rays beyond the picture's edges show it; so does
-    /// the whole frame before the first lookAt(). Light is used as it is: 1 is white. Call show() again afterwards.
+    /// the whole frame before the first setBackground(). Light is used as it is: 1 is white. Call show() again
+    /// afterwards.
     /// @throws Error  InvalidArgument if the panorama is not valid
-    void surround(const Environment& environment);
+    void setEnvironment(const Environment& environment);
 
     /// Sets the water on the glass; none before the first call.
     /// @param state  state on this glass
@@ -119,8 +120,8 @@ public:
     [[nodiscard]] const Picture& bare() const;
     /// Droplets alone: what they show of the picture, and how much of it they hide.
     [[nodiscard]] Layer layer() const;
-    /// Complete frame: over(layer(), bare()). With an open_time it is the mean of the light during that time; blurred
-    /// edges are then brighter than in a mix of the layers' levels.
+    /// Complete frame: over(layer(), bare()). With an shutter_time it is the mean of the light during that time;
+    /// blurred edges are then brighter than in a mix of the layers' levels.
     [[nodiscard]] Picture frame() const;
 
     /// Position on the glass at the middle of a pixel [m]; empty beside the glass.

@@ -36,8 +36,8 @@ struct Wetting {
     double contact_angle = 105.0 * kDegree;  ///< θ [rad], from 1° to 179°
     double hysteresis = 0.2;                 ///< Δ = cos θ_r − cos θ_a of eq. 3.2, from 0 to 2
     /// Slope at which droplets of every volume begin to run [rad], from 0 to π/2. If given, it replaces eq. 3.2: the
-    /// retention is m g sin(falling_angle). See hysteresisOf() for an angle measured at one volume.
-    std::optional<double> falling_angle = {};
+    /// retention is m g sin(sliding_angle). See hysteresisOf() for an angle measured at one volume.
+    std::optional<double> sliding_angle = {};
     double kinetic_fraction = 1.0;                       ///< sliding friction over retention, from 0 to 1
     double viscosity_factor = kArtisticViscosityFactor;  ///< ηf of eq. 3.5 [Pa·s], ≥ 0
 
@@ -128,13 +128,13 @@ Vec2 acceleration(const DropletForces& forces, Vec2 driving, Vec2 velocity);
 /// nothing limits it.
 std::optional<double> terminalVelocity(const DropletForces& forces, double driving);
 
-/// Hysteresis Δ from a falling angle that was measured at one volume: eq. 3.2 solved for Δ. Smaller droplets then begin
+/// Hysteresis Δ from a sliding angle that was measured at one volume: eq. 3.2 solved for Δ. Smaller droplets then begin
 /// to run at steeper slopes, larger ones at shallower slopes.
 /// @param model          valid
-/// @param falling_angle  [rad], from 0 to π/2
+/// @param sliding_angle  [rad], from 0 to π/2
 /// @param volume         [m³], > 0
 /// @return               Δ; above 2, which Wetting rejects, if no pair of contact angles holds such a droplet
-double hysteresisOf(const ForceModel& model, double falling_angle, double volume);
+double hysteresisOf(const ForceModel& model, double sliding_angle, double volume);
 
 /// Factor ηf of eq. 3.5 from wedge theory: f ≈ 2π ln(R/λ) sin²θ / (θ − sin θ cos θ) [Pa·s].
 /// @param viscosity      η [Pa·s]
@@ -158,14 +158,14 @@ struct ForcePreset {
     ForceModel model;                     ///< valid
     double slope = 35.0 * kDegree;        ///< α [rad]
     double reference_volume = 30e-9;      ///< volume of the droplets that the model was fitted to [m³]
-    std::optional<double> falling_angle;  ///< falling angle of the reference volume, if it was measured [rad]
+    std::optional<double> sliding_angle;  ///< sliding angle of the reference volume, if it was measured [rad]
     std::vector<double> volumes;          ///< default volumes of a sweep [m³]
 };
 
 /// All presets:
 /// - `thesis`: hemispheres under eqs. 3.2 to 3.5 with n = ½ and ηf = 0.5. The thesis does not give Δ and δ/C_D of its
 ///   figure 3.5; here they are chosen so that a droplet of 30 µL is still between 7 and 11 m/s, as measured.
-/// - `hashimoto`: the measured plane: contact angle 105°, slope 35°, falling angle 10° (we assume: of 30 µL), and ηf of
+/// - `hashimoto`: the measured plane: contact angle 105°, slope 35°, sliding angle 10° (we assume: of 30 µL), and ηf of
 ///   wedge theory. Only δ/C_D is fitted: the wind that cancels the weight along the slope is the middle of the measured
 ///   band, √((7² + 11²)/2) = 9.2 m/s. The width of the band follows from the model.
 const std::vector<ForcePreset>& forcePresets();

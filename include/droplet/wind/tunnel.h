@@ -73,7 +73,7 @@ std::optional<double> criticalVolume(const ForceModel& model, double slope);
 inline constexpr double kTearOffWeber = 7.5;
 
 /// Wind that tears off a droplet, from its height alone [m/s]; empty if the density of air is 0.
-std::optional<double> sheddingWind(const ForceModel& model, const CapSize& cap);
+std::optional<double> tearOffWind(const ForceModel& model, const CapSize& cap);
 
 /// Input of sweep(): lists of values, of which all combinations are computed.
 struct TunnelSweep {
@@ -94,13 +94,13 @@ inline constexpr std::size_t kMaxTunnelRows = 10'000'000;
 
 /// Droplet on a slope, with its figures that do not depend on the wind.
 struct TunnelCase {
-    double hysteresis = 0.0;                ///< Δ; with a falling angle for every volume: the Δ of equal retention
+    double hysteresis = 0.0;                ///< Δ; with a sliding angle for every volume: the Δ of equal retention
     double slope = 0.0;                     ///< α [rad]
     CapSize cap;                            ///< size of the droplet
     DropletForces forces;                   ///< forces on it
     Thresholds thresholds;                  ///< winds between which it stays at rest
     std::optional<double> critical_volume;  ///< volume of criticalVolume() [m³]
-    std::optional<double> shedding_wind;    ///< wind of sheddingWind() [m/s]
+    std::optional<double> shedding_wind;    ///< wind of tearOffWind() [m/s]
 };
 
 /// Result of one case in one wind.

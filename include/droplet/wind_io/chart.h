@@ -33,7 +33,7 @@ inline constexpr std::size_t kMaxPanels = 12;
 Drawing accelerationChart(const TunnelSweep& swept, const Tunnel& tunnel, const ChartOptions& options = {});
 
 /// Map of the regimes over wind and volume. The roots U₋ and U₊ of many volumes separate droplets that run down, stay
-/// still and climb. Beyond the dashed line the wind tears droplets off (sheddingWind).
+/// still and climb. Beyond the dashed line the wind tears droplets off (tearOffWind).
 /// @param swept    input of the sweep
 /// @param tunnel   its result
 /// @param options  title and measured band

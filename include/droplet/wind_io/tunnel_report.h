@@ -16,8 +16,8 @@ struct TunnelRun {
     std::string preset;                    ///< name of the preset; empty: none
     TunnelSweep swept;                     ///< input of the sweep
     Tunnel tunnel;                         ///< result of the sweep
-    std::optional<double> falling_angle;   ///< falling angle that gave the hysteresis, at falling_volume [rad]
-    std::optional<double> falling_volume;  ///< [m³]
+    std::optional<double> sliding_angle;   ///< sliding angle that gave the hysteresis, at sliding_volume [rad]
+    std::optional<double> sliding_volume;  ///< [m³]
     std::optional<WindBand> measured;      ///< measured still band to compare with
 };
 
