@@ -10,7 +10,8 @@ string(JOIN "|" slow
   LatticeCore.EveryEdge
   Multigrid.WhatDoesNotConverge
   Penetration.ExactFilm Penetration.KktHold Penetration.SolversAgree
-  Solvers.AgreeOnTheZoo)
+  Solvers.AgreeOnTheZoo
+  Walk.IsTheFormulaOnASlope Walk.NeverLeavesTheSurface)
 foreach(test IN LISTS tests)
   if(test MATCHES "^(${slow})")
     set_tests_properties(${test} PROPERTIES LABELS "${labels};slow")

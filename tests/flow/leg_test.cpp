@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <random>
 
 namespace droplet {
@@ -58,7 +58,7 @@ TEST(Coordinate, PassesZeroFirstWhereSamplesSayIt)
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     int passed = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 4000; ++i) {
         const Coordinate s{std::abs(uniform(random)), 3.0 * uniform(random), 5.0 * uniform(random),
                            i % 3 == 0 ? 0.0 : std::exp(6.0 * uniform(random))};
         const double from = i % 2 == 0 ? 0.0 : 0.1 * std::abs(uniform(random));
@@ -82,7 +82,7 @@ TEST(Coordinate, PassesZeroFirstWhereSamplesSayIt)
             EXPECT_GE(*time, first - 1.001e-3 - (first > to ? first : 0.0)) << i;
         }
     }
-    EXPECT_GT(passed, 5000);
+    EXPECT_GT(passed, 1000);
 }
 
 TEST(Coordinate, StandsStillForEver)
