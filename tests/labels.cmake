@@ -8,7 +8,7 @@ string(JOIN "|" slow
   Grading.MeshesAreValid Grading.NumberOfTriangles
   Hanging.FallsBeyond
   LatticeCore.EveryEdge
-  Multigrid.WhatDoesNotConverge
+  Multigrid.AutoFactorsIfIt
   Penetration.ExactFilm Penetration.KktHold Penetration.SolversAgree
   Solvers.AgreeOnTheZoo
   Walk.IsTheFormulaOnASlope Walk.NeverLeavesTheSurface)
