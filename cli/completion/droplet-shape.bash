@@ -14,11 +14,11 @@ _droplet_shape()
     local options choices= files=
     case $command in
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
-        batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --one-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
-        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --one-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
-        wind-tunnel) options='--preset --volume --wind --slope --hysteresis --falling-angle --falling-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
-        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper --seed --glass-width --glass-height --radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
+        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
+        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
         *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
     [[ ' animate batch compare glyphs wind-tunnel windshield ' == *" $command "* ]] || command=
@@ -102,8 +102,8 @@ _droplet_shape()
         *:--wind) return ;;
         *:--slope) return ;;
         *:--hysteresis) return ;;
-        *:--falling-angle) return ;;
-        *:--falling-volume) choices='every' ;;
+        *:--sliding-angle) return ;;
+        *:--sliding-volume) choices='every' ;;
         *:--viscosity-factor) choices='artistic wedge' ;;
         *:--kinetic-fraction) return ;;
         *:--drag-coefficient) return ;;
@@ -123,11 +123,11 @@ _droplet_shape()
         *:--speed) return ;;
         *:--drive-cycle) files=1 ;;
         *:--noise) return ;;
-        *:--wiper) return ;;
+        *:--wiper-period) return ;;
         *:--seed) return ;;
         *:--glass-width) return ;;
         *:--glass-height) return ;;
-        *:--radius) return ;;
+        *:--glass-radius) return ;;
         *:--still-diameter) return ;;
         *:--film) return ;;
         *:--warm-up) return ;;

@@ -19,11 +19,11 @@ Vec3 halfTurned(Vec3 v)
 
 }  // namespace
 
-SceneMesh capMesh(double angle, const CapDetail& detail)
+DropletMesh capMesh(double angle, const CapDetail& detail)
 {
     const std::uint32_t around = detail.around;
     const std::uint32_t rings = detail.rings;
-    SceneMesh mesh;
+    DropletMesh mesh;
     const double radius = 1.0 / std::sin(angle);
     const double centre = -radius * std::cos(angle);
     mesh.positions.push_back({0.0, 0.0, radius + centre});
@@ -75,11 +75,11 @@ SceneMesh capMesh(double angle, const CapDetail& detail)
     return mesh;
 }
 
-SceneMesh glassMesh(const Glass& glass)
+DropletMesh glassMesh(const Glass& glass)
 {
     constexpr int kAcross = 64;
     constexpr int kUpward = 32;
-    SceneMesh mesh;
+    DropletMesh mesh;
     std::map<std::pair<int, int>, std::uint32_t> knots;
     for (int j = 0; j <= kUpward; ++j) {
         for (int i = 0; i <= kAcross; ++i) {
@@ -106,7 +106,7 @@ SceneMesh glassMesh(const Glass& glass)
     return mesh;
 }
 
-int addMesh(tinygltf::Model& model, const SceneMesh& mesh, const char* name, int material)
+int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, int material)
 {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -122,7 +122,7 @@ int addMesh(tinygltf::Model& model, const SceneMesh& mesh, const char* name, int
     return static_cast<int>(model.meshes.size()) - 1;
 }
 
-void writeMesh(const SceneMesh& mesh, ByteStream& bytes)
+void writeMesh(const DropletMesh& mesh, ByteStream& bytes)
 {
     writeVectors(mesh.positions, bytes);
     writeVectors(mesh.normals, bytes);
@@ -132,7 +132,7 @@ void writeMesh(const SceneMesh& mesh, ByteStream& bytes)
     }
 }
 
-int addGlass(tinygltf::Model& model, const SceneMesh& pane)
+int addGlass(tinygltf::Model& model, const DropletMesh& pane)
 {
     tinygltf::Material glass;
     glass.name = "glass";

@@ -16,7 +16,7 @@
 namespace droplet {
 
 /// Arrays of a mesh, +Z up.
-struct SceneMesh {
+struct DropletMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Triangle> triangles;
@@ -30,17 +30,17 @@ struct CapDetail {
 
 /// Closed mesh of a cap with its base, z off the glass. Its volume is that of the true cap with contact radius 1.
 /// @param angle  contact angle [rad]
-SceneMesh capMesh(double angle, const CapDetail& detail);
+DropletMesh capMesh(double angle, const CapDetail& detail);
 
 /// Mesh of the glass, with its front to -Y.
-SceneMesh glassMesh(const Glass& glass);
+DropletMesh glassMesh(const Glass& glass);
 
 /// Adds a mesh to the model; writeMesh() then writes its bytes.
 /// @return  index of the mesh
-int addMesh(tinygltf::Model& model, const SceneMesh& mesh, const char* name, int material);
-void writeMesh(const SceneMesh& mesh, ByteStream& bytes);
+int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, int material);
+void writeMesh(const DropletMesh& mesh, ByteStream& bytes);
 
 /// Adds the glass with its material and node, and returns the node; writeMesh() then writes its bytes.
-int addGlass(tinygltf::Model& model, const SceneMesh& pane);
+int addGlass(tinygltf::Model& model, const DropletMesh& pane);
 
 }  // namespace droplet

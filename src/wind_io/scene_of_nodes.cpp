@@ -289,11 +289,11 @@ std::vector<double> rounded(const Numbers& numbers, int decimals)
 
 /// Mesh of many droplets, each bound to its own joint; the last vertices belong to the anchors.
 struct DropletGroup {
-    SceneMesh mesh;
+    DropletMesh mesh;
     std::vector<std::size_t> joints;  ///< joint of each vertex
 };
 
-DropletGroup groupOf(const SceneMesh& droplet)
+DropletGroup groupOf(const DropletMesh& droplet)
 {
     DropletGroup group;
     for (std::size_t k = 0; k < kDropletsOfMesh; ++k) {
@@ -594,7 +594,7 @@ private:
 
     std::uint32_t frames_;
     DropletSceneOptions options_;
-    SceneMesh pane_;
+    DropletMesh pane_;
     DropletGroup resting_;
     DropletGroup running_;
     std::vector<const DropletGroup*> written_;

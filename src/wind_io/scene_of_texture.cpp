@@ -201,8 +201,8 @@ private:
 
     std::uint32_t frames_;
     DropletSceneOptions options_;
-    SceneMesh pane_;
-    SceneMesh cap_;
+    DropletMesh pane_;
+    DropletMesh cap_;
     std::array<Range, 3> places_;
     Range sizes_;
     double mean_radius_ = 0.0;  ///< mean radius of the droplets [m]
