@@ -19,13 +19,13 @@ enum class FlowContact : std::uint8_t {
 
 /// A droplet on its way over a surface. Its path is known in advance up to the next event.
 struct FlowDroplet {
-    std::uint64_t id = 0;  ///< unique; selects the droplet's random stream
-    double volume = 0.0;   ///< [m³], > 0
-    FlowContact contact = FlowContact::Air;
-    std::uint32_t face = 0;  ///< number in FlowSurface::faces; in the air, the last one
-    std::uint32_t side = 0;  ///< of the face, for contact Edge
-    Leg leg;                 ///< the path since the last event
-    Vec3 heading;            ///< unit; friction of contact angle hysteresis acts against it; 0 if there is none
+    std::uint64_t id = 0;                    ///< unique; selects the droplet's random stream
+    double volume = 0.0;                     ///< [m³], > 0
+    FlowContact contact = FlowContact::Air;  ///< what it touches
+    std::uint32_t face = 0;                  ///< number in FlowSurface::faces; in the air, the last one
+    std::uint32_t side = 0;                  ///< of the face, for contact Edge
+    Leg leg;                                 ///< the path since the last event
+    Vec3 heading;  ///< unit; friction of contact angle hysteresis acts against it; 0 if there is none
 };
 
 }  // namespace droplet

@@ -30,6 +30,7 @@ struct FlowSurface {
     /// No neighbour: an edge of the surface.
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+    /// A triangle and its neighbours.
     struct Face {
         std::array<Vec3, 3> corners;             ///< [m]
         Vec3 normal;                             ///< unit, outward
@@ -38,8 +39,8 @@ struct FlowSurface {
         std::uint32_t source = 0;                ///< number of the triangle in the mesh
     };
 
-    std::vector<Face> faces;
-    FlowSurfaceReport report;
+    std::vector<Face> faces;   ///< triangles that droplets can stand on
+    FlowSurfaceReport report;  ///< defects of the mesh
 };
 
 /// Makes the graph of a mesh from outside, by half-edges. Parts whose triangles wind differently are turned to agree;

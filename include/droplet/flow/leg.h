@@ -15,8 +15,11 @@ struct Leg {
     Vec3 push;           ///< force over mass [m/s²]
     double decay = 0.0;  ///< viscous friction over mass, |k_f|/m [1/s], ≥ 0
 
+    /// Place at a time, p(τ) [m].
     /// @param time  [s], ≥ begin
     [[nodiscard]] Vec3 placeAt(double time) const;
+    /// Velocity at a time, v(τ) [m/s].
+    /// @param time  [s], ≥ begin
     [[nodiscard]] Vec3 velocityAt(double time) const;
 };
 
@@ -27,7 +30,9 @@ struct Coordinate {
     double push = 0.0;      ///< [m/s²]
     double decay = 0.0;     ///< [1/s], ≥ 0
 
+    /// Value at a time [m].
     [[nodiscard]] double placeAt(double time) const;
+    /// Velocity at a time [m/s].
     [[nodiscard]] double velocityAt(double time) const;
 
     /// When the coordinate first passes 0 downwards. Where it is below 0 already at `from`, and falls, that is `from`.
