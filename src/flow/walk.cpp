@@ -29,7 +29,7 @@ constexpr int kMaxEventsAtOnce = 1000;
 
 class Walk {
 public:
-    Walk(const FlowSurface& surface, const Landing& landing, const WalkForces& forces, FlowDroplet& droplet)
+    Walk(const FlowSurface& surface, const Landing* landing, const WalkForces& forces, FlowDroplet& droplet)
         : faces_(surface.faces), landing_(landing), f_(forces), d_(droplet), time_(droplet.leg.begin)
     {
     }
@@ -411,7 +411,7 @@ private:
 
     bool advanceInAir(double end)
     {
-        const auto hit = landing_.next(d_.leg, time_, end);
+        const auto hit = landing_->next(d_.leg, time_, end);
         if (!hit) {
             return false;
         }
@@ -427,7 +427,7 @@ private:
     }
 
     const std::vector<Face>& faces_;
-    const Landing& landing_;
+    const Landing* landing_;  // null if the droplet is only put down
     const WalkForces& f_;
     FlowDroplet& d_;
     double time_;
@@ -440,14 +440,13 @@ private:
 WalkCounts walk(const FlowSurface& surface, const Landing& landing, const WalkForces& forces, FlowDroplet& droplet,
                 double until)
 {
-    return Walk(surface, landing, forces, droplet).until(until);
+    return Walk(surface, &landing, forces, droplet).until(until);
 }
 
 void putOnFace(const FlowSurface& surface, const WalkForces& forces, FlowDroplet& droplet, std::uint32_t face,
                double time, Vec3 place, Vec3 velocity)
 {
-    const Landing* none = nullptr;
-    Walk(surface, *none, forces, droplet).enter(face, time, place, velocity);
+    Walk(surface, nullptr, forces, droplet).enter(face, time, place, velocity);
 }
 
 }  // namespace droplet
