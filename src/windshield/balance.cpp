@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/windshield/balance.h"
 
-#include <cmath>
-
+#include "droplet/compensated_sum.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {
-
-void CompensatedSum::add(double term)
-{
-    const double total = sum + term;
-    carry += std::abs(sum) >= std::abs(term) ? (sum - total) + term : (term - total) + sum;
-    sum = total;
-}
 
 double WaterBalance::residual() const
 {

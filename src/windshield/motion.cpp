@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "windshield/random.h"
+#include "wind/random.h"
 
 namespace droplet {
 

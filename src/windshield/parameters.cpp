@@ -20,12 +20,6 @@ void Fluctuation::validate() const
     require(interval > 0.0 && std::isfinite(interval), "fluctuation.interval", interval, "finite and more than 0 s");
 }
 
-void Streaks::validate() const
-{
-    require(film >= 0.0 && std::isfinite(film), "streaks.film", film, "finite and at least 0 m");
-    require(spacing >= 1e-4 && std::isfinite(spacing), "streaks.spacing", spacing, "finite and at least 1e-4 m");
-}
-
 void WindshieldParameters::validate() const
 {
     const double area = glass.width() * glass.height();

@@ -1,123 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/windshield/state_bytes.h"
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
-#include "droplet/error.h"
+#include "exact_bytes.h"
 #include "windshield/still_droplets.h"
 
 namespace droplet {
 namespace {
 
-// After this line every value has 8 bytes, lowest byte first; reals are IEEE 754 bits.
 constexpr std::string_view kHead = "droplet-shape windshield 2\n";
-
-class Writer {
-public:
-    void put(std::uint64_t value)
-    {
-        for (int k = 0; k < 8; ++k) {
-            bytes_ += static_cast<char>((value >> (8 * k)) & 0xFFU);
-        }
-    }
-    void put(double value) { put(std::bit_cast<std::uint64_t>(value)); }
-    void put(Vec2 value)
-    {
-        put(value.x);
-        put(value.y);
-    }
-    void put(const CompensatedSum& value)
-    {
-        put(value.sum);
-        put(value.carry);
-    }
-    template <class... Values>
-    void all(const Values&... values)
-    {
-        (put(values), ...);
-    }
-
-    [[nodiscard]] std::string&& release() { return std::move(bytes_); }
-
-private:
-    std::string bytes_{kHead};
-};
-
-class Reader {
-public:
-    Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name)
-    {
-        if (bytes_.substr(0, kHead.size()) != kHead) {
-            refuse("is not a windshield state");
-        }
-        bytes_.remove_prefix(kHead.size());
-    }
-
-    [[noreturn]] void refuse(const std::string& what) const
-    {
-        throw Error(ErrorCode::InvalidInput, name_ + " " + what);
-    }
-    void require(bool holds) const
-    {
-        if (!holds) {
-            refuse("is damaged: a value is out of its range");
-        }
-    }
-
-    void get(std::uint64_t& value)
-    {
-        if (bytes_.size() < 8) {
-            refuse("is cut off");
-        }
-        value = 0;
-        for (int k = 7; k >= 0; --k) {
-            value = value << 8U | static_cast<unsigned char>(bytes_[static_cast<std::size_t>(k)]);
-        }
-        bytes_.remove_prefix(8);
-    }
-    void get(double& value)
-    {
-        std::uint64_t bits = 0;
-        get(bits);
-        value = std::bit_cast<double>(bits);
-        require(std::isfinite(value));
-    }
-    void get(Vec2& value)
-    {
-        get(value.x);
-        get(value.y);
-    }
-    void get(CompensatedSum& value)
-    {
-        get(value.sum);
-        get(value.carry);
-    }
-    template <class... Values>
-    void all(Values&... values)
-    {
-        (get(values), ...);
-    }
-
-    /// Length of the list that follows, checked against the remaining bytes.
-    std::size_t count(std::size_t bytes_each)
-    {
-        std::uint64_t value = 0;
-        get(value);
-        if (value > bytes_.size() / bytes_each) {
-            refuse("is cut off");
-        }
-        return static_cast<std::size_t>(value);
-    }
-    [[nodiscard]] bool ended() const { return bytes_.empty(); }
-
-private:
-    std::string_view bytes_;
-    const std::string& name_;
-};
 
 /// Writes or reads all members of a state except the lists.
 template <class Archive, class State>
@@ -132,7 +25,7 @@ void scalars(Archive& archive, State& s)
 
 std::string bytesOf(const WindshieldState& state)
 {
-    Writer out;
+    ExactWriter out(kHead);
     scalars(out, state);
     out.put(std::uint64_t{state.droplets.size()});
     for (const RunningDroplet& d : state.droplets) {
@@ -156,7 +49,7 @@ std::string bytesOf(const WindshieldState& state)
 
 WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
 {
-    Reader in(bytes, name);
+    ExactReader in(bytes, kHead, name);
     WindshieldState state;
     scalars(in, state);
     in.require(state.until_raindrop >= 0.0 && state.time >= 0.0);

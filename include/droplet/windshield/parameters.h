@@ -6,10 +6,11 @@
 
 #include "droplet/units.h"
 #include "droplet/wind/forces.h"
+#include "droplet/wind/streaks.h"
 #include "droplet/wind/tunnel.h"
 #include "droplet/windshield/drive_cycle.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/windshield/rain.h"
+#include "droplet/wind/rain.h"
 #include "droplet/windshield/wipers.h"
 
 namespace droplet {
@@ -20,16 +21,6 @@ namespace droplet {
 struct Fluctuation {
     double acceleration = 0.5;  ///< root mean square of each component [m/s²], ≥ 0; peaks are at most √6 times that
     double interval = 0.1;      ///< [s], > 0
-
-    /// Checks all fields.
-    /// @throws Error InvalidArgument if a field is out of its range
-    void validate() const;
-};
-
-/// Film that running droplets leave behind: as wide as they are, it breaks up into still droplets.
-struct Streaks {
-    double film = 0.0;      ///< thickness [m], ≥ 0; 0: no film, as on water-repellent glass
-    double spacing = 4e-3;  ///< mean distance of the still droplets [m], at least 0.1 mm
 
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "droplet/compensated_sum.h"
 #include "droplet/windshield/balance.h"
 #include "droplet/windshield/droplets.h"
 #include "droplet/windshield/parameters.h"

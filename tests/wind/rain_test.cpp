@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "droplet/windshield/rain.h"
+#include "droplet/wind/rain.h"
 
 #include <gtest/gtest.h>
 

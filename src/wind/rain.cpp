@@ -2,7 +2,7 @@
 // J. S. Marshall, W. M. Palmer, "The distribution of raindrops with size", J. Meteor. 5 (1948) 165: N(D) and Λ(R).
 // D. Atlas, R. C. Srivastava, R. S. Sekhon, "Doppler radar characteristics of precipitation at vertical incidence",
 // Rev. Geophys. 11 (1973) 1: v(D).
-#include "droplet/windshield/rain.h"
+#include "droplet/wind/rain.h"
 
 #include <algorithm>
 #include <cmath>
