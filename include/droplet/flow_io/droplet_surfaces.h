@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow/flow.h"
+#include "droplet/surface/surface.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// Place and direction of a droplet in the object's frame: x runs ahead along the surface, z is the surface's normal.
+struct DropletFrame {
+    Vec3 place;   ///< [m]
+    Vec3 ahead;   ///< unit
+    Vec3 left;    ///< unit
+    Vec3 normal;  ///< unit
+};
+
+/// Frame of a droplet: ahead is its velocity along the surface, at rest the part of gravity along it, on level ground
+/// any fixed direction.
+/// @param gravity  in the object's frame [m/s²]
+DropletFrame frameOf(const FlowSample& sample, Vec3 gravity);
+
+/// What shapes a droplet, in its frame.
+BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
+
+/// Surfaces of all droplets in the object's frame, one after another, each with the vertices and triangles of `bodies`.
+/// They are open at the ground. uvs and contact angles are 0.
+/// @param gravity  in the object's frame [m/s²]
+Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity);
+
+}  // namespace droplet

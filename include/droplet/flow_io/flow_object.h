@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/flow/object_motion.h"
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// Object that droplets run over.
+///
+/// Invariants: numbers are finite; indices are in range; arrays of vertices have one length, but uvs may be empty.
+struct FlowObject {
+    std::vector<Vec3> positions;              ///< vertices [m], z up
+    std::vector<Vec3> normals;                ///< one per vertex, unit, outward
+    std::vector<Vec2> uvs;                    ///< one per vertex, (0,0) top left of the texture; or empty
+    std::vector<Triangle> triangles;          ///< indices of vertices
+    std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
+    std::vector<std::string> material_names;  ///< from the file
+    ObjectMotion motion;                      ///< from the animation of the object's node, if the file has one
+    std::vector<std::string> warnings;        ///< one line each
+};
+
+/// Axis that points up in a file.
+enum class UpAxis { Y, Z };
+
+/// Options of readFlowObject.
+struct FlowObjectOptions {
+    std::optional<double> scale;  ///< factor on the file's lengths, > 0
+    std::optional<double> size;   ///< longest edge of the box around the object [m], > 0; not with `scale`
+    std::optional<UpAxis> up;     ///< empty: y, in PLY z; ignored for glTF
+};
+
+/// Reads an object: .glb, .gltf, .obj, .ply, .stl.
+/// @throws Error InvalidArgument for an unknown extension; InvalidInput, naming the file: it cannot be read, is
+///               damaged, has no triangle with an area, numbers that are not finite, or is too small or too large to
+///               compute with
+FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options = {});
+
+}  // namespace droplet
