@@ -8,7 +8,7 @@
 
 #include "droplet/version.h"
 #include "io/report_sections.h"
-#include "wind_io/rounded_time.h"
+#include "io/rounded_time.h"
 
 namespace droplet {
 namespace {
