@@ -153,17 +153,17 @@ TEST(Flow, MergingKeepsMassAndMomentum)
 {
     const FlowScene scene = slope(0.0, 7);
     FlowParameters parameters = paper(0.0);
-    const std::vector<FlowStart> starts{{{0.05, 0.1, 0.0}, 30e-9, {0.2, 0.03, 0.0}}, {{0.08, 0.1, 0.0}, 10e-9, {}}};
+    const std::vector<FlowStart> starts{{{0.05, 0.1, 0.0}, 30e-9, {0.2, 0.008, 0.0}}, {{0.08, 0.1, 0.0}, 10e-9, {}}};
     const FlowState state = advanceFlow(startFlow(scene, parameters, starts), scene, parameters, 0.25);
     ASSERT_EQ(state.droplets.size(), 1U);
     EXPECT_EQ(state.droplets[0].id, 1U);
     EXPECT_NEAR(state.droplets[0].volume, 40e-9, 1e-22);
     const FlowSample sample = sampleFlow(state, scene, parameters)[0];
     EXPECT_NEAR(sample.velocity.x, 0.75 * 0.2, 1e-12);
-    EXPECT_NEAR(sample.velocity.y, 0.75 * 0.03, 1e-12);
+    EXPECT_NEAR(sample.velocity.y, 0.75 * 0.008, 1e-12);
     // The centre of mass goes on as before: 0.75 · 0.05 + 0.25 · 0.08 at the start.
     EXPECT_NEAR(sample.place.x, 0.0575 + 0.15 * 0.25, 1e-12);
-    EXPECT_NEAR(sample.place.y, 0.1 + 0.0225 * 0.25, 1e-12);
+    EXPECT_NEAR(sample.place.y, 0.1 + 0.006 * 0.25, 1e-12);
 }
 
 TEST(Flow, DoesNotMergeThroughAThinSheet)
@@ -241,11 +241,10 @@ TEST(Flow, RainIsWhatFallsOnTheObject)
     const FlowScene scene = slope(0.0, 4);
     FlowParameters parameters;
     parameters.rain = rainOf(20.0 * kMillimetrePerHour);
-    const FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 60.0);
-    const double share = raindropSizes(parameters.rain->rainfall).waterShare(0.0, 1.0);
-    EXPECT_NEAR(share, 1.0, 1e-6);
-    // About 2000 raindrops of random size.
-    EXPECT_NEAR(state.released.value() / (0.04 * 60.0 * parameters.rain->rainfall), 1.0, 0.1);
+    const FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 20.0);
+    const RainImpacts impacts{raindropSizes(parameters.rain->rainfall), {parameters.rain->small_diameter, 8e-3}, 0.0};
+    const double expected = impacts.bound() * 0.2 * 0.2 * 20.0;
+    EXPECT_NEAR(static_cast<double>(state.counts.released), expected, 3.0 * std::sqrt(expected));
 }
 
 TEST(Flow, DewGrowsAndRunsAndWipes)
@@ -254,10 +253,13 @@ TEST(Flow, DewGrowsAndRunsAndWipes)
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.1;
     parameters.condensation = FlowCondensation{2e-6, 6e-3};
-    FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 30.0);
-    EXPECT_NEAR(state.released.value(), 30.0 * 2e-6 * scene.area(), 0.1 * 30.0 * 2e-6 * scene.area());
+    // After three seconds droplets stand all over.
+    FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 3.0);
     EXPECT_EQ(state.counts.left, 0U);
-    state = advanceFlow(std::move(state), scene, parameters, 300.0);
+    const double early = state.released.value();
+    state = advanceFlow(std::move(state), scene, parameters, 5.0);
+    EXPECT_NEAR(state.released.value() - early, 2.0 * 2e-6 * scene.area(), 0.1 * 2.0 * 2e-6 * scene.area());
+    state = advanceFlow(std::move(state), scene, parameters, 40.0);
     EXPECT_GT(state.counts.left, 3U);
     EXPECT_GT(state.counts.merged, 100U);
 }
@@ -297,7 +299,7 @@ TEST(Touching, FindsAllPairsThatSamplesFind)
         }
     }
     const auto found = touchingPairs(balls);
-    EXPECT_GT(expected.size(), 50U);
+    EXPECT_GT(expected.size(), 30U);
     // Samples miss grazes of less than a millionth.
     EXPECT_LE(found.size(), expected.size() + 2);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
