@@ -16,6 +16,9 @@ int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, i
     primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.positions.size());
     addBounds(model.accessors.back(), mesh.positions);
     primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.normals.size());
+    if (!mesh.uvs.empty()) {
+        primitive.attributes["TEXCOORD_0"] = addVertexArray(model, TINYGLTF_TYPE_VEC2, mesh.uvs.size());
+    }
     primitive.indices = addIndices(model, mesh.triangles.size(), mesh.positions.size());
     tinygltf::Mesh added;
     added.name = name;
@@ -28,6 +31,9 @@ void writeMesh(const DropletMesh& mesh, ByteStream& bytes)
 {
     writeVectors(mesh.positions, bytes);
     writeVectors(mesh.normals, bytes);
+    for (const Vec2& uv : mesh.uvs) {
+        bytes.f32(uv.x, uv.y);
+    }
     writeIndices(mesh.triangles, mesh.positions.size(), bytes);
     if (mesh.positions.size() < kVerticesBeyond16Bit && mesh.triangles.size() % 2 != 0) {
         bytes.u16(0);  // pads to the next word

@@ -18,6 +18,7 @@ struct DropletMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Triangle> triangles;
+    std::vector<Vec2> uvs;  ///< one per vertex, (0,0) top left; or empty
 };
 
 /// Adds a mesh to the model; writeMesh() then writes its bytes.

@@ -25,11 +25,6 @@ constexpr std::size_t kDropletsOfMesh = 62;
 constexpr std::size_t kAnchors = 2;  // corners of the scene in each mesh
 /// Shorter rests are part of the run around them: another joint would cost more keys [frames].
 constexpr std::uint32_t kShortRest = 15;
-/// Tolerance of a run across its path, over the width of the droplet.
-constexpr double kPlaceTolerance = 0.25;
-/// Additional tolerance of a run along its path [s].
-constexpr double kTimeTolerance = 5e-3;
-
 /// Time in which a slot shows a droplet.
 struct Span {
     const DropletHistory* history = nullptr;
@@ -156,7 +151,9 @@ std::vector<Point> pathOf(const Span& run)
 
 /// Points that suffice within the tolerances. D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the
 /// number of points required to represent a digitized line", Cartographica 10 (1973) 112, over time.
-std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, double frames_per_second)
+/// @param tolerance    across the path [m]
+/// @param time_frames  additional tolerance along the path [frames]
+std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, double time_frames)
 {
     std::vector<bool> kept(path.size(), false);
     kept.front() = true;
@@ -169,7 +166,7 @@ std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, dou
         const Vec3 chord = path[last].place - path[first].place;
         const double size = length(chord);
         const Vec3 along = size > 0.0 ? (1.0 / size) * chord : Vec3{};
-        const double longer = tolerance + kTimeTolerance * size * frames_per_second / std::max(frames, 1.0);
+        const double longer = tolerance + time_frames * size / std::max(frames, 1.0);
         double worst = 1.0;
         std::size_t split = 0;
         for (std::size_t i = first + 1; i < last; ++i) {
@@ -199,8 +196,9 @@ std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, dou
 
 /// Calls take(frame, pose) for the begin of a span and for each change since the last call: of the size, of the place
 /// of a droplet at rest, or of the shape of a running one.
+/// @param tolerance  of the place over the contact radius, for a droplet at rest
 template <typename Take>
-void forChanges(const Span& span, bool running, const Take& take)
+void forChanges(const Span& span, std::optional<double> tolerance, const Take& take)
 {
     DropletPose last = span.history->at(span.begin);
     take(span.begin, last);
@@ -210,7 +208,7 @@ void forChanges(const Span& span, bool running, const Take& take)
         }
         const DropletPose& pose = sample.pose;
         const double shift = length(vectorOf(pose.place) - vectorOf(last.place));
-        if (!last.looksLike(pose) || (!running && shift > kPlaceTolerance * static_cast<double>(pose.restRadius()))) {
+        if (!last.looksLike(pose) || (tolerance && shift > *tolerance * static_cast<double>(pose.restRadius()))) {
             last = sample.pose;
             take(sample.frame, last);
         }
@@ -560,7 +558,7 @@ private:
                     if (span.begin > free) {
                         key(free, place, 0.0F);
                     }
-                    forChanges(span, false, [&](std::uint32_t frame, const DropletPose& pose) {
+                    forChanges(span, about_.place_tolerance, [&](std::uint32_t frame, const DropletPose& pose) {
                         place = turnedBy(back, vectorOf(pose.place));
                         key(frame, place, pose.restRadius());
                     });
@@ -613,12 +611,13 @@ private:
             }
             for (const std::size_t number : slot) {
                 const Span& run = runs[number];
-                const auto tolerance = kPlaceTolerance * static_cast<double>(run.history->at(run.begin).across);
-                for (const Point& point : reduced(pathOf(run), tolerance, about_.frames_per_second)) {
+                const auto tolerance = about_.place_tolerance * static_cast<double>(run.history->at(run.begin).across);
+                for (const Point& point :
+                     reduced(pathOf(run), tolerance, about_.time_tolerance * about_.frames_per_second)) {
                     times.push_back(timeOf(point.frame));
                     append(places, point.place);
                 }
-                forChanges(run, true, change);
+                forChanges(run, std::nullopt, change);
                 if (run.end < frames_) {
                     hide(run.end, run.history->at(run.end - 1));
                 }

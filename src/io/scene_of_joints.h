@@ -38,8 +38,10 @@ struct SceneGround {
 struct JointScene {
     double frames_per_second = 30.0;
     Material material = Material::Water;
-    std::string animation;  ///< name
-    int decimals = 5;       ///< of places in metres in JSON; sizes have one more
+    std::string animation;          ///< name
+    int decimals = 5;               ///< of places in metres in JSON; sizes have one more
+    double place_tolerance = 0.25;  ///< of a run across its path and of a rest, over the half width of the droplet
+    double time_tolerance = 5e-3;   ///< additional, of a run along its path [s]
     SceneGround ground;
     DropletMesh resting;  ///< droplets at rest, which are scaled alike in all directions
     DropletMesh running;  ///< droplets on their way; +x is ahead
@@ -47,8 +49,8 @@ struct JointScene {
 };
 
 /// Writes the scene. A joint belongs to one droplet after another, so there are about as many joints as droplets at
-/// once, with one draw call for 62 of them. Keys are written where a change exceeds the tolerances that
-/// SceneAnimation::Nodes names.
+/// once, with one draw call for 62 of them. Keys are written where a change exceeds a tolerance: those of the scene,
+/// DropletPose::looksLike() and, for droplets at rest, kFacing.
 /// @return  number of bytes written
 std::uint64_t writeSceneOfJoints(const DropletHistories& histories, const JointScene& scene, std::ostream& out);
 
