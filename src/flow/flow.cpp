@@ -166,6 +166,7 @@ private:
     /// Walks and tracks of a block of droplets.
     struct Walked {
         std::vector<FlowTrack> tracks;
+        std::vector<Vec2> shares;  // of the faces that the tracks wet
         WalkCounts counts;
     };
 
@@ -185,6 +186,9 @@ private:
                         continue;
                     }
                     const WalkCounts c = walk(field, forces_[i], d, until, records ? &walked.tracks : nullptr, begin_);
+                    for (std::size_t t = walked.shares.size(); p_.wets && t < walked.tracks.size(); ++t) {
+                        walked.shares.push_back(wetShare(walked.tracks[t]));
+                    }
                     walked.counts.crossings += c.crossings;
                     walked.counts.launches += c.launches;
                     walked.counts.landings += c.landings;
@@ -194,7 +198,9 @@ private:
             },
             kDropletsPerBlock);
         tracks_.clear();
+        shares_.clear();
         for (const Walked& block : blocks) {
+            shares_.insert(shares_.end(), block.shares.begin(), block.shares.end());
             tracks_.insert(tracks_.end(), block.tracks.begin(), block.tracks.end());
             s_.counts.crossings += block.counts.crossings;
             s_.counts.launches += block.counts.launches;
@@ -375,24 +381,33 @@ private:
 
     // ---- streaks
 
-    /// Streaks smooth the faces: k_rx ← k_rx (1 − min(1, w l/A |cos θ|)), k_ry alike with sin θ.
+    /// Shares of a face that a streak covers, for roughness along its first edge and across it: w l/A |cos θ|, w l/A
+    /// |sin θ|.
+    [[nodiscard]] Vec2 wetShare(const FlowTrack& track) const
+    {
+        const FlowSurface::Face& face = c_.surface.faces[track.face];
+        const Vec3 edge = face.corners[1] - face.corners[0];
+        const Vec3 way = track.to - track.from;
+        const double along = std::abs(dot(way, edge)) / length(edge);  // l |cos θ|
+        const double across = std::sqrt(std::max(dot(way, way) - along * along, 0.0));
+        const double width_over_area = track.width / areaOf(face);
+        return {std::min(1.0, width_over_area * along), std::min(1.0, width_over_area * across)};
+    }
+
+    /// Streaks smooth the faces: k_rx ← k_rx (1 − share), k_ry alike.
     void wet()
     {
-        for (const FlowTrack& track : tracks_) {
+        const double dry_before = dryBefore();
+        for (std::size_t t = 0; t < tracks_.size(); ++t) {
+            const FlowTrack& track = tracks_[t];
             FlowState::Wetness& w = s_.wetness[track.face];
-            if (w.id != track.id || w.time < dryBefore()) {
-                w.before = w.id == 0 || w.time < dryBefore() ? Vec2{1.0, 1.0} : w.dryness;
+            if (w.id != track.id || w.time < dry_before) {
+                w.before = w.id == 0 || w.time < dry_before ? Vec2{1.0, 1.0} : w.dryness;
                 w.dryness = w.before;
                 w.id = track.id;
             }
-            const FlowSurface::Face& face = c_.surface.faces[track.face];
-            const Vec3 edge = face.corners[1] - face.corners[0];
-            const Vec3 way = track.to - track.from;
-            const double along = std::abs(dot(way, edge)) / length(edge);  // l |cos θ|
-            const double across = std::sqrt(std::max(dot(way, way) - along * along, 0.0));
-            const double area = areaOf(face);
-            w.dryness.x *= 1.0 - std::min(1.0, track.width * along / area);
-            w.dryness.y *= 1.0 - std::min(1.0, track.width * across / area);
+            w.dryness.x *= 1.0 - shares_[t].x;
+            w.dryness.y *= 1.0 - shares_[t].y;
             w.time = track.time;
         }
     }
@@ -564,6 +579,7 @@ private:
     std::vector<WalkForces> forces_;  // on every droplet
     std::vector<Vec3> from_;          // places at the begin of the step
     std::vector<FlowTrack> tracks_;   // of the step
+    std::vector<Vec2> shares_;        // of the faces that they wet
 };
 
 void requireFits(double volume, const FlowScene& scene, const FlowParameters& parameters)

@@ -22,6 +22,7 @@ struct Box {
 
 // A ball fills at most so many cells; beyond, cells are larger.
 constexpr double kMaxCells = 4096.0;
+constexpr std::size_t kMinBuckets = 1024;
 // Balls, or buckets, in a block of work for one thread.
 constexpr std::size_t kBallsPerBlock = 1024;
 
@@ -88,7 +89,7 @@ std::vector<Pair> touchingPairs(std::span<const MovingBall> balls)
     std::nth_element(sizes.begin(), middle, sizes.end());
     const double cell = std::max(2.0 * *middle, *std::max_element(sizes.begin(), sizes.end()) / std::cbrt(kMaxCells));
     const double per_metre = 1.0 / cell;
-    const std::uint64_t mask = std::bit_ceil(8 * changed) - 1;
+    const std::uint64_t mask = std::bit_ceil(std::max(8 * changed, kMinBuckets)) - 1;
     // Only buckets with a ball that has changed are filled.
     std::vector<std::uint32_t> first(mask + 2);
     for (const MovingBall& ball : balls) {
@@ -132,11 +133,14 @@ std::vector<Pair> touchingPairs(std::span<const MovingBall> balls)
             std::vector<Pair> pairs;
             for (std::size_t bucket = begin; bucket < end; ++bucket) {
                 for (std::uint32_t a = first[bucket]; a < first[bucket + 1]; ++a) {
-                    for (std::uint32_t b = a + 1; b < first[bucket + 1]; ++b) {
-                        const std::uint32_t i = members[a];
+                    const std::uint32_t i = members[a];
+                    if (!balls[i].changed) {
+                        continue;
+                    }
+                    for (std::uint32_t b = first[bucket]; b < first[bucket + 1]; ++b) {
                         const std::uint32_t j = members[b];
-                        if (i != j && (balls[i].changed || balls[j].changed) && touch(balls[i], balls[j])) {
-                            pairs.emplace_back(i, j);
+                        if (i != j && touch(balls[i], balls[j])) {
+                            pairs.emplace_back(std::min(i, j), std::max(i, j));
                         }
                     }
                 }

@@ -311,11 +311,16 @@ private:
         const double spread = std::min(
             0.5 * (height(face, side) + height(next, sideTo(next, static_cast<std::uint32_t>(&face - faces_.data())))),
             f_.contact_width);
-        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
         const Vec3 sum = face.normal + next.normal;
         const double size = length(sum);
         const double lift = size > 0.0 ? dot(f_.acceleration, sum) / size : 0.0;
-        return outward * outward * angle / spread + lift > f_.adhesion;
+        const double bend = outward * outward / spread;
+        // An angle is at most π/2 times its chord, which is quicker.
+        if (bend * 1.5708 * length(face.normal - next.normal) + lift <= f_.adhesion) {
+            return false;
+        }
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        return bend * angle + lift > f_.adhesion;
     }
 
     static std::size_t sideTo(const Face& face, std::uint32_t neighbour)

@@ -52,10 +52,10 @@ FlowScene sceneOf(const Mesh& mesh)
     return FlowScene(flowSurface(mesh.positions, mesh.triangles));
 }
 
-FlowScene slope(double angle = 30.0 * kDegree, std::uint32_t n = 20)
+FlowScene slope(double angle = 30.0 * kDegree, std::uint32_t n = 20, double size = 0.2)
 {
     Mesh mesh;
-    mesh.addSlope(0.2, angle, n);
+    mesh.addSlope(size, angle, n);
     return sceneOf(mesh);
 }
 
@@ -249,7 +249,7 @@ TEST(Flow, RainIsWhatFallsOnTheObject)
 
 TEST(Flow, DewGrowsAndRunsAndWipes)
 {
-    const FlowScene scene = slope(80.0 * kDegree, 10);
+    const FlowScene scene = slope(80.0 * kDegree, 10, 0.08);
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.1;
     parameters.condensation = FlowCondensation{2e-6, 6e-3};
@@ -277,18 +277,18 @@ TEST(Flow, RejectsDropletsLargerThanTheObject)
 TEST(Touching, FindsAllPairsThatSamplesFind)
 {
     std::vector<MovingBall> balls;
-    for (int k = 0; k < 400; ++k) {
+    for (int k = 0; k < 300; ++k) {
         const auto part = [&](double by) { return std::fmod(by * (k + 1), 1.0); };
         const Vec3 from{part(0.8191725), part(0.6710436), 0.3 * part(0.5497005)};
         const Vec3 way{0.1 * (part(0.318) - 0.5), 0.1 * (part(0.217) - 0.5), 0.0};
-        balls.push_back({from, from + way, k % 10 == 0 ? 0.05 : 0.01 * part(0.137), k % 3 != 0});
+        balls.push_back({from, from + way, k % 10 == 0 ? 0.05 : 0.02 * part(0.137), k % 3 != 0});
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
     for (std::uint32_t i = 0; i < balls.size(); ++i) {
         for (std::uint32_t j = i + 1; j < balls.size(); ++j) {
             double nearest = 1.0;
-            for (int s = 0; s <= 1000; ++s) {
-                const double share = s / 1000.0;
+            for (int s = 0; s <= 200; ++s) {
+                const double share = s / 200.0;
                 nearest =
                     std::min(nearest, length(balls[j].from - balls[i].from +
                                              share * ((balls[j].to - balls[j].from) - (balls[i].to - balls[i].from))));
@@ -299,8 +299,8 @@ TEST(Touching, FindsAllPairsThatSamplesFind)
         }
     }
     const auto found = touchingPairs(balls);
-    EXPECT_GT(expected.size(), 30U);
-    // Samples miss grazes of less than a millionth.
+    EXPECT_GT(expected.size(), 10U);
+    // Samples miss grazes of less than a step.
     EXPECT_LE(found.size(), expected.size() + 2);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
 }
