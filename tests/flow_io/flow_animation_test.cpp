@@ -83,7 +83,7 @@ struct Sequence {
             starts.push_back({scene.nearest(0.05 * up).place, (k % 5 == 0 ? 60e-9 : 1e-9 * (2 + k % 7)), {}});
         }
         FlowState state = startFlow(scene, parameters, starts);
-        for (int frame = 0; frame < 60; ++frame) {
+        for (int frame = 0; frame < 30; ++frame) {
             times.push_back(frame / kRate);
             state = advanceFlow(std::move(state), scene, parameters, times.back());
             frames.push_back(sampleFlow(state, scene, parameters));
