@@ -111,6 +111,9 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
     if (options.framed) {
         enclose({options.framed->low, options.framed->high});
     }
+    if (stand != nullptr && surface.positions.empty() && !options.framed) {
+        enclose(stand->positions);
+    }
     const Vec3 liquid_low = low;
     const Vec3 liquid_high = high;
     if (stand != nullptr) {
@@ -184,6 +187,11 @@ std::vector<Vec3f> Scene::droplets() const
     return framed_.empty()
                ? std::vector<Vec3f>(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_))
                : framed_;
+}
+
+std::vector<Vec3f> Scene::stand() const
+{
+    return {shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_), shown_.end()};
 }
 
 Vec2 Scene::uvOnPlane(Vec3f place) const
