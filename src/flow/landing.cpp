@@ -49,11 +49,32 @@ struct Landing::Scene {
         const Leg* flight = nullptr;
     };
 
+    /// First face on a ray, in units of the scene; of a flight, first face that it meets.
+    [[nodiscard]] std::optional<std::uint32_t> firstOn(Vec3 origin, Vec3 direction, float end, const Leg* flight) const
+    {
+        RTCRayHit ray{};
+        ray.ray.org_x = static_cast<float>(origin.x);
+        ray.ray.org_y = static_cast<float>(origin.y);
+        ray.ray.org_z = static_cast<float>(origin.z);
+        ray.ray.dir_x = static_cast<float>(direction.x);
+        ray.ray.dir_y = static_cast<float>(direction.y);
+        ray.ray.dir_z = static_cast<float>(direction.z);
+        ray.ray.tfar = end;
+        ray.ray.mask = 0xFFFFFFFFU;
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        Context context;
+        rtcInitIntersectContext(&context);
+        context.scene = this;
+        context.flight = flight;
+        rtcIntersect1(scene.get(), &context, &ray);
+        return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? std::optional(ray.hit.primID) : std::nullopt;
+    }
+
     static void keepMet(const RTCFilterFunctionNArguments* arguments)
     {
         const auto& context = *static_cast<const Context*>(arguments->context);
         const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);  // of one ray at a time
-        if (!context.scene->meets(*context.flight, (*context.scene->faces)[hit->primID])) {
+        if (context.flight != nullptr && !context.scene->meets(*context.flight, (*context.scene->faces)[hit->primID])) {
             arguments->valid[0] = 0;
         }
     }
@@ -121,30 +142,30 @@ std::optional<Landing::Hit> Landing::next(const Leg& flight, double from, double
             is_gone(p.z, speed.z, flight.push.z)) {
             return std::nullopt;
         }
-        RTCRayHit ray{};
-        ray.ray.org_x = static_cast<float>(p.x);
-        ray.ray.org_y = static_cast<float>(p.y);
-        ray.ray.org_z = static_cast<float>(p.z);
-        ray.ray.dir_x = static_cast<float>(way.x);
-        ray.ray.dir_y = static_cast<float>(way.y);
-        ray.ray.dir_z = static_cast<float>(way.z);
-        ray.ray.tfar = 1.0F;
-        ray.ray.mask = 0xFFFFFFFFU;
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        Scene::Context context;
-        rtcInitIntersectContext(&context);
-        context.scene = &s;
-        context.flight = &flight;
-        rtcIntersect1(s.scene.get(), &context, &ray);
-        if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-            const FlowSurface::Face& face = (*s.faces)[ray.hit.primID];
-            Hit hit{*s.meets(flight, face), ray.hit.primID, {}};
+        if (const auto number = s.firstOn(p, way, 1.0F, &flight)) {
+            const FlowSurface::Face& face = (*s.faces)[*number];
+            Hit hit{*s.meets(flight, face), *number, {}};
             hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
             return hit;
         }
         begin = end;
     }
     return std::nullopt;
+}
+
+std::optional<Landing::Hit> Landing::firstAlong(Vec3 origin, Vec3 direction) const
+{
+    const Scene& s = *scene_;
+    const Vec3 unit = (1.0 / length(direction)) * direction;
+    const Vec3 from = (1.0 / s.size) * (origin - s.middle);
+    const auto number = s.firstOn(from, unit, std::numeric_limits<float>::infinity(), nullptr);
+    if (!number) {
+        return std::nullopt;
+    }
+    const FlowSurface::Face& face = (*s.faces)[*number];
+    const double steepness = dot(unit, face.normal);
+    const double way = steepness != 0.0 ? dot(face.corners[0] - origin, face.normal) / steepness : 0.0;
+    return Hit{0.0, *number, nearestPoint(origin + way * unit, face.corners)};
 }
 
 }  // namespace droplet

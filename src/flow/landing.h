@@ -29,6 +29,10 @@ public:
     /// @param to      [s]
     [[nodiscard]] std::optional<Hit> next(const Leg& flight, double from, double to) const;
 
+    /// The first face that a ray meets, from either side. The hit's time is without meaning.
+    /// @param direction  not 0
+    [[nodiscard]] std::optional<Hit> firstAlong(Vec3 origin, Vec3 direction) const;
+
 private:
     struct Scene;
     std::unique_ptr<Scene> scene_;

@@ -4,31 +4,47 @@
 #include "droplet/flow/leg.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace droplet {
 namespace {
 
-/// (1 − e^−x)/x, whose value at 0 is 1: the mean of e^−x from 0 to x.
-double firstMean(double x)
-{
-    return x == 0.0 ? 1.0 : -std::expm1(-x) / x;
-}
+// Below, the series' first term left out, x¹²/14!, is less than rounding.
+constexpr double kSeriesUntil = 0.25;
+constexpr std::array<double, 12> kSeries = [] {
+    std::array<double, 12> terms{};
+    double factorial = 1.0;
+    for (std::size_t n = 0; n < terms.size(); ++n) {
+        factorial *= static_cast<double>(n + 2);
+        terms[n] = 1.0 / factorial;
+    }
+    return terms;
+}();
 
-/// (x − 1 + e^−x)/x², whose value at 0 is 1/2. Below 1 by its series, as the difference would lose digits.
-double secondMean(double x)
+/// The decay and its means over the time since the begin.
+struct Means {
+    double decayed = 1.0;  ///< e^−x
+    double first = 1.0;    ///< (1 − e^−x)/x, whose value at 0 is 1
+    double second = 0.5;   ///< (x − 1 + e^−x)/x², whose value at 0 is 1/2
+};
+
+Means meansOf(double x)
 {
-    if (x >= 1.0) {
-        return (1.0 - firstMean(x)) / x;
+    if (x >= kSeriesUntil) {
+        const double rest = std::expm1(-x);
+        const double first = -rest / x;
+        return {1.0 + rest, first, (1.0 - first) / x};
     }
-    double sum = 0.0;
-    double term = 0.5;
-    for (double k = 3.0; std::abs(term) > 1e-18; k += 1.0) {  // Σ (−x)^n / (n + 2)!
-        sum += term;
-        term *= -x / k;
+    // Σ (−x)^n / (n + 2)!, as the difference would lose digits.
+    double second = kSeries.back();
+    for (std::size_t n = kSeries.size() - 1; n > 0; --n) {
+        second = kSeries[n - 1] - x * second;
     }
-    return sum;
+    const double first = 1.0 - x * second;
+    return {1.0 - x * first, first, second};
 }
 
 /// ln(1 + x)/x, whose value at 0 is 1.
@@ -42,27 +58,27 @@ double logMean(double x)
 Vec3 Leg::placeAt(double time) const
 {
     const double t = time - begin;
-    const double x = decay * t;
-    return place + (t * firstMean(x)) * velocity + (t * t * secondMean(x)) * push;  // p(τ)
+    const Means mean = meansOf(decay * t);
+    return place + (t * mean.first) * velocity + (t * t * mean.second) * push;  // p(τ)
 }
 
 Vec3 Leg::velocityAt(double time) const
 {
     const double t = time - begin;
-    const double x = decay * t;
-    return std::exp(-x) * velocity + (t * firstMean(x)) * push;  // v(τ)
+    const Means mean = meansOf(decay * t);
+    return mean.decayed * velocity + (t * mean.first) * push;  // v(τ)
 }
 
 double Coordinate::placeAt(double time) const
 {
-    const double x = decay * time;
-    return place + time * (firstMean(x) * velocity + time * secondMean(x) * push);
+    const Means mean = meansOf(decay * time);
+    return place + time * (mean.first * velocity + time * mean.second * push);
 }
 
 double Coordinate::velocityAt(double time) const
 {
-    const double x = decay * time;
-    return std::exp(-x) * velocity + time * firstMean(x) * push;
+    const Means mean = meansOf(decay * time);
+    return mean.decayed * velocity + time * mean.first * push;
 }
 
 std::optional<double> Coordinate::turns() const
@@ -96,6 +112,10 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
     if (low <= 0.0) {
         return !lowest || begin < *lowest ? std::optional(begin) : std::nullopt;
     }
+    // From begin on it falls, up to its lowest place.
+    if (std::isfinite(to) && placeAt(lowest ? std::min(*lowest, to) : to) >= 0.0) {
+        return std::nullopt;
+    }
     // The bracket does not depend on `to`, so that the root does not.
     double end = 0.0;
     if (lowest) {
@@ -114,15 +134,17 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
     }
     // Newton's method inside of a bracket, on a monotone piece.
     double time = begin;
+    double slope = velocityAt(time);
     for (int i = 0; i < 100; ++i) {
-        const double slope = velocityAt(time);
         double next = slope < 0.0 ? time - low / slope : begin;
         if (!(next > begin && next < end)) {
             next = begin + 0.5 * (end - begin);
         }
         const double change = std::abs(next - time);
         time = next;
-        low = placeAt(time);
+        const Means mean = meansOf(decay * time);
+        low = place + time * (mean.first * velocity + time * mean.second * push);
+        slope = mean.decayed * velocity + time * mean.first * push;
         if (low == 0.0 || change <= 4e-16 * time) {
             break;
         }

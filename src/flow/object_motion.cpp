@@ -100,7 +100,7 @@ bool ObjectMotion::rests() const
     if (keys.empty()) {
         return spin == Vec3{};
     }
-    return std::all_of(keys.begin(), keys.end(), [&](const Key& key) { return key.pose == keys.front().pose; });
+    return std::all_of(keys.begin(), keys.end(), [](const Key& key) { return key.pose == ObjectPose{}; });
 }
 
 ObjectPose ObjectMotion::at(double time) const

@@ -29,9 +29,24 @@ constexpr int kMaxEventsAtOnce = 1000;
 
 class Walk {
 public:
-    Walk(const FlowSurface& surface, const Landing* landing, const WalkForces& forces, FlowDroplet& droplet)
-        : faces_(surface.faces), landing_(landing), f_(forces), d_(droplet), time_(droplet.leg.begin)
+    Walk(const WalkField& field, const WalkForces& forces, FlowDroplet& droplet)
+        : faces_(field.surface.faces),
+          landing_(field.landing),
+          ground_(field.ground),
+          f_(forces),
+          drive_(forces.acceleration + forces.wind),
+          d_(droplet),
+          time_(droplet.leg.begin)
     {
+    }
+
+    /// Records the path from now on.
+    void record(std::vector<FlowTrack>* tracks, double from)
+    {
+        tracks_ = tracks;
+        if (tracks_ != nullptr) {
+            track_begin_ = d_.leg.placeAt(std::max(from, d_.leg.begin));
+        }
     }
 
     WalkCounts until(double end)
@@ -49,7 +64,33 @@ public:
                 break;
             }
         }
+        if (d_.contact == FlowContact::Face || d_.contact == FlowContact::Edge) {
+            endTrack(d_.leg.placeAt(end), end);
+        }
         return counts_;
+    }
+
+    void redirect(double time)
+    {
+        time_ = time;
+        const Vec3 place = d_.leg.placeAt(time);
+        const Vec3 velocity = d_.leg.velocityAt(time);
+        switch (d_.contact) {
+            case FlowContact::Face:
+            case FlowContact::Still:
+                enter(d_.face, time, place, velocity);
+                break;
+            case FlowContact::Edge:
+                if (isValley(d_.face, d_.side)) {
+                    move(place, velocity, pushAlong(), true);
+                } else {
+                    enter(d_.face, time, place, velocity);
+                }
+                break;
+            case FlowContact::Air:
+                d_.leg = {time, place, velocity, f_.fall, 0.0};
+                break;
+        }
     }
 
     void enter(std::uint32_t face, double time, Vec3 place, Vec3 velocity)
@@ -57,6 +98,12 @@ public:
         time_ = time;
         const Vec3& normal = faces_[face].normal;
         const Vec3 along = velocity - dot(velocity, normal) * normal;
+        if (d_.contact != FlowContact::Air && face != d_.face) {
+            endTrack(place, time);
+        }
+        if (d_.contact == FlowContact::Air) {
+            track_begin_ = place;
+        }
         d_.face = face;
         if (dot(f_.acceleration, normal) > f_.adhesion) {
             launch(place, along);
@@ -72,7 +119,29 @@ private:
     Vec3 pushOn(std::uint32_t face) const
     {
         const Vec3& normal = faces_[face].normal;
-        return f_.smoothness * (f_.acceleration - dot(f_.acceleration, normal) * normal);  // F ← F (1 − k_r)
+        const Vec3 push = drive_ - dot(drive_, normal) * normal;
+        if (ground_.isUniform()) {
+            return push;
+        }
+        const Vec2 smoothness = ground_.at(face, d_.id, f_.height).smoothness;
+        if (smoothness.x == smoothness.y) {
+            return smoothness.x * push;  // F ← F (1 − k_r)
+        }
+        const Vec3 edge = faces_[face].corners[1] - faces_[face].corners[0];
+        const Vec3 x = (1.0 / length(edge)) * edge;
+        const Vec3 along = dot(push, x) * x;
+        return smoothness.x * along + smoothness.y * (push - along);
+    }
+
+    Grip gripHere() const { return ground_.isUniform() ? Grip{} : ground_.at(d_.face, d_.id, f_.height); }
+
+    /// Ends the piece of the path over the present face.
+    void endTrack(Vec3 place, double time)
+    {
+        if (tracks_ != nullptr && place != track_begin_) {
+            tracks_->push_back({d_.id, d_.face, track_begin_, place, f_.contact_width, time});
+            track_begin_ = place;
+        }
     }
 
     /// Begins a leg; at rest if hysteresis holds the droplet.
@@ -81,20 +150,21 @@ private:
     void move(Vec3 place, Vec3 velocity, Vec3 push, bool keeps_heading)
     {
         Vec3 friction;
+        const Grip grip = gripHere();
         if (f_.retention > 0.0 || f_.sliding > 0.0) {
             const bool is_at_rest = velocity == Vec3{};
             const Vec3 direction = is_at_rest ? push : velocity;
             const double size = length(direction);
-            if (is_at_rest && size <= std::max(f_.retention, f_.sliding)) {
+            if (is_at_rest && size <= grip.retention * std::max(f_.retention, f_.sliding)) {
                 stop(place);
                 return;
             }
             if (!keeps_heading || dot(d_.heading, direction) < kStraight * size) {
                 d_.heading = (1.0 / size) * direction;
             }
-            friction = f_.sliding * d_.heading;
+            friction = (grip.retention * f_.sliding) * d_.heading;
         }
-        d_.leg = {time_, place, velocity, push - friction, f_.decay};
+        d_.leg = {time_, place, velocity, push - friction, grip.friction * f_.decay};
     }
 
     /// When the velocity has turned away from the heading, or is 0; [s] after the leg's begin.
@@ -241,11 +311,16 @@ private:
         const double spread = std::min(
             0.5 * (height(face, side) + height(next, sideTo(next, static_cast<std::uint32_t>(&face - faces_.data())))),
             f_.contact_width);
-        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
         const Vec3 sum = face.normal + next.normal;
         const double size = length(sum);
         const double lift = size > 0.0 ? dot(f_.acceleration, sum) / size : 0.0;
-        return outward * outward * angle / spread + lift > f_.adhesion;
+        const double bend = outward * outward / spread;
+        // An angle is at most π/2 times its chord, which is quicker.
+        if (bend * 1.5708 * length(face.normal - next.normal) + lift <= f_.adhesion) {
+            return false;
+        }
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        return bend * angle + lift > f_.adhesion;
     }
 
     static std::size_t sideTo(const Face& face, std::uint32_t neighbour)
@@ -255,6 +330,9 @@ private:
 
     void runAlong(std::uint32_t face, std::size_t side, Vec3 place, Vec3 velocity)
     {
+        if (face != d_.face) {
+            endTrack(place, time_);
+        }
         d_.contact = FlowContact::Edge;
         d_.face = face;
         d_.side = static_cast<std::uint32_t>(side);
@@ -265,7 +343,7 @@ private:
     {
         const Face& face = faces_[d_.face];
         const Vec3 edge = face.corners[(d_.side + 1) % 3] - face.corners[d_.side];
-        return (f_.smoothness * dot(f_.acceleration, edge) / dot(edge, edge)) * edge;
+        return (dot(pushOn(d_.face), edge) / dot(edge, edge)) * edge;
     }
 
     bool advanceAlongEdge(double end)
@@ -308,8 +386,8 @@ private:
         const Vec3 place = faces_[d_.face].corners[corner];
         const Vec3 velocity = d_.leg.velocityAt(time_);
         const std::vector<Spoke> fan = fanAround(d_.face, corner);
-        const std::optional<Way> downward = wayOf(fan, place, f_.acceleration);
-        const double hop = 2.0 * kLowestHop * f_.contact_width * f_.smoothness * length(f_.acceleration);
+        const std::optional<Way> downward = wayOf(fan, place, drive_);
+        const double hop = 2.0 * kLowestHop * f_.contact_width * length(drive_);
         if (dot(velocity, velocity) > (downward ? 0.0 : hop)) {
             if (const auto way = wayOf(fan, place, velocity)) {
                 take(*way, place, velocity);
@@ -405,13 +483,16 @@ private:
     void launch(Vec3 place, Vec3 velocity)
     {
         ++counts_.launches;
+        if (d_.contact != FlowContact::Air) {
+            endTrack(place, time_);
+        }
         d_.contact = FlowContact::Air;
         d_.leg = {time_, place, velocity, f_.fall, 0.0};
     }
 
     bool advanceInAir(double end)
     {
-        const auto hit = landing_->next(d_.leg, time_, end);
+        const auto hit = landing_.next(d_.leg, time_, end);
         if (!hit) {
             return false;
         }
@@ -427,26 +508,39 @@ private:
     }
 
     const std::vector<Face>& faces_;
-    const Landing* landing_;  // null if the droplet is only put down
+    const Landing& landing_;
+    const WalkGround& ground_;
     const WalkForces& f_;
+    Vec3 drive_;  // acceleration along the surface, before roughness
     FlowDroplet& d_;
     double time_;
     bool is_open_ = false;  // the last fan
+    std::vector<FlowTrack>* tracks_ = nullptr;
+    Vec3 track_begin_;
     WalkCounts counts_;
 };
 
 }  // namespace
 
-WalkCounts walk(const FlowSurface& surface, const Landing& landing, const WalkForces& forces, FlowDroplet& droplet,
-                double until)
+WalkCounts walk(const WalkField& field, const WalkForces& forces, FlowDroplet& droplet, double until,
+                std::vector<FlowTrack>* tracks, double from)
 {
-    return Walk(surface, &landing, forces, droplet).until(until);
+    Walk walk(field, forces, droplet);
+    walk.record(tracks, from);
+    return walk.until(until);
 }
 
-void putOnFace(const FlowSurface& surface, const WalkForces& forces, FlowDroplet& droplet, std::uint32_t face,
-               double time, Vec3 place, Vec3 velocity)
+void putOnFace(const WalkField& field, const WalkForces& forces, FlowDroplet& droplet, std::uint32_t face,
+               const Leg& begin)
 {
-    Walk(surface, nullptr, forces, droplet).enter(face, time, place, velocity);
+    droplet.contact = FlowContact::Face;
+    droplet.face = face;
+    Walk(field, forces, droplet).enter(face, begin.begin, begin.place, begin.velocity);
+}
+
+void redirect(const WalkField& field, const WalkForces& forces, FlowDroplet& droplet, double time)
+{
+    Walk(field, forces, droplet).redirect(time);
 }
 
 }  // namespace droplet

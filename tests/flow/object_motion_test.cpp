@@ -38,9 +38,9 @@ void expectAccelerationOfPath(const ObjectMotion& motion, double time)
     constexpr double kStep = 1e-3;
     const auto path = [&](double dt) { return worldOf(motion, time + dt, place + dt * velocity); };
     // Fourth order, so the error of rounding dominates.
-    const Vec3 second = (1.0 / (12.0 * kStep * kStep)) *
-                        (-1.0 * path(-2 * kStep) + 16.0 * path(-kStep) + -30.0 * path(0.0) + 16.0 * path(kStep) +
-                         -1.0 * path(2 * kStep));
+    const Vec3 second =
+        (1.0 / (12.0 * kStep * kStep)) * (-1.0 * path(-2 * kStep) + 16.0 * path(-kStep) + -30.0 * path(0.0) +
+                                          16.0 * path(kStep) + -1.0 * path(2 * kStep));
     expectNear(motion.apparentAcceleration(time, place, velocity), -1.0 * motion.at(time).toObject(second), 1e-7);
 }
 
@@ -109,6 +109,8 @@ TEST(ObjectMotion, JumpsWhereTwoKeysHaveOneTime)
     EXPECT_EQ(motion.at(0.999), ObjectPose{});
     EXPECT_EQ(motion.at(1.0), moved);
     motion.keys = {{0.0, moved}, {1.0, moved}};
+    EXPECT_FALSE(motion.rests());
+    motion.keys = {{0.0, {}}, {1.0, {}}};
     EXPECT_TRUE(motion.rests());
 }
 

@@ -108,7 +108,7 @@ public:
             }
             if (inside) {
                 FlowDroplet droplet;
-                putOnFace(surface, f, droplet, t, 0.0, p, velocity);
+                putOnFace({surface, landing}, f, droplet, t, {0.0, p, velocity, {}, 0.0});
                 return droplet;
             }
         }
@@ -141,7 +141,7 @@ TEST(Walk, IsTheFormulaOnASlopeHoweverFineItIsCut)
             FlowDroplet droplet = run.dropletAt(f, {0.313, 0.917}, {0.11, 0.0, 0.0});
             const Leg whole = droplet.leg;
             for (double time = 0.05; time < 0.45; time += 0.05) {
-                walk(run.surface, run.landing, f, droplet, time);
+                walk({run.surface, run.landing}, f, droplet, time);
                 ASSERT_EQ(droplet.contact, FlowContact::Face);
                 EXPECT_LE(length(droplet.leg.placeAt(time) - whole.placeAt(time)), n == 1 ? 1e-12 : 1e-9)
                     << n << " at " << time;
@@ -158,9 +158,9 @@ TEST(Walk, DoesNotDependOnTheFrames)
     f.adhesion = 20.0;
     FlowDroplet once = run.dropletAt(f, {0.4, 0.9}, {0.3, 0.0, 0.0});
     FlowDroplet often = once;
-    walk(run.surface, run.landing, f, once, 1.0);
+    walk({run.surface, run.landing}, f, once, 1.0);
     for (int i = 1; i <= 777; ++i) {
-        walk(run.surface, run.landing, f, often, i / 777.0);
+        walk({run.surface, run.landing}, f, often, i / 777.0);
     }
     EXPECT_EQ(once.leg.place, often.leg.place);
     EXPECT_EQ(once.leg.velocity, often.leg.velocity);
@@ -178,14 +178,14 @@ TEST(Walk, StopsByHysteresisWhereCoulombsFrictionDoes)
     const double v = 1.2;
     FlowDroplet droplet = run.dropletAt(f, {0.3, 0.2}, {0.0, v * std::cos(slope), v * std::sin(slope)});
     const Vec3 start = droplet.leg.place;
-    walk(run.surface, run.landing, f, droplet, 5.0);
+    walk({run.surface, run.landing}, f, droplet, 5.0);
     EXPECT_EQ(droplet.contact, FlowContact::Still);
     const double way = v * v / (2.0 * (9.81 * std::sin(slope) + 2.0));
     EXPECT_NEAR(length(droplet.leg.placeAt(5.0) - start), way, 1e-9);
     // With less retention than its weight it slides back, with friction the other way.
     f.retention = f.sliding = 1.0;
     droplet = run.dropletAt(f, {0.3, 0.6});
-    walk(run.surface, run.landing, f, droplet, 0.5);
+    walk({run.surface, run.landing}, f, droplet, 0.5);
     EXPECT_NEAR(0.5 * (9.81 * std::sin(slope) - 1.0) * 0.25, (0.6 - droplet.leg.placeAt(0.5).y) / std::cos(slope),
                 1e-12);
 }
@@ -210,7 +210,7 @@ TEST(Walk, TurnsDownhillAsTheEquationOfMotionSays)
     for (const std::uint32_t n : {1U, 8U, 60U}) {
         const Ground run(gridOf(n, n, [&](double, double y) { return std::tan(slope) * y; }));
         FlowDroplet droplet = run.dropletAt(f, {0.2, 0.9}, {0.5, 0.0, 0.0});
-        walk(run.surface, run.landing, f, droplet, 0.3);
+        walk({run.surface, run.landing}, f, droplet, 0.3);
         const Vec3 found = droplet.leg.placeAt(0.3);
         EXPECT_NEAR(found.x - 0.2, p.x, 5e-3 * length(p)) << n;
         EXPECT_NEAR((found.y - 0.9) / std::cos(slope), p.y, 5e-3 * length(p)) << n;
@@ -228,7 +228,7 @@ TEST(Walk, KeepsItsEnergyOverConvexEdges)
     };
     const double start = energy(0.0);
     for (int i = 1; i <= 20; ++i) {
-        walk(run.surface, run.landing, f, droplet, 0.02 * i);
+        walk({run.surface, run.landing}, f, droplet, 0.02 * i);
         ASSERT_EQ(droplet.contact, FlowContact::Face);
         EXPECT_NEAR(energy(0.02 * i), start, 1e-12);
     }
@@ -245,7 +245,7 @@ TEST(Walk, LeavesASphereWhereTheWeakerAdhesionFailsSooner)
         FlowDroplet droplet = run.dropletAt(f, {0.02, 0.007});
         double time = 0.0;
         while (droplet.contact != FlowContact::Air && time < 60.0) {
-            walk(run.surface, run.landing, f, droplet, time += 0.05);
+            walk({run.surface, run.landing}, f, droplet, time += 0.05);
         }
         ASSERT_EQ(droplet.contact, FlowContact::Air) << adhesion;
         const double z = droplet.leg.place.z / 0.1;
@@ -270,7 +270,7 @@ TEST(Walk, FallsOffTheBoundaryAndLandsBelow)
     EXPECT_EQ(run.surface.report.parts, 2U);
     const WalkForces f = forces();
     FlowDroplet droplet = run.dropletAt(f, {0.4, 0.3});
-    const WalkCounts counts = walk(run.surface, run.landing, f, droplet, 1.2);
+    const WalkCounts counts = walk({run.surface, run.landing}, f, droplet, 1.2);
     EXPECT_EQ(counts.launches, 1U);
     EXPECT_EQ(counts.landings, 1U);
     EXPECT_EQ(droplet.contact, FlowContact::Face);
@@ -294,10 +294,10 @@ TEST(Walk, RunsAlongAValley)
     const Ground run(gridOf(2, 1, gutter));
     const WalkForces f = forces(3.0);
     FlowDroplet droplet = run.dropletAt(f, {0.7, 0.9});
-    walk(run.surface, run.landing, f, droplet, 0.9);
+    walk({run.surface, run.landing}, f, droplet, 0.9);
     EXPECT_EQ(droplet.contact, FlowContact::Edge);
     EXPECT_NEAR(droplet.leg.placeAt(0.9).x, 0.5, 1e-12);
-    walk(run.surface, run.landing, f, droplet, 5.0);
+    walk({run.surface, run.landing}, f, droplet, 5.0);
     EXPECT_EQ(droplet.contact, FlowContact::Air);
     EXPECT_LT(droplet.leg.place.y, 1e-9);
 }
@@ -308,7 +308,7 @@ TEST(Walk, RestsInAPit)
     const Ground run(gridOf(4, 4, pit));
     const WalkForces f = forces(3.0);
     FlowDroplet droplet = run.dropletAt(f, {0.8, 0.63});
-    walk(run.surface, run.landing, f, droplet, 30.0);
+    walk({run.surface, run.landing}, f, droplet, 30.0);
     EXPECT_EQ(droplet.contact, FlowContact::Still);
     EXPECT_NEAR(length(droplet.leg.placeAt(30.0) - Vec3{0.5, 0.5, 0.0}), 0.0, 1e-9);
 }
@@ -329,7 +329,7 @@ TEST(Walk, NeverLeavesTheSurfaceOverAMillionCrossings)
         ASSERT_LT(i, 10000);
         FlowDroplet droplet = run.dropletAt(f, {uniform(random), uniform(random)}, {30.0 * uniform(random), 1.0, 0.0});
         for (int k = 1; k <= 30; ++k) {
-            const WalkCounts counts = walk(run.surface, run.landing, f, droplet, 0.02 * k);
+            const WalkCounts counts = walk({run.surface, run.landing}, f, droplet, 0.02 * k);
             crossings += counts.crossings;
             stuck += counts.stuck;
             ASSERT_NE(droplet.contact, FlowContact::Air) << i;

@@ -44,7 +44,7 @@ struct FlowBalance {
     [[nodiscard]] double residual() const;
 };
 
-/// Path of a droplet over one face, in the last call of advanceFlow.
+/// Path of a droplet over one face within a step; those of all steps of the last call of advanceFlow are kept.
 struct FlowTrack {
     std::uint64_t id = 0;    ///< of the droplet
     std::uint32_t face = 0;  ///< number in FlowSurface::faces
@@ -54,34 +54,43 @@ struct FlowTrack {
     double time = 0.0;       ///< at `to` [s]
 };
 
-/// Complete state of droplets on a surface. Made by startFlow, advanceFlow and flowStateFromBytes.
+/// Complete state of droplets on a surface. Made by startFlow, advanceFlow and flowStateFromBytes. The droplets are
+/// those at the last whole step; sampleFlow tells where they are at `time`.
 struct FlowState {
     /// Traces of liquid on a face.
     struct Wetness {
         Vec2 dryness = {1.0, 1.0};  ///< factors on the roughness along the face's first edge and across it, 0 … 1
-        double time = 0.0;          ///< when a droplet was last on it [s]
+        Vec2 before = {1.0, 1.0};   ///< the same before the last droplet came: its own streak does not carry it
+        std::uint64_t id = 0;       ///< of the last droplet; 0: none
+        double time = 0.0;          ///< when it was last on the face [s]
     };
-    /// Film that a droplet has left and that has not yet become a bead.
+    /// What an emitter has done.
+    struct Emission {
+        double pending = 0.0;        ///< volume gathered for the next droplet [m³]
+        std::uint64_t released = 0;  ///< number of droplets
+    };
+    /// Film on a piece of a droplet's way, as long as the beads' spacing, that becomes one bead.
     struct Trail {
         std::uint64_t id = 0;    ///< of the droplet
         double volume = 0.0;     ///< [m³]
+        double drying = 0.0;     ///< volume that evaporates in a second [m³/s]
         double length = 0.0;     ///< [m]
-        std::uint32_t face = 0;  ///< where it will become a bead
-        Vec3 place;              ///< there [m]
+        std::uint32_t face = 0;  ///< of its middle
+        Vec3 place;              ///< its middle [m]
     };
 
     double time = 0.0;                  ///< [s]
-    std::uint64_t steps = 0;            ///< number of whole steps (FlowParameters::step) since the start
+    std::uint64_t steps = 0;            ///< whole steps (FlowParameters::step) since the start; steps × step ≤ time
     std::vector<FlowDroplet> droplets;  ///< in the order of their ids
     std::vector<Wetness> wetness;       ///< of every face
-    std::vector<Trail> trails;          ///< in the order of ids
+    std::vector<Trail> trails;          ///< in the order of their begin
     std::vector<FlowTrack> tracks;      ///< of the last advanceFlow; not part of the saved state
     std::uint64_t next_id = 1;          ///< of the next droplet
     std::uint64_t next_raindrop = 0;    ///< number of the next raindrop
     std::uint64_t next_nucleus = 0;     ///< number of the next droplet of dew
     double until_raindrop = 0.0;        ///< expected number of raindrops until the next one arrives
     double until_nucleus = 0.0;         ///< the same for dew
-    std::vector<double> pending;        ///< volume that every emitter has gathered [m³]
+    std::vector<Emission> emissions;    ///< of every emitter
     CompensatedSum released;            ///< FlowBalance::released [m³]
     CompensatedSum left;                ///< FlowBalance::left [m³]
     CompensatedSum dried;               ///< FlowBalance::dried [m³]
@@ -118,7 +127,8 @@ struct FlowSample {
 };
 
 /// All droplets at the state's time, in the order of their ids.
-std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene);
+/// @param parameters  of the simulation
+std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters);
 
 /// Where the liquid is at the state's time.
 FlowBalance balanceOf(const FlowState& state);

@@ -21,6 +21,8 @@ enum class FlowContact : std::uint8_t {
 struct FlowDroplet {
     std::uint64_t id = 0;                    ///< unique; selects the droplet's random stream
     double volume = 0.0;                     ///< [m³], > 0
+    double drying = 0.0;                     ///< volume that evaporates in a second [m³/s], ≥ 0
+    bool has_grown = false;                  ///< since neighbours were searched for
     FlowContact contact = FlowContact::Air;  ///< what it touches
     std::uint32_t face = 0;                  ///< number in FlowSurface::faces; in the air, the last one
     std::uint32_t side = 0;                  ///< of the face, for contact Edge

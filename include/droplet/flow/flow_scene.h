@@ -10,6 +10,9 @@
 
 namespace droplet {
 
+/// Area of a face [m²].
+double areaOf(const FlowSurface::Face& face);
+
 /// A surface, prepared for droplets: searches for landings and for the nearest point. Immutable, for any number of
 /// threads.
 class FlowScene {
@@ -32,6 +35,8 @@ public:
     [[nodiscard]] const FlowSurface& surface() const;
     /// Area of all faces [m²].
     [[nodiscard]] double area() const;
+    /// Diagonal of the box around the surface [m].
+    [[nodiscard]] double diameter() const;
     /// Point for two random numbers, uniform by area.
     /// @param u, v  uniform in [0, 1)
     [[nodiscard]] Point pointAt(double u, double v) const;

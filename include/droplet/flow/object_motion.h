@@ -38,7 +38,7 @@ struct ObjectMotion {
     std::vector<Key> keys;  ///< ascending times; if not empty, they replace `spin`; before and after them it rests
     Vec3 pivot;             ///< point of the object's frame about which it turns [m]
 
-    /// Whether the object stays where it is.
+    /// Whether the object's frame is the world's at all times.
     [[nodiscard]] bool rests() const;
     /// Pose at a time; at a jump, after it.
     [[nodiscard]] ObjectPose at(double time) const;

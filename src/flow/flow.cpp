@@ -1,0 +1,680 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// P. Fournier, A. Habibi, P. Poulin, "Simulating the flow of liquid droplets", Graphics Interface 1998, section 2.
+// Departures: droplets merge in steps of their own, where the paper's merge at frames; what their streaks do to the
+// next ones they do not do to themselves; streaks hold liquid, which the paper's do not.
+#include "droplet/flow/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include "blocks.h"
+#include "droplet/error.h"
+#include "flow/flow_forces.h"
+#include "flow/flow_scene_content.h"
+#include "flow/touching.h"
+#include "flow/walk.h"
+#include "number_text.h"
+#include "require.h"
+#include "union_find.h"
+#include "wind/random.h"
+
+namespace droplet {
+namespace {
+
+// Droplets in a block of work for one thread.
+constexpr std::size_t kDropletsPerBlock = 64;
+// Dew grows once in so many steps.
+constexpr std::uint64_t kStepsOfDew = 12;
+// A new droplet of dew is so much smaller than the distance to the next.
+constexpr double kNucleusShare = 0.05;
+// A droplet is gone when it is so many diameters of the object away.
+constexpr double kAway = 2.0;
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Walks droplets through one step.
+class Step {
+public:
+    Step(const FlowScene& scene, const FlowParameters& parameters, FlowState& state)
+        : c_(scene.content()), scene_(scene), p_(parameters), s_(state), begin_(timeOf(state.steps))
+    {
+        update();
+    }
+
+    /// Puts a droplet where it starts, at the begin of the present step.
+    void start(const FlowStart& start)
+    {
+        FlowDroplet droplet;
+        droplet.id = s_.next_id++;
+        droplet.volume = start.volume;
+        droplet.has_grown = true;
+        droplet.leg = {begin_, start.place, start.velocity, {}, 0.0};
+        const WalkForces forces = forcesOf(droplet);
+        const FlowScene::Point point = scene_.nearest(start.place);
+        if (length(point.place - start.place) <= 0.5 * forces.contact_width) {
+            putOnFace(walkField(), forces, droplet, point.face, {begin_, point.place, start.velocity, {}, 0.0});
+        } else {
+            droplet.face = point.face;
+            droplet.leg.push = forces.fall;
+        }
+        s_.released.add(droplet.volume);
+        ++s_.counts.released;
+        s_.droplets.push_back(droplet);
+        forces_.push_back(forces);
+    }
+
+    void run()
+    {
+        arrive();
+        if (!p_.motion.rests()) {
+            redirectAll();
+        }
+        move(timeOf(s_.steps + 1), true);
+        if (p_.merges) {
+            merge();
+        }
+        if (p_.wets) {
+            wet();
+        }
+        if (p_.streaks.film > 0.0) {
+            leaveFilm();
+        }
+        dry();
+        if (p_.condensation && s_.steps % kStepsOfDew == kStepsOfDew - 1) {
+            grow();
+        }
+        leave();
+        s_.tracks.insert(s_.tracks.end(), tracks_.begin(), tracks_.end());
+        ++s_.steps;
+        begin_ = timeOf(s_.steps);
+        update();
+    }
+
+    /// Moves all droplets to a time in the step that begins, without their meetings.
+    void moveWithin(double until)
+    {
+        if (!p_.motion.rests()) {
+            redirectAll();
+        }
+        move(until, false);
+    }
+
+private:
+    [[nodiscard]] double timeOf(std::uint64_t steps) const { return static_cast<double>(steps) * p_.step; }
+    [[nodiscard]] double end() const { return timeOf(s_.steps + 1); }
+
+    /// Field, forces and ground for the step that begins.
+    void update()
+    {
+        if (forces_.empty() || !p_.motion.rests()) {
+            field_ = fieldAt(p_, begin_);
+            forces_.resize(s_.droplets.size());
+            forBlocks(
+                forces_.size(),
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i) {
+                        forces_[i] = forcesOf(s_.droplets[i]);
+                    }
+                },
+                kDropletsPerBlock);
+        }
+    }
+
+    [[nodiscard]] WalkForces forcesOf(const FlowDroplet& droplet) const
+    {
+        return forcesOn(p_, field_, droplet, p_.motion.rests() ? std::nullopt : std::optional(begin_));
+    }
+
+    [[nodiscard]] WalkField walkField() const
+    {
+        WalkGround ground;
+        const bool has_ground =
+            !(p_.ground.roughness.empty() && p_.ground.friction.empty() && p_.ground.hysteresis.empty());
+        ground.faces = has_ground ? &p_.ground : nullptr;
+        ground.roughness = p_.roughness;
+        if (p_.wets) {
+            ground.wetness = s_.wetness;
+            ground.dry_before = dryBefore();
+            ground.wet_is_slippery = p_.model == FlowModel::Capillary;
+        }
+        return {c_.surface, c_.landing, ground};
+    }
+
+    [[nodiscard]] double dryBefore() const
+    {
+        return p_.drying ? begin_ - *p_.drying : -std::numeric_limits<double>::infinity();
+    }
+
+    void redirectAll()
+    {
+        const WalkField field = walkField();
+        forBlocks(
+            s_.droplets.size(),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    redirect(field, forces_[i], s_.droplets[i], begin_);
+                }
+            },
+            kDropletsPerBlock);
+    }
+
+    /// Walks and tracks of a block of droplets.
+    struct Walked {
+        std::vector<FlowTrack> tracks;
+        std::vector<Vec2> shares;  // of the faces that the tracks wet
+        WalkCounts counts;
+    };
+
+    void move(double until, bool records)
+    {
+        const WalkField field = walkField();
+        const std::size_t count = s_.droplets.size();
+        from_.resize(count);
+        const std::vector<Walked> blocks = mapBlocks<Walked>(
+            count,
+            [&](std::size_t first, std::size_t last) {
+                Walked walked;
+                for (std::size_t i = first; i < last; ++i) {
+                    FlowDroplet& d = s_.droplets[i];
+                    from_[i] = d.leg.placeAt(std::max(begin_, d.leg.begin));
+                    if (d.contact == FlowContact::Still) {
+                        continue;
+                    }
+                    const WalkCounts c = walk(field, forces_[i], d, until, records ? &walked.tracks : nullptr, begin_);
+                    for (std::size_t t = walked.shares.size(); p_.wets && t < walked.tracks.size(); ++t) {
+                        walked.shares.push_back(wetShare(walked.tracks[t]));
+                    }
+                    walked.counts.crossings += c.crossings;
+                    walked.counts.launches += c.launches;
+                    walked.counts.landings += c.landings;
+                    walked.counts.stuck += c.stuck;
+                }
+                return walked;
+            },
+            kDropletsPerBlock);
+        tracks_.clear();
+        shares_.clear();
+        for (const Walked& block : blocks) {
+            shares_.insert(shares_.end(), block.shares.begin(), block.shares.end());
+            tracks_.insert(tracks_.end(), block.tracks.begin(), block.tracks.end());
+            s_.counts.crossings += block.counts.crossings;
+            s_.counts.launches += block.counts.launches;
+            s_.counts.landings += block.counts.landings;
+            s_.counts.stuck += block.counts.stuck;
+        }
+    }
+
+    // ---- sources
+
+    void arrive()
+    {
+        for (std::size_t e = 0; e < p_.emitters.size(); ++e) {
+            const FlowEmitter& emitter = p_.emitters[e];
+            FlowState::Emission& emission = s_.emissions[e];
+            emission.pending += emitter.rate * p_.step;
+            for (;;) {
+                const RandomStream random(p_.seed, RandomPurpose::Emission,
+                                          (std::uint64_t{e} << 40U) + emission.released);
+                const double volume = emitter.volumes.at(random.uniform(0), random.uniform(1));
+                if (emission.pending < volume) {
+                    break;
+                }
+                emission.pending -= volume;
+                ++emission.released;
+                start({emitter.place, volume, {}});
+            }
+        }
+        if (p_.rain && p_.rain->rainfall > 0.0) {
+            rain();
+        }
+        if (p_.condensation && s_.steps % kStepsOfDew == 0) {
+            nucleate();
+        }
+    }
+
+    void rain()
+    {
+        const FlowRain& rain = *p_.rain;
+        const RainImpacts impacts{
+            raindropSizes(rain.rainfall), {std::max(rain.small_diameter, rain.raindrops.min), rain.raindrops.max}, 0.0};
+        const double radius = 0.5 * scene_.diameter();
+        const double rate = impacts.bound() * std::numbers::pi * radius * radius;
+        if (!(rate > 0.0)) {
+            return;
+        }
+        const RaindropSampler sampler(impacts);
+        const Vec3 from = (1.0 / length(rain.from)) * rain.from;
+        const Vec3 any = std::abs(from.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+        const Vec3 across = (1.0 / length(cross(any, from))) * cross(any, from);
+        const Vec3 beyond = cross(from, across);
+        s_.until_raindrop -= rate * p_.step;
+        while (s_.until_raindrop <= 0.0) {
+            const RandomStream random(p_.seed, RandomPurpose::Raindrop, s_.next_raindrop++);
+            s_.until_raindrop += random.exponential(0);
+            const double diameter = sampler.diameter(random.uniform(1), random.uniform(2));
+            const double out = radius * std::sqrt(random.uniform(3));
+            const double turn = 2.0 * std::numbers::pi * random.uniform(4);
+            const Vec3 origin =
+                c_.middle() + 2.0 * radius * from + (out * std::cos(turn)) * across + (out * std::sin(turn)) * beyond;
+            const auto point = scene_.firstAlong(origin, -1.0 * from);
+            if (point && dot(c_.surface.faces[point->face].normal, from) > 0.0) {
+                start({point->place, std::numbers::pi / 6.0 * diameter * diameter * diameter, {}});
+            }
+        }
+    }
+
+    void nucleate()
+    {
+        const double spacing = p_.condensation->spacing;
+        const double room = scene_.area() / (spacing * spacing) - static_cast<double>(s_.droplets.size());
+        const double seconds = static_cast<double>(kStepsOfDew) * p_.step;
+        s_.until_nucleus -= std::max(room, 0.0) * seconds;  // a dry surface is covered within about a second
+        while (s_.until_nucleus <= 0.0) {
+            const RandomStream random(p_.seed, RandomPurpose::Nucleus, s_.next_nucleus++);
+            s_.until_nucleus += random.exponential(0);
+            start({scene_.pointAt(random.uniform(1), random.uniform(2)).place,
+                   capVolume(kNucleusShare * spacing, p_.forces.wetting.contact_angle),
+                   {}});
+        }
+    }
+
+    // ---- meetings
+
+    [[nodiscard]] const Vec3& normalOf(const FlowDroplet& droplet) const
+    {
+        return c_.surface.faces[droplet.face].normal;
+    }
+
+    void merge()
+    {
+        const std::size_t count = s_.droplets.size();
+        std::vector<MovingBall> balls(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            FlowDroplet& d = s_.droplets[i];
+            if (d.contact != FlowContact::Air) {
+                balls[i] = {from_[i], d.leg.placeAt(end()), 0.5 * forces_[i].contact_width,
+                            d.has_grown || d.contact != FlowContact::Still || d.leg.begin > begin_};
+                d.has_grown = false;
+            }
+        }
+        const std::vector<Pair> touching = touchingPairs(balls);
+        UnionFind sets(count);
+        std::vector<std::uint32_t> members;
+        for (const auto& [i, j] : touching) {
+            const FlowDroplet& a = s_.droplets[i];
+            const FlowDroplet& b = s_.droplets[j];
+            const double apart = length(balls[j].to - balls[i].to);
+            if (dot(normalOf(a), normalOf(b)) > 0.0 &&
+                c_.areJoined(a.face, b.face, balls[i].to, apart * (1.0 + 1e-9))) {
+                sets.join(i, j);
+                members.push_back(i);
+                members.push_back(j);
+            }
+        }
+        std::sort(members.begin(), members.end());
+        members.erase(std::unique(members.begin(), members.end()), members.end());
+        std::vector<Pair> grouped;
+        grouped.reserve(members.size());
+        for (const std::uint32_t i : members) {
+            grouped.emplace_back(sets.find(i), i);
+        }
+        std::sort(grouped.begin(), grouped.end());
+        for (auto first = grouped.begin(); first != grouped.end();) {
+            const auto last =
+                std::find_if(first, grouped.end(), [&](const Pair& m) { return m.first != first->first; });
+            mergeGroup({first, last});
+            first = last;
+        }
+    }
+
+    /// The largest of a group takes up the others; of equal ones, the first.
+    void mergeGroup(std::span<const Pair> members)
+    {
+        std::uint32_t largest = members.front().second;
+        double volume = 0.0;
+        double drying = 0.0;
+        Vec3 moment;
+        Vec3 momentum;
+        for (const auto& [first, i] : members) {
+            const FlowDroplet& d = s_.droplets[i];
+            volume += d.volume;
+            drying += d.drying;
+            moment = moment + d.volume * d.leg.placeAt(end());
+            momentum = momentum + d.volume * d.leg.velocityAt(end());
+            if (d.volume > s_.droplets[largest].volume) {
+                largest = i;
+            }
+        }
+        for (const auto& [first, i] : members) {
+            if (i != largest) {
+                s_.droplets[i].volume = 0.0;
+                ++s_.counts.merged;
+            }
+        }
+        FlowDroplet& d = s_.droplets[largest];
+        const Vec3 place = d.leg.placeAt(end());
+        d.volume = volume;
+        d.drying = d.drying > 0.0 ? drying : 0.0;
+        d.has_grown = true;
+        const auto [face, centre] = pointBeside(d.face, place, (1.0 / volume) * moment - place);
+        forces_[largest] = forcesOf(d);
+        putOnFace(walkField(), forces_[largest], d, face, {end(), centre, (1.0 / volume) * momentum, {}, 0.0});
+    }
+
+    /// Goes straight over the surface; stays if that leads off it.
+    [[nodiscard]] FlowScene::Point pointBeside(std::uint32_t face, Vec3 place, Vec3 way) const
+    {
+        FlowDroplet probe;
+        WalkForces free;
+        free.adhesion = std::numeric_limits<double>::infinity();
+        const WalkField field{c_.surface, c_.landing};
+        putOnFace(field, free, probe, face, {0.0, place, way, {}, 0.0});
+        walk(field, free, probe, 1.0);
+        return probe.contact == FlowContact::Face ? FlowScene::Point{probe.face, probe.leg.placeAt(1.0)}
+                                                  : FlowScene::Point{face, place};
+    }
+
+    // ---- streaks
+
+    /// Shares of a face that a streak covers, for roughness along its first edge and across it: w l/A |cos θ|, w l/A
+    /// |sin θ|.
+    [[nodiscard]] Vec2 wetShare(const FlowTrack& track) const
+    {
+        const FlowSurface::Face& face = c_.surface.faces[track.face];
+        const Vec3 edge = face.corners[1] - face.corners[0];
+        const Vec3 way = track.to - track.from;
+        const double along = std::abs(dot(way, edge)) / length(edge);  // l |cos θ|
+        const double across = std::sqrt(std::max(dot(way, way) - along * along, 0.0));
+        const double width_over_area = track.width / areaOf(face);
+        return {std::min(1.0, width_over_area * along), std::min(1.0, width_over_area * across)};
+    }
+
+    /// Streaks smooth the faces: k_rx ← k_rx (1 − share), k_ry alike.
+    void wet()
+    {
+        const double dry_before = dryBefore();
+        for (std::size_t t = 0; t < tracks_.size(); ++t) {
+            const FlowTrack& track = tracks_[t];
+            FlowState::Wetness& w = s_.wetness[track.face];
+            if (w.id != track.id || w.time < dry_before) {
+                w.before = w.id == 0 || w.time < dry_before ? Vec2{1.0, 1.0} : w.dryness;
+                w.dryness = w.before;
+                w.id = track.id;
+            }
+            w.dryness.x *= 1.0 - shares_[t].x;
+            w.dryness.y *= 1.0 - shares_[t].y;
+            w.time = track.time;
+        }
+    }
+
+    [[nodiscard]] std::optional<std::size_t> indexOf(std::uint64_t id) const
+    {
+        const auto found = std::lower_bound(s_.droplets.begin(), s_.droplets.end(), id,
+                                            [](const FlowDroplet& d, std::uint64_t sought) { return d.id < sought; });
+        return found != s_.droplets.end() && found->id == id && found->volume > 0.0
+                   ? std::optional(static_cast<std::size_t>(found - s_.droplets.begin()))
+                   : std::nullopt;
+    }
+
+    void leaveFilm()
+    {
+        std::unordered_map<std::uint64_t, std::size_t> last;  // trail of every droplet
+        for (std::size_t k = 0; k < s_.trails.size(); ++k) {
+            last[s_.trails[k].id] = k;
+        }
+        for (const FlowTrack& track : tracks_) {
+            const auto i = indexOf(track.id);
+            if (!i) {
+                continue;
+            }
+            FlowDroplet& d = s_.droplets[*i];
+            const double way = length(track.to - track.from);
+            const double volume = std::min(p_.streaks.film * track.width * way, 0.5 * d.volume);
+            auto at = last.find(track.id);
+            if (at == last.end() || s_.trails[at->second].length >= p_.streaks.spacing) {
+                last[track.id] = s_.trails.size();
+                at = last.find(track.id);
+                s_.trails.push_back({track.id, 0.0, 0.0, 0.0, track.face, track.from});
+            }
+            FlowState::Trail& trail = s_.trails[at->second];
+            if (trail.length < 0.5 * p_.streaks.spacing) {
+                trail.face = track.face;
+                trail.place = track.to;
+            }
+            trail.volume += volume;
+            trail.length += way;
+            trail.drying += p_.drying ? volume / *p_.drying : 0.0;
+            d.volume -= volume;
+            forces_[*i] = forcesOf(d);
+        }
+        const WalkField field = walkField();
+        for (const FlowTrack& track : tracks_) {
+            const auto i = indexOf(track.id);
+            if (i && s_.droplets[*i].leg.begin < end()) {
+                redirect(field, forces_[*i], s_.droplets[*i], end());
+            }
+        }
+        breakUp();
+    }
+
+    /// Trails that their droplets have left behind become beads.
+    void breakUp()
+    {
+        begin_ = end();
+        std::vector<FlowState::Trail> kept;
+        for (const FlowState::Trail& trail : s_.trails) {
+            const auto i = indexOf(trail.id);
+            const double radius = contactRadius(p_, std::max(trail.volume, p_.small_volume));
+            const bool is_left = !i || length(s_.droplets[*i].leg.placeAt(begin_) - trail.place) >
+                                           0.5 * forces_[*i].contact_width + radius;
+            if (!is_left || (i && trail.length < p_.streaks.spacing)) {
+                kept.push_back(trail);
+            } else if (trail.volume < p_.small_volume) {
+                s_.dried.add(trail.volume);
+            } else {
+                FlowDroplet bead;
+                bead.id = s_.next_id++;
+                bead.volume = trail.volume;
+                bead.drying = trail.drying;
+                bead.has_grown = true;
+                const WalkForces forces = forcesOf(bead);
+                putOnFace(walkField(), forces, bead, trail.face, {begin_, trail.place, {}, {}, 0.0});
+                s_.droplets.push_back(bead);
+                forces_.push_back(forces);
+                ++s_.counts.beads;
+            }
+        }
+        s_.trails = std::move(kept);
+        begin_ = timeOf(s_.steps);
+    }
+
+    void dry()
+    {
+        for (FlowState::Trail& trail : s_.trails) {
+            const double volume = std::min(trail.drying * p_.step, trail.volume);
+            trail.volume -= volume;
+            s_.dried.add(volume);
+        }
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            FlowDroplet& d = s_.droplets[i];
+            if (d.drying <= 0.0 || d.volume <= 0.0) {
+                continue;
+            }
+            const double left = d.volume - d.drying * p_.step;
+            const double volume = left > p_.small_volume ? d.drying * p_.step : d.volume;
+            s_.dried.add(volume);
+            d.volume = left > p_.small_volume ? left : 0.0;
+            if (d.volume > 0.0) {
+                forces_[i] = forcesOf(d);
+            } else {
+                ++s_.counts.dried;
+            }
+        }
+    }
+
+    /// Dew condenses on the ground around droplets at rest, and they take it up.
+    void grow()
+    {
+        const double margin = 0.5 * p_.condensation->spacing;
+        const auto catchment = [&](std::size_t i) {
+            const double radius = 0.5 * forces_[i].contact_width + margin;
+            return s_.droplets[i].volume > 0.0 && s_.droplets[i].contact == FlowContact::Still ? radius * radius : 0.0;
+        };
+        double sum = 0.0;
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            sum += catchment(i);
+        }
+        // Where droplets are few, most of the surface is too far from any of them.
+        const double share = 1.0 / std::max(sum, scene_.area() / std::numbers::pi);
+        const double volume = p_.condensation->rate * scene_.area() * static_cast<double>(kStepsOfDew) * p_.step;
+        const WalkField field = walkField();
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            const double gain = catchment(i) * share * volume;
+            if (gain > 0.0) {
+                FlowDroplet& d = s_.droplets[i];
+                d.volume += gain;
+                d.has_grown = true;
+                s_.released.add(gain);
+                forces_[i] = forcesOf(d);
+                redirect(field, forces_[i], d, end());
+            }
+        }
+    }
+
+    /// Removes droplets that have fallen away, and those without liquid.
+    void leave()
+    {
+        const double away = kAway * scene_.diameter();
+        const auto isAway = [&](Vec3 p) {
+            return p.x < c_.low.x - away || p.x > c_.high.x + away || p.y < c_.low.y - away || p.y > c_.high.y + away ||
+                   p.z < c_.low.z - away || p.z > c_.high.z + away;
+        };
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            const FlowDroplet& d = s_.droplets[i];
+            if (d.volume > 0.0 && d.contact == FlowContact::Air && isAway(d.leg.placeAt(end()))) {
+                s_.left.add(d.volume);
+                ++s_.counts.left;
+            } else if (d.volume > 0.0) {
+                s_.droplets[kept] = d;
+                forces_[kept] = forces_[i];
+                ++kept;
+            }
+        }
+        s_.droplets.resize(kept);
+        forces_.resize(kept);
+    }
+
+    const FlowScene::Content& c_;
+    const FlowScene& scene_;
+    const FlowParameters& p_;
+    FlowState& s_;
+    double begin_;  // of the step [s]
+    FlowField field_;
+    std::vector<WalkForces> forces_;  // on every droplet
+    std::vector<Vec3> from_;          // places at the begin of the step
+    std::vector<FlowTrack> tracks_;   // of the step
+    std::vector<Vec2> shares_;        // of the faces that they wet
+};
+
+void requireFits(double volume, const FlowScene& scene, const FlowParameters& parameters)
+{
+    const double width = 2.0 * contactRadius(parameters, volume);
+    if (!(width < scene.diameter())) {
+        refuseValue(
+            "a droplet's volume", volume,
+            "smaller: it is " + numberText(width) + " m wide, and the object " + numberText(scene.diameter()) + " m");
+    }
+}
+
+}  // namespace
+
+double FlowBalance::residual() const
+{
+    CompensatedSum difference;
+    for (const double term : {released, -running, -still, -airborne, -streaks, -left, -dried}) {
+        difference.add(term);
+    }
+    return released > 0.0 ? difference.value() / released : 0.0;
+}
+
+FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, const std::vector<FlowStart>& starts)
+{
+    parameters.validate(scene.surface().faces.size());
+    for (const FlowEmitter& emitter : parameters.emitters) {
+        requireFits(emitter.volumes.median, scene, parameters);
+        if (scene.isInside(emitter.place)) {
+            throw Error(ErrorCode::InvalidArgument, "emitter.place is inside the object, must be outside or on it");
+        }
+    }
+    FlowState state;
+    state.wetness.resize(scene.surface().faces.size());
+    state.emissions.resize(parameters.emitters.size());
+    Step step(scene, parameters, state);
+    for (const FlowStart& start : starts) {
+        require(start.volume > 0.0 && std::isfinite(start.volume), "start.volume", start.volume,
+                "finite and more than 0 m3");
+        requireFits(start.volume, scene, parameters);
+        step.start(start);
+    }
+    return state;
+}
+
+FlowState advanceFlow(FlowState state, const FlowScene& scene, const FlowParameters& parameters, double until)
+{
+    require(until >= state.time && std::isfinite(until), "until", until, "finite and not before the state's time");
+    state.tracks.clear();
+    Step step(scene, parameters, state);
+    // Rounding must not cost the last step.
+    const double whole = until * (1.0 + 1e-12);
+    while (static_cast<double>(state.steps + 1) * parameters.step <= whole) {
+        step.run();
+    }
+    state.time = until;
+    return state;
+}
+
+std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters)
+{
+    const double grid = static_cast<double>(state.steps) * parameters.step;
+    FlowState between;
+    const FlowState* shown = &state;
+    double time = grid;
+    if (state.time > grid * (1.0 + 1e-12)) {
+        between = state;
+        Step(scene, parameters, between).moveWithin(state.time);
+        shown = &between;
+        time = state.time;
+    }
+    std::vector<FlowSample> samples;
+    samples.reserve(shown->droplets.size());
+    for (const FlowDroplet& d : shown->droplets) {
+        const bool is_airborne = d.contact == FlowContact::Air;
+        samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time),
+                           d.leg.velocityAt(time), scene.surface().faces[d.face].normal, d.volume});
+    }
+    return samples;
+}
+
+FlowBalance balanceOf(const FlowState& state)
+{
+    CompensatedSum running;
+    CompensatedSum still;
+    CompensatedSum airborne;
+    CompensatedSum streaks;
+    for (const FlowDroplet& d : state.droplets) {
+        (d.contact == FlowContact::Air ? airborne : d.contact == FlowContact::Still ? still : running).add(d.volume);
+    }
+    for (const FlowState::Trail& trail : state.trails) {
+        streaks.add(trail.volume);
+    }
+    return {state.released.value(), running.value(),    still.value(),      airborne.value(),
+            streaks.value(),        state.left.value(), state.dried.value()};
+}
+
+}  // namespace droplet

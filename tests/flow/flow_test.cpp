@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow/flow.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "flow/touching.h"
+
+namespace droplet {
+namespace {
+
+struct Mesh {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+
+    /// A rectangle that slopes down to −y, cut into n × n cells; upward or downward.
+    void addSlope(double size, double slope, std::uint32_t n, double z = 0.0, bool is_upward = true)
+    {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (std::uint32_t j = 0; j <= n; ++j) {
+            for (std::uint32_t i = 0; i <= n; ++i) {
+                const double y = size * j / n;
+                positions.push_back({size * i / n, y, z + std::tan(slope) * y});
+            }
+        }
+        for (std::uint32_t j = 0; j < n; ++j) {
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const std::uint32_t a = first + j * (n + 1) + i;
+                const std::uint32_t b = a + 1;
+                const std::uint32_t c = a + n + 2;
+                const std::uint32_t d = a + n + 1;
+                if (is_upward) {
+                    triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+                } else {
+                    triangles.insert(triangles.end(), {{a, c, b}, {a, d, c}});
+                }
+            }
+        }
+    }
+};
+
+FlowScene sceneOf(const Mesh& mesh)
+{
+    return FlowScene(flowSurface(mesh.positions, mesh.triangles));
+}
+
+FlowScene slope(double angle = 30.0 * kDegree, std::uint32_t n = 20, double size = 0.2)
+{
+    Mesh mesh;
+    mesh.addSlope(size, angle, n);
+    return sceneOf(mesh);
+}
+
+FlowParameters paper(double friction = 1e-4)
+{
+    FlowParameters parameters;
+    parameters.model = FlowModel::Paper;
+    parameters.friction = friction;
+    return parameters;
+}
+
+/// Droplets all over the upper part of the slope.
+std::vector<FlowStart> many(int n, double angle = 30.0 * kDegree)
+{
+    std::vector<FlowStart> starts;
+    for (int k = 0; k < n; ++k) {
+        const double x = 0.01 + 0.18 * std::fmod(0.618034 * k, 1.0);
+        const double y = 0.05 + 0.14 * std::fmod(0.754878 * k, 1.0);
+        starts.push_back({{x, y, std::tan(angle) * y}, (2.0 + k % 30) * 1e-9, {}});
+    }
+    return starts;
+}
+
+FlowRain rainOf(double rainfall)
+{
+    FlowRain rain;
+    rain.rainfall = rainfall;
+    return rain;
+}
+
+FlowParameters everything()
+{
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 0.02;
+    parameters.streaks.film = 5e-6;
+    parameters.drying = 2.0;
+    parameters.emitters = {{{0.1, 0.15, 0.2}, 2e-7, {15e-9, 0.4}}};
+    parameters.rain = rainOf(50.0 * kMillimetrePerHour);
+    parameters.condensation = FlowCondensation{1e-7, 8e-3};
+    parameters.wind = {1.0, 0.0, 0.0};
+    return parameters;
+}
+
+TEST(Flow, BytesDependOnNeitherFramesNorThreads)
+{
+    const FlowScene scene = slope();
+    const FlowParameters parameters = everything();
+    const auto run = [&](int frames, std::size_t threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        FlowState state = startFlow(scene, parameters, many(60));
+        for (int k = 1; k <= frames; ++k) {
+            state = advanceFlow(std::move(state), scene, parameters, 1.0 * k / frames);
+            sampleFlow(state, scene, parameters);
+        }
+        return bytesOf(state);
+    };
+    const std::string once = run(1, 1);
+    EXPECT_EQ(run(24, 2), once);
+    EXPECT_EQ(run(37, 4), once);
+}
+
+TEST(Flow, AccountsForAllLiquid)
+{
+    const FlowScene scene = slope(60.0 * kDegree);
+    const FlowParameters parameters = everything();
+    FlowState state = startFlow(scene, parameters, many(100, 60.0 * kDegree));
+    for (int second = 1; second <= 4; ++second) {
+        state = advanceFlow(std::move(state), scene, parameters, second);
+        EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-12);
+    }
+    EXPECT_GT(state.counts.merged, 10U);
+    EXPECT_GT(state.counts.beads, 10U);
+    EXPECT_GT(state.counts.left, 5U);
+    EXPECT_GT(state.counts.dried, 0U);
+    EXPECT_GT(balanceOf(state).dried, 0.0);
+}
+
+TEST(Flow, ResumesFromItsBytes)
+{
+    const FlowScene scene = slope();
+    const FlowParameters parameters = everything();
+    const FlowState half = advanceFlow(startFlow(scene, parameters, many(60)), scene, parameters, 0.5);
+    const std::string bytes = bytesOf(half);
+    FlowState again = flowStateFromBytes(bytes, scene.surface().faces.size(), "state");
+    EXPECT_EQ(bytesOf(again), bytes);
+    EXPECT_EQ(bytesOf(advanceFlow(std::move(again), scene, parameters, 1.0)),
+              bytesOf(advanceFlow(half, scene, parameters, 1.0)));
+    for (const std::size_t length : {std::size_t{0}, std::size_t{10}, bytes.size() / 2, bytes.size() - 1}) {
+        EXPECT_THROW(flowStateFromBytes(bytes.substr(0, length), scene.surface().faces.size(), "state"), Error);
+    }
+    EXPECT_THROW(flowStateFromBytes(bytes, 1, "state"), Error);
+}
+
+TEST(Flow, MergingKeepsMassAndMomentum)
+{
+    const FlowScene scene = slope(0.0, 7);
+    FlowParameters parameters = paper(0.0);
+    const std::vector<FlowStart> starts{{{0.05, 0.1, 0.0}, 30e-9, {0.2, 0.008, 0.0}}, {{0.08, 0.1, 0.0}, 10e-9, {}}};
+    const FlowState state = advanceFlow(startFlow(scene, parameters, starts), scene, parameters, 0.25);
+    ASSERT_EQ(state.droplets.size(), 1U);
+    EXPECT_EQ(state.droplets[0].id, 1U);
+    EXPECT_NEAR(state.droplets[0].volume, 40e-9, 1e-22);
+    const FlowSample sample = sampleFlow(state, scene, parameters)[0];
+    EXPECT_NEAR(sample.velocity.x, 0.75 * 0.2, 1e-12);
+    EXPECT_NEAR(sample.velocity.y, 0.75 * 0.008, 1e-12);
+    // The centre of mass goes on as before: 0.75 · 0.05 + 0.25 · 0.08 at the start.
+    EXPECT_NEAR(sample.place.x, 0.0575 + 0.15 * 0.25, 1e-12);
+    EXPECT_NEAR(sample.place.y, 0.1 + 0.006 * 0.25, 1e-12);
+}
+
+TEST(Flow, DoesNotMergeThroughAThinSheet)
+{
+    Mesh mesh;
+    mesh.addSlope(0.2, 0.0, 10);
+    mesh.addSlope(0.2, 0.0, 10, -2e-4, false);
+    mesh.addSlope(0.2, 0.0, 10, -3e-4, true);
+    const FlowScene scene = sceneOf(mesh);
+    FlowParameters parameters;
+    parameters.adhesion = 1e6;
+    const std::vector<FlowStart> starts{
+        {{0.1, 0.1, 0.0}, 20e-9, {}}, {{0.101, 0.1, -2e-4}, 20e-9, {}}, {{0.102, 0.1, -3e-4}, 20e-9, {}}};
+    const FlowState state = advanceFlow(startFlow(scene, parameters, starts), scene, parameters, 0.1);
+    EXPECT_EQ(state.droplets.size(), 3U);
+}
+
+TEST(Flow, HysteresisHoldsSmallDropletsUntilTheyGrow)
+{
+    const FlowScene scene = slope();
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 0.3;
+    parameters.emitters = {{{0.1, 0.15, std::tan(30.0 * kDegree) * 0.15}, 20e-9, {5e-9, 0.0}}};
+    FlowState state = startFlow(scene, parameters, {});
+    double held = 0.0;
+    while (state.time < 20.0) {
+        state = advanceFlow(std::move(state), scene, parameters, state.time + 0.05);
+        if (!state.droplets.empty() && state.droplets[0].contact != FlowContact::Still) {
+            break;
+        }
+        held = state.droplets.empty() ? 0.0 : state.droplets[0].volume;
+    }
+    // It runs once ρ V g sin α exceeds its retention (eq. 3.2).
+    const double pull = 998.2 * 9.81 * 0.5;
+    EXPECT_LT(pull * held, forcesOn(parameters.forces, held).retention);
+    EXPECT_GT(pull * state.droplets[0].volume, forcesOn(parameters.forces, state.droplets[0].volume).retention);
+    const FlowParameters loose = paper();
+    const FlowState moved = advanceFlow(startFlow(scene, loose, many(1)), scene, loose, 0.1);
+    EXPECT_NE(moved.droplets[0].contact, FlowContact::Still);
+}
+
+TEST(Flow, FollowersCatchUpOnAStreak)
+{
+    const FlowScene scene = slope(30.0 * kDegree, 200);
+    FlowParameters parameters = paper(2e-4);
+    parameters.merges = false;
+    parameters.roughness = 1e-3;
+    const double start = 0.18;
+    const std::vector<FlowStart> starts{{{0.1, start, std::tan(30.0 * kDegree) * start}, 30e-9, {}}};
+    const auto timeDown = [&](FlowState state, std::uint64_t id) {
+        const double begun = state.time;
+        for (;;) {
+            state = advanceFlow(std::move(state), scene, parameters, state.time + 1.0 / 120.0);
+            for (const FlowSample& s : sampleFlow(state, scene, parameters)) {
+                if (s.id == id && s.place.y < 0.02) {
+                    return std::pair(state.time - begun, std::move(state));
+                }
+            }
+        }
+    };
+    auto [first, state] = timeDown(startFlow(scene, parameters, starts), 1);
+    parameters.emitters = {{starts[0].place, 30e-9 / parameters.step, {30e-9, 0.0}}};
+    state.emissions.resize(1);
+    state = advanceFlow(std::move(state), scene, parameters, state.time + parameters.step);
+    parameters.emitters[0].rate = 0.0;
+    const double second = timeDown(std::move(state), 2).first;
+    EXPECT_LT(second, 0.8 * first);
+    parameters.emitters.clear();
+    parameters.roughness = 0.0;
+    EXPECT_NEAR(second, timeDown(startFlow(scene, parameters, starts), 1).first, 0.1 * second);
+}
+
+TEST(Flow, RainIsWhatFallsOnTheObject)
+{
+    const FlowScene scene = slope(0.0, 4);
+    FlowParameters parameters;
+    parameters.rain = rainOf(20.0 * kMillimetrePerHour);
+    const FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 20.0);
+    const RainImpacts impacts{raindropSizes(parameters.rain->rainfall), {parameters.rain->small_diameter, 8e-3}, 0.0};
+    const double expected = impacts.bound() * 0.2 * 0.2 * 20.0;
+    EXPECT_NEAR(static_cast<double>(state.counts.released), expected, 3.0 * std::sqrt(expected));
+}
+
+TEST(Flow, DewGrowsAndRunsAndWipes)
+{
+    const FlowScene scene = slope(80.0 * kDegree, 10, 0.08);
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 0.1;
+    parameters.condensation = FlowCondensation{2e-6, 6e-3};
+    // After three seconds droplets stand all over.
+    FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 3.0);
+    EXPECT_EQ(state.counts.left, 0U);
+    const double early = state.released.value();
+    state = advanceFlow(std::move(state), scene, parameters, 5.0);
+    EXPECT_NEAR(state.released.value() - early, 2.0 * 2e-6 * scene.area(), 0.1 * 2.0 * 2e-6 * scene.area());
+    state = advanceFlow(std::move(state), scene, parameters, 40.0);
+    EXPECT_GT(state.counts.left, 3U);
+    EXPECT_GT(state.counts.merged, 100U);
+}
+
+TEST(Flow, RejectsDropletsLargerThanTheObject)
+{
+    const FlowScene scene = slope();
+    EXPECT_THROW(startFlow(scene, {}, {{{0.1, 0.1, 0.05}, 1.0, {}}}), Error);
+    EXPECT_THROW(startFlow(scene, {}, {{{0.1, 0.1, 0.05}, -1e-9, {}}}), Error);
+    FlowParameters parameters;
+    parameters.rain = rainOf(-1.0);
+    EXPECT_THROW(startFlow(scene, parameters, {}), Error);
+}
+
+TEST(Touching, FindsAllPairsThatSamplesFind)
+{
+    std::vector<MovingBall> balls;
+    for (int k = 0; k < 300; ++k) {
+        const auto part = [&](double by) { return std::fmod(by * (k + 1), 1.0); };
+        const Vec3 from{part(0.8191725), part(0.6710436), 0.3 * part(0.5497005)};
+        const Vec3 way{0.1 * (part(0.318) - 0.5), 0.1 * (part(0.217) - 0.5), 0.0};
+        balls.push_back({from, from + way, k % 10 == 0 ? 0.05 : 0.02 * part(0.137), k % 3 != 0});
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
+    for (std::uint32_t i = 0; i < balls.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < balls.size(); ++j) {
+            double nearest = 1.0;
+            for (int s = 0; s <= 200; ++s) {
+                const double share = s / 200.0;
+                nearest =
+                    std::min(nearest, length(balls[j].from - balls[i].from +
+                                             share * ((balls[j].to - balls[j].from) - (balls[i].to - balls[i].from))));
+            }
+            if (nearest < balls[i].reach + balls[j].reach && (balls[i].changed || balls[j].changed)) {
+                expected.emplace_back(i, j);
+            }
+        }
+    }
+    const auto found = touchingPairs(balls);
+    EXPECT_GT(expected.size(), 10U);
+    // Samples miss grazes of less than a step.
+    EXPECT_LE(found.size(), expected.size() + 2);
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+}
+
+}  // namespace
+}  // namespace droplet
