@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "file_bytes.h"
 
 namespace droplet {
 namespace {
@@ -47,7 +48,8 @@ std::vector<std::string> fieldsOf(std::string_view line)
 
 }  // namespace
 
-CsvTable::CsvTable(std::string_view text, std::string name, std::string_view gap) : name_(std::move(name))
+CsvTable::CsvTable(std::string_view text, std::string name, std::string_view gap)
+    : name_(std::move(name)), gap_(gap.empty() ? "" : ": " + std::string(gap))
 {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") {
         text.remove_prefix(3);
@@ -76,7 +78,7 @@ CsvTable::CsvTable(std::string_view text, std::string name, std::string_view gap
                                ": write decimals with a point, and quote fields that contain a comma");
         }
         if (empty != 0) {
-            refuse(empty, "is empty: " + std::string(gap));
+            refuse(empty, "is empty" + gap_);
         }
         rows_.push_back(std::move(row));
     }
@@ -115,10 +117,10 @@ std::vector<std::size_t> CsvTable::columnsNamed(const std::vector<std::string_vi
     return columns;
 }
 
-double CsvTable::number(const Row& row, std::size_t column, std::string_view what, std::string_view missing) const
+double CsvTable::number(const Row& row, std::size_t column, std::string_view what) const
 {
     if (column >= row.fields.size() || row.fields[column].empty()) {
-        refuse(row.number, "has no " + std::string(what) + ": " + std::string(missing));
+        refuse(row.number, "has no " + std::string(what) + gap_);
     }
     const std::string& field = row.fields[column];
     double value = 0.0;
@@ -130,6 +132,16 @@ double CsvTable::number(const Row& row, std::size_t column, std::string_view wha
     return value;
 }
 
+double CsvTable::number(const Row& row, std::size_t column) const
+{
+    return number(row, column, header_->fields[column]);
+}
+
+Vec3 CsvTable::vector(const Row& row, const std::vector<std::size_t>& columns) const
+{
+    return {number(row, columns[0]), number(row, columns[1]), number(row, columns[2])};
+}
+
 void CsvTable::refuse(std::size_t row, const std::string& what) const
 {
     throw Error(ErrorCode::InvalidInput, name_ + ": row " + std::to_string(row) + ": " + what);
@@ -138,6 +150,17 @@ void CsvTable::refuse(std::size_t row, const std::string& what) const
 void CsvTable::refuse(const std::string& what) const
 {
     throw Error(ErrorCode::InvalidInput, name_ + ": " + what);
+}
+
+std::string readTable(const std::filesystem::path& path)
+{
+    constexpr std::size_t kMaxBytes = std::size_t{1} << 28U;
+    std::string text;
+    readFile(path, [&] {
+        const Bytes bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
+        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    });
+    return text;
 }
 
 }  // namespace droplet

@@ -12,13 +12,10 @@
 #include <vector>
 
 #include "csv_table.h"
-#include "file_bytes.h"
 #include "number_text.h"
 
 namespace droplet {
 namespace {
-
-constexpr std::size_t kMaxBytes = std::size_t{1} << 28U;  // years at 10 Hz
 
 /// Number of rows from which equal intervals count as sampling, in which a row can be missing.
 constexpr std::size_t kMinSampledRows = 10;
@@ -78,8 +75,8 @@ public:
         const auto [time, speed] = columns();
         DriveCycle cycle{{}, {}};
         for (const CsvTable::Row& row : table_.rows()) {
-            const double at = table_.number(row, time.index, "time", kGap) * time.unit;
-            const double fast = table_.number(row, speed.index, "speed", kGap) * speed.unit;
+            const double at = table_.number(row, time.index, "time") * time.unit;
+            const double fast = table_.number(row, speed.index, "speed") * speed.unit;
             if (!cycle.times.empty() && at <= cycle.times.back()) {
                 table_.refuse(row.number,
                               "time " + numberText(at) + " s must be after " + numberText(cycle.times.back()) + " s");
@@ -149,9 +146,7 @@ DriveCycle parseDriveCycle(std::string_view text, const std::string& name)
 
 DriveCycle readDriveCycle(const std::filesystem::path& path)
 {
-    Bytes bytes;
-    readFile(path, [&] { bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; }); });
-    return parseDriveCycle({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+    return parseDriveCycle(readTable(path), path.string());
 }
 
 }  // namespace droplet
