@@ -114,8 +114,12 @@ void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& su
     for (const FlowTrack& track : tracks) {
         const Vec3 normal = surface.faces[track.face].normal;
         std::vector<Ribbon>& all = ribbons_[track.id];
-        // Where one piece ends, the next begins; only after a flight there is a gap.
-        if (!all.empty() && length(all.back().back().place - track.from) <= 1e-3 * track.width) {
+        // Where one piece ends, the next begins; droplets that merge move to their common centre.
+        const double gap = all.empty() ? 0.0 : length(all.back().back().place - track.from);
+        if (!all.empty() && gap <= track.width) {
+            if (gap > kShort * track.width) {
+                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time}, normal);
+            }
             extend(all.back(), track, normal);
             continue;
         }
