@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985.
 #include "droplet/flow/object_motion.h"
 
 #include <algorithm>
@@ -8,52 +7,14 @@
 #include <string>
 
 #include "require.h"
+#include "turn.h"
 
 namespace droplet {
 namespace {
 
-/// Unit quaternion.
-struct Turn {
-    Vec3 axis;
-    double real = 1.0;
-
-    [[nodiscard]] Vec3 of(Vec3 a) const
-    {
-        const Vec3 twice = 2.0 * cross(axis, a);
-        return a + real * twice + cross(axis, twice);
-    }
-    [[nodiscard]] Turn inverse() const { return {-1.0 * axis, real}; }
-};
-
-/// The turn b, then the turn a.
-Turn operator*(const Turn& a, const Turn& b)
-{
-    return {a.real * b.axis + b.real * a.axis + cross(a.axis, b.axis), a.real * b.real - dot(a.axis, b.axis)};
-}
-
 Turn turnOf(const ObjectPose& pose)
 {
     return {pose.axis, pose.real};
-}
-
-/// Turn by a vector's length about its direction.
-Turn turnBy(Vec3 vector)
-{
-    const double angle = length(vector);
-    constexpr double kSmall = 1e-4;  // the next term of the series is below rounding
-    const double share = angle < kSmall ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
-    return {share * vector, std::cos(0.5 * angle)};
-}
-
-/// The vector for which turnBy() gives this turn or its negative, no longer than π.
-Vec3 vectorOf(const Turn& turn)
-{
-    const double size = length(turn.axis);
-    if (size == 0.0) {
-        return {};
-    }
-    const double sign = turn.real < 0.0 ? -1.0 : 1.0;
-    return (sign * 2.0 * std::atan2(size, std::abs(turn.real)) / size) * turn.axis;
 }
 
 /// Constant velocities: of the pivot, and angular, in the world.
