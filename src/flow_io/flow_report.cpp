@@ -136,7 +136,9 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
     json["streaks"] = {{"film_m", parameters.streaks.film},
                        {"spacing_m", parameters.streaks.spacing},
                        {"drying_s", orNull(parameters.drying)}};
-    json["object"] = {{"spin_rad_per_s", vectorOf(parameters.motion.spin)}, {"keys", parameters.motion.keys.size()}};
+    json["object"] = {{"spin_rad_per_s", vectorOf(parameters.motion.spin)},
+                      {"pivot_m", vectorOf(parameters.motion.pivot)},
+                      {"keys", parameters.motion.keys.size()}};
     json["sources"] = sourcesOf(parameters);
     json["balance"] = ReportJson::array();
     double worst = 0.0;
