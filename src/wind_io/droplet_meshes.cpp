@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "io/gltf_model.h"
-
 namespace droplet {
 namespace {
 
@@ -104,32 +102,6 @@ DropletMesh glassMesh(const Glass& glass)
         }
     }
     return mesh;
-}
-
-int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, int material)
-{
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = material;
-    primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.positions.size());
-    addBounds(model.accessors.back(), mesh.positions);
-    primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.normals.size());
-    primitive.indices = addIndices(model, mesh.triangles.size(), mesh.positions.size());
-    tinygltf::Mesh added;
-    added.name = name;
-    added.primitives.push_back(std::move(primitive));
-    model.meshes.push_back(std::move(added));
-    return static_cast<int>(model.meshes.size()) - 1;
-}
-
-void writeMesh(const DropletMesh& mesh, ByteStream& bytes)
-{
-    writeVectors(mesh.positions, bytes);
-    writeVectors(mesh.normals, bytes);
-    writeIndices(mesh.triangles, mesh.positions.size(), bytes);
-    if (mesh.positions.size() < kVerticesBeyond16Bit && mesh.triangles.size() % 2 != 0) {
-        bytes.u16(0);  // pads to the next word
-    }
 }
 
 int addGlass(tinygltf::Model& model, const DropletMesh& pane)

@@ -1,14 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/wind_io/droplet_scene.h"
 
+#include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "droplet/error.h"
+#include "io/axes.h"
+#include "io/scene_of_joints.h"
 #include "require.h"
+#include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
 namespace droplet {
+namespace {
+
+/// Vector of the vehicle's frame, y ahead and z up, in the file's frame.
+Vec3 inFile(Vec3 v)
+{
+    return yUp({0.0 - v.x, 0.0 - v.y, v.z});  // half a turn, so that the front is +Z after yUp()
+}
+
+/// @param last  pose in the frame before, or null
+DropletPose poseOf(const RunningDroplet& droplet, const GlassPlace& place, const ShapeOptions& options,
+                   const DropletPose* last)
+{
+    const double speed = length(droplet.velocity);
+    const RunningShape rest = runningShape(droplet.volume, 0.0, options);
+    const RunningShape shape = runningShape(droplet.volume, speed, options);
+    const double longer = std::pow((shape.half_length + shape.contact_radius) / shape.contact_radius, 2.0 / 3.0);
+    DropletPose pose;
+    pose.moves = speed > 0.0;
+    const Vec3 point = inFile(place.point);
+    pose.place = {toFloat(point.x), toFloat(point.y), toFloat(point.z)};
+    pose.along = toFloat(rest.contact_radius * longer);
+    pose.across = toFloat(rest.contact_radius / std::sqrt(longer));
+    pose.up = pose.across;
+    if (speed == 0.0 && last != nullptr) {
+        pose.turn = last->turn;  // a droplet at rest is rotationally symmetric
+        return pose;
+    }
+    const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
+    const Vec3 x = inFile(along.x * place.across + along.y * place.up);
+    const Vec3 y = inFile(place.normal);
+    // (across, up, normal) is left-handed; the rotation takes the motion, the normal and their cross product.
+    pose.turn = turnTo(x, y, cross(x, y));
+    return pose;
+}
+
+std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
+                                const DropletSceneOptions& options, std::ostream& out)
+{
+    const DropletMesh pane = glassMesh(glass);
+    JointScene scene;
+    scene.frames_per_second = options.frames_per_second;
+    scene.material = options.material;
+    scene.animation = "rain";
+    scene.ground.add = [&](tinygltf::Model& model) { return addGlass(model, pane); };
+    scene.ground.write = [&](ByteStream& bytes) { writeMesh(pane, bytes); };
+    scene.ground.corners = cornersOf(pane.positions);
+    scene.ground.corner = "corner of the glass";
+    scene.resting = capMesh(options.shape.contact_angle, {.around = 12, .rings = 3});
+    scene.running = capMesh(options.shape.contact_angle, {.around = 16, .rings = 5});
+    return writeSceneOfJoints(histories, scene, out);
+}
+
+}  // namespace
 
 struct DropletScene::Content {
     Glass glass;
@@ -21,18 +77,7 @@ struct DropletScene::Content {
             checkTexture(histories.maxCount(), histories.frames());
             return;
         }
-        // Bytes of a joint's JSON and of a sample's keys. In memory the JSON takes about fifteen times as much.
-        constexpr std::uint64_t kJoint = 800;
-        constexpr std::uint64_t kSample = 10;
-        constexpr std::uint64_t kMax = std::uint64_t{1} << 27;
-        const std::uint64_t bytes = kSample * histories.samples() + kJoint * histories.maxCount();
-        if (bytes >= kMax) {
-            throw Error(
-                ErrorCode::InvalidArgument,
-                std::to_string(histories.frames()) + " frames of up to " + std::to_string(histories.maxCount()) +
-                    " droplets would make a glTF file of about " + std::to_string(bytes) +
-                    " bytes; it must be less than 128 MiB: use a shorter time, fewer frames per second or less rain");
-        }
+        checkSceneOfJoints(histories, "less rain");
     }
 };
 
@@ -46,7 +91,7 @@ void DropletSceneOptions::validate() const
 DropletScene::DropletScene(const Glass& glass, const DropletSceneOptions& options)
 {
     options.validate();
-    content_ = std::make_unique<Content>(Content{glass, options, DropletHistories(glass, options.shape)});
+    content_ = std::make_unique<Content>(Content{glass, options, DropletHistories()});
 }
 
 DropletScene::~DropletScene() = default;
@@ -55,7 +100,13 @@ DropletScene& DropletScene::operator=(DropletScene&&) noexcept = default;
 
 void DropletScene::add(const WindshieldState& state)
 {
-    content_->histories.add(state);
+    DropletHistories& histories = content_->histories;
+    for (const RunningDroplet& droplet : state.droplets) {
+        if (const auto place = content_->glass.place(droplet.position)) {
+            histories.add(droplet.id, poseOf(droplet, *place, content_->options.shape, histories.last(droplet.id)));
+        }
+    }
+    histories.endFrame();
     content_->checkSize();
 }
 

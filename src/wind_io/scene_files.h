@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writers of droplet scenes.
+// Writer of droplet scenes as a texture.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,9 @@
 #include <iosfwd>
 
 #include "droplet/wind_io/droplet_scene.h"
-#include "wind_io/droplet_histories.h"
+#include "io/droplet_histories.h"
 
 namespace droplet {
-
-/// Writes droplets as joints of skinned meshes; see SceneAnimation::Nodes.
-std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
-                                const DropletSceneOptions& options, std::ostream& out);
 
 /// Writes droplets as a texture; see SceneAnimation::Texture.
 /// @throws Error InvalidArgument as checkTexture()

@@ -3,17 +3,15 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <memory>
 
+#include "droplet/io/table_format.h"
 #include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {
 
-/// File format of a table.
-enum class TableFormat {
-    Csv,   ///< comma-separated values with a header
-    Json,  ///< one JSON object
-};
+class TableRows;
 
 /// Choice of the droplets that have a row.
 enum class DropletRows {
@@ -35,6 +33,9 @@ public:
     /// @param format  file format
     /// @param shape   shape of the droplets, for their footprints
     DropletTable(std::ostream& out, TableFormat format, const ShapeOptions& shape);
+    ~DropletTable();
+    DropletTable(DropletTable&&) noexcept;             ///< Moves the table.
+    DropletTable& operator=(DropletTable&&) noexcept;  ///< Moves the table.
 
     /// Writes the rows of one frame.
     void add(std::size_t frame, const WindshieldState& state, DropletRows which = DropletRows::All);
@@ -43,10 +44,8 @@ public:
     void finish();
 
 private:
-    std::ostream& out_;
-    TableFormat format_;
+    std::unique_ptr<TableRows> rows_;
     ShapeOptions shape_;
-    bool has_rows_ = false;
 };
 
 }  // namespace droplet

@@ -13,28 +13,28 @@
 
 #include "droplet/units.h"
 #include "droplet/vector.h"
-#include "droplet/windshield/glass.h"
-#include "droplet/windshield/running_shape.h"
-#include "droplet/windshield/windshield.h"
 
 namespace droplet {
 
 /// Tolerance of the normals of droplets; it shifts a rim by some micrometres.
 inline constexpr double kFacing = 1.5 * kDegree;
 
-/// Position, direction and size of a droplet in the file's frame: +Y up, +Z ahead.
+/// Position, direction and size of a droplet in the file's frame, +Y up. Sizes are scales of a mesh with the volume of
+/// a cap of contact radius 1 m.
 struct DropletPose {
     std::array<float, 3> place{};                       ///< [m]
-    std::array<float, 4> turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< rotation: x along the motion, y off the glass
-    float along = 0.0F;                                 ///< scale of a cap of contact radius 1 m along the motion
-    float across = 0.0F;                                ///< scale across the motion and of the height
+    std::array<float, 4> turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< rotation: x along the motion, y off the ground
+    float along = 0.0F;                                 ///< scale along the motion
+    float across = 0.0F;                                ///< scale across the motion
+    float up = 0.0F;                                    ///< scale of the height
     bool moves = false;
+    bool airborne = false;
 
     friend bool operator==(const DropletPose&, const DropletPose&) = default;
 
     /// Contact radius of the cap of the same volume [m].
     [[nodiscard]] float restRadius() const;
-    /// Direction off the glass.
+    /// Direction off the ground.
     [[nodiscard]] Vec3 normal() const;
     /// Whether it may replace the other pose, apart from the place: their contact radii at rest differ by at most 1 %,
     /// their outlines by a quarter of the width, and their normals by kFacing.
@@ -60,9 +60,13 @@ struct DropletHistory {
 /// Follows droplets from frame to frame.
 class DropletHistories {
 public:
-    DropletHistories(const Glass& glass, const ShapeOptions& shape) : glass_(glass), shape_(shape) {}
+    /// Pose of a droplet in the frame before, or null.
+    [[nodiscard]] const DropletPose* last(std::uint64_t id) const;
 
-    void add(const WindshieldState& state);
+    /// Adds a droplet to the frame.
+    void add(std::uint64_t id, const DropletPose& pose);
+    /// Begins the next frame.
+    void endFrame();
 
     [[nodiscard]] std::uint32_t frames() const { return frames_; }
     [[nodiscard]] std::size_t maxCount() const { return max_count_; }  ///< largest number of droplets at once
@@ -71,20 +75,16 @@ public:
     [[nodiscard]] std::vector<const DropletHistory*> all() const;
 
 private:
-    [[nodiscard]] DropletPose poseOf(const RunningDroplet& droplet, const GlassPlace& place,
-                                     const DropletHistory& history) const;
-
-    Glass glass_;
-    ShapeOptions shape_;
     std::map<std::uint64_t, DropletHistory> current_;  ///< by id
     std::vector<DropletHistory> earlier_;              ///< former histories of droplets that came back
     std::uint32_t frames_ = 0;
+    std::size_t count_ = 0;  ///< number of droplets in the frame
     std::size_t max_count_ = 0;
     std::size_t samples_ = 0;
 };
 
-/// Vector of the vehicle's frame, y ahead and z up, in the file's frame.
-Vec3 inFile(Vec3 v);
+/// Quaternion of the rotation that turns the coordinate axes to x, y and z; x first, w last.
+std::array<float, 4> turnTo(Vec3 x, Vec3 y, Vec3 z);
 
 /// Vector rotated by a quaternion, x first, w last.
 Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wind_io/droplet_histories.h"
+#include "io/droplet_histories.h"
 
 #include <cmath>
 #include <utility>
 
-#include "io/axes.h"
 #include "io/byte_stream.h"
 
 namespace droplet {
 namespace {
 
-/// Quaternion of the rotation that turns the coordinate axes to x, y and z; x first, w last.
 std::array<double, 4> quaternion(Vec3 x, Vec3 y, Vec3 z)
 {
     // S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978) 223: divides by the largest.
@@ -41,7 +39,7 @@ std::array<double, 4> quaternion(Vec3 x, Vec3 y, Vec3 z)
 
 float DropletPose::restRadius() const
 {
-    return std::cbrt(along * across * across);
+    return std::cbrt(along * across * up);
 }
 
 Vec3 DropletPose::normal() const
@@ -61,8 +59,9 @@ bool DropletPose::looksLike(const DropletPose& other) const
     const double sine = square < 0.5 ? 1.0 : 2.0 * std::sqrt(square * (1.0 - square));
     const float aside = static_cast<float>(sine) * (other.along - other.across);
     const bool faces = dot(normal(), other.normal()) > std::cos(kFacing);
+    const float off = std::max({aside, std::abs(along - other.along), std::abs(across - other.across)});
     return faces && std::abs(restRadius() - other.restRadius()) <= kRadius * other.restRadius() &&
-           std::max(aside, std::abs(along - other.along)) <= kOutline * other.across;
+           off <= kOutline * other.across;
 }
 
 const DropletPose& DropletHistory::at(std::uint32_t frame) const
@@ -72,9 +71,10 @@ const DropletPose& DropletHistory::at(std::uint32_t frame) const
     return (after - 1)->pose;
 }
 
-Vec3 inFile(Vec3 v)
+std::array<float, 4> turnTo(Vec3 x, Vec3 y, Vec3 z)
 {
-    return yUp({0.0 - v.x, 0.0 - v.y, v.z});  // half a turn, so that the front is +Z after yUp()
+    const std::array<double, 4> turn = quaternion(x, y, z);
+    return {toFloat(turn[0]), toFloat(turn[1]), toFloat(turn[2]), toFloat(turn[3])};
 }
 
 Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v)
@@ -84,53 +84,30 @@ Vec3 turnedBy(const std::array<float, 4>& turn, Vec3 v)
     return v + static_cast<double>(turn[3]) * t + cross(u, t);
 }
 
-DropletPose DropletHistories::poseOf(const RunningDroplet& droplet, const GlassPlace& place,
-                                     const DropletHistory& history) const
+const DropletPose* DropletHistories::last(std::uint64_t id) const
 {
-    const double speed = length(droplet.velocity);
-    const RunningShape rest = runningShape(droplet.volume, 0.0, shape_);
-    const RunningShape shape = runningShape(droplet.volume, speed, shape_);
-    const double longer = std::pow((shape.half_length + shape.contact_radius) / shape.contact_radius, 2.0 / 3.0);
-    DropletPose pose;
-    pose.moves = speed > 0.0;
-    const Vec3 point = inFile(place.point);
-    pose.place = {toFloat(point.x), toFloat(point.y), toFloat(point.z)};
-    pose.along = toFloat(rest.contact_radius * longer);
-    pose.across = toFloat(rest.contact_radius / std::sqrt(longer));
-    if (speed == 0.0 && !history.samples.empty()) {
-        pose.turn = history.samples.back().pose.turn;  // a droplet at rest is rotationally symmetric
-        return pose;
-    }
-    const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
-    const Vec3 x = inFile(along.x * place.across + along.y * place.up);
-    const Vec3 y = inFile(place.normal);
-    // (across, up, normal) is left-handed; the rotation takes the motion, the normal and their cross product.
-    const std::array<double, 4> turn = quaternion(x, y, cross(x, y));
-    std::transform(turn.begin(), turn.end(), pose.turn.begin(), toFloat);
-    return pose;
+    const auto found = current_.find(id);
+    return found != current_.end() && found->second.end == frames_ ? &found->second.samples.back().pose : nullptr;
 }
 
-void DropletHistories::add(const WindshieldState& state)
+void DropletHistories::add(std::uint64_t id, const DropletPose& pose)
 {
-    std::size_t count = 0;
-    for (const RunningDroplet& droplet : state.droplets) {
-        const auto place = glass_.place(droplet.position);
-        if (!place) {
-            continue;
-        }
-        ++count;
-        DropletHistory& history = current_[droplet.id];
-        if (!history.samples.empty() && history.end < frames_) {
-            earlier_.push_back(std::exchange(history, {}));
-        }
-        const DropletPose pose = poseOf(droplet, *place, history);
-        if (history.samples.empty() || history.samples.back().pose != pose) {
-            history.samples.push_back({frames_, pose});
-            ++samples_;
-        }
-        history.end = frames_ + 1;
+    ++count_;
+    DropletHistory& history = current_[id];
+    if (!history.samples.empty() && history.end < frames_) {
+        earlier_.push_back(std::exchange(history, {}));
     }
-    max_count_ = std::max(max_count_, count);
+    if (history.samples.empty() || history.samples.back().pose != pose) {
+        history.samples.push_back({frames_, pose});
+        ++samples_;
+    }
+    history.end = frames_ + 1;
+}
+
+void DropletHistories::endFrame()
+{
+    max_count_ = std::max(max_count_, count_);
+    count_ = 0;
     ++frames_;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Khronos Group, "glTF 2.0 Specification" (2021), sections 3.7.3, skins, and 3.11, animations.
+#include "io/scene_of_joints.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,24 +13,18 @@
 #include <string>
 #include <utility>
 
+#include "droplet/error.h"
 #include "io/axes.h"
 #include "io/gltf_model.h"
-#include "wind_io/droplet_meshes.h"
-#include "wind_io/scene_files.h"
 
 namespace droplet {
 namespace {
 
 /// Number of droplets in a mesh, each with its own joint: few draw calls, and indices of joints fit into a byte.
 constexpr std::size_t kDropletsOfMesh = 62;
-constexpr std::size_t kAnchors = 2;  // corners of the glass in each mesh
+constexpr std::size_t kAnchors = 2;  // corners of the scene in each mesh
 /// Shorter rests are part of the run around them: another joint would cost more keys [frames].
 constexpr std::uint32_t kShortRest = 15;
-/// Tolerance of a run across its path, over the width of the droplet.
-constexpr double kPlaceTolerance = 0.25;
-/// Additional tolerance of a run along its path [s].
-constexpr double kTimeTolerance = 5e-3;
-
 /// Time in which a slot shows a droplet.
 struct Span {
     const DropletHistory* history = nullptr;
@@ -36,10 +32,11 @@ struct Span {
     std::uint32_t end = 0;
 };
 
-/// Rests and runs of all droplets.
+/// Rests, runs and falls of all droplets.
 struct Spans {
     std::vector<Span> rests;
     std::vector<Span> runs;
+    std::vector<Span> falls;
 };
 
 Vec3 vectorOf(const std::array<float, 3>& v)
@@ -54,9 +51,13 @@ bool runs(const DropletPose& from, const DropletPose& to)
     return from.moves || to.moves || length(vectorOf(to.place) - vectorOf(from.place)) > static_cast<double>(to.across);
 }
 
-void split(const DropletHistory& history, Spans& spans)
+/// Splits the time of a droplet on the ground.
+/// @param first  index of the first sample there
+/// @param last   index behind the last one
+/// @param end    first frame without it
+void splitOnGround(const DropletHistory& history, std::size_t first, std::size_t last, std::uint32_t end, Spans& spans)
 {
-    std::uint32_t done = history.begin();
+    std::uint32_t done = history.samples[first].frame;
     std::optional<std::uint32_t> running;  // first frame of the run
     std::uint32_t moved = 0;               // last frame with a motion
     const auto end_run = [&](std::uint32_t next) {
@@ -66,7 +67,7 @@ void split(const DropletHistory& history, Spans& spans)
             running.reset();
         }
     };
-    for (std::size_t i = 1; i < history.samples.size(); ++i) {
+    for (std::size_t i = first + 1; i < last; ++i) {
         const DropletPose& from = history.samples[i - 1].pose;
         const DropletPose& to = history.samples[i].pose;
         if (from.place == to.place || !runs(from, to)) {
@@ -82,11 +83,29 @@ void split(const DropletHistory& history, Spans& spans)
         }
         moved = frame;
     }
-    end_run(history.end);
+    end_run(end);
     if (running) {
-        spans.runs.push_back({&history, *running, history.end});
+        spans.runs.push_back({&history, *running, end});
     } else {
-        spans.rests.push_back({&history, done, history.end});
+        spans.rests.push_back({&history, done, end});
+    }
+}
+
+void split(const DropletHistory& history, Spans& spans)
+{
+    const std::vector<DropletSample>& samples = history.samples;
+    for (std::size_t first = 0; first < samples.size();) {
+        std::size_t last = first + 1;
+        while (last < samples.size() && samples[last].pose.airborne == samples[first].pose.airborne) {
+            ++last;
+        }
+        const std::uint32_t end = last < samples.size() ? samples[last].frame : history.end;
+        if (samples[first].pose.airborne) {
+            spans.falls.push_back({&history, samples[first].frame, end});
+        } else {
+            splitOnGround(history, first, last, end, spans);
+        }
+        first = last;
     }
 }
 
@@ -96,7 +115,7 @@ Spans spansOf(const DropletHistories& histories)
     for (const DropletHistory* history : histories.all()) {
         split(*history, spans);
     }
-    for (std::vector<Span>* all : {&spans.rests, &spans.runs}) {
+    for (std::vector<Span>* all : {&spans.rests, &spans.runs, &spans.falls}) {
         std::stable_sort(all->begin(), all->end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
     }
     return spans;
@@ -132,7 +151,9 @@ std::vector<Point> pathOf(const Span& run)
 
 /// Points that suffice within the tolerances. D. H. Douglas and T. K. Peucker, "Algorithms for the reduction of the
 /// number of points required to represent a digitized line", Cartographica 10 (1973) 112, over time.
-std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, double frames_per_second)
+/// @param tolerance    across the path [m]
+/// @param time_frames  additional tolerance along the path [frames]
+std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, double time_frames)
 {
     std::vector<bool> kept(path.size(), false);
     kept.front() = true;
@@ -145,7 +166,7 @@ std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, dou
         const Vec3 chord = path[last].place - path[first].place;
         const double size = length(chord);
         const Vec3 along = size > 0.0 ? (1.0 / size) * chord : Vec3{};
-        const double longer = tolerance + kTimeTolerance * size * frames_per_second / std::max(frames, 1.0);
+        const double longer = tolerance + time_frames * size / std::max(frames, 1.0);
         double worst = 1.0;
         std::size_t split = 0;
         for (std::size_t i = first + 1; i < last; ++i) {
@@ -175,8 +196,9 @@ std::vector<Point> reduced(const std::vector<Point>& path, double tolerance, dou
 
 /// Calls take(frame, pose) for the begin of a span and for each change since the last call: of the size, of the place
 /// of a droplet at rest, or of the shape of a running one.
+/// @param tolerance  of the place over the contact radius, for a droplet at rest
 template <typename Take>
-void forChanges(const Span& span, bool running, const Take& take)
+void forChanges(const Span& span, std::optional<double> tolerance, const Take& take)
 {
     DropletPose last = span.history->at(span.begin);
     take(span.begin, last);
@@ -186,7 +208,7 @@ void forChanges(const Span& span, bool running, const Take& take)
         }
         const DropletPose& pose = sample.pose;
         const double shift = length(vectorOf(pose.place) - vectorOf(last.place));
-        if (!last.looksLike(pose) || (!running && shift > kPlaceTolerance * static_cast<double>(pose.restRadius()))) {
+        if (!last.looksLike(pose) || (tolerance && shift > *tolerance * static_cast<double>(pose.restRadius()))) {
             last = sample.pose;
             take(sample.frame, last);
         }
@@ -305,7 +327,7 @@ DropletGroup groupOf(const DropletMesh& droplet)
             group.mesh.triangles.push_back({first + a, first + b, first + c});
         }
     }
-    // Viewers compute bounds once, from the first pose. The anchors extend them to two corners of the glass.
+    // Viewers compute bounds once, from the first pose. The anchors extend them to two corners of the scene.
     for (std::size_t k = 0; k < kAnchors; ++k) {
         group.mesh.positions.emplace_back();
         group.mesh.normals.push_back({0.0, 0.0, 1.0});
@@ -314,46 +336,42 @@ DropletGroup groupOf(const DropletMesh& droplet)
     return group;
 }
 
-class SceneOfNodes {
+class SceneWriter {
 public:
-    SceneOfNodes(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
-        : frames_(histories.frames()), options_(options), pane_(glassMesh(glass))
+    SceneWriter(const DropletHistories& histories, const JointScene& scene) : frames_(histories.frames()), about_(scene)
     {
         const Spans spans = spansOf(histories);
-        model_ = makeBareModel(options.material, meanRadius(spans), true);
-        scene_.nodes.push_back(addGlass(model_, pane_));
+        model_ = makeBareModel(scene.material, meanRadius(spans), true);
+        const int ground = scene.ground.add(model_);
+        const bool moves = !scene.ground.poses.empty();
+        scene_.nodes.push_back(ground);
         tinygltf::Node all;
         all.name = "droplets";
-        root_ = addNode(std::move(all), std::nullopt);
-        const Vec3 none{};
-        for (const bool low : {true, false}) {
-            Vec3 corner = none;
-            for (const Vec3& position : pane_.positions) {
-                const auto farther = [&](double a, double b) { return low ? std::min(a, b) : std::max(a, b); };
-                corner = &position == &pane_.positions.front()
-                             ? position
-                             : Vec3{farther(corner.x, position.x), farther(corner.y, position.y),
-                                    farther(corner.z, position.z)};
-            }
+        root_ = addNode(std::move(all), moves ? std::optional(ground) : std::nullopt);
+        for (const Vec3& corner : scene.ground.corners) {
             tinygltf::Node anchor;
-            anchor.name = "corner of the glass";
+            anchor.name = scene.ground.corner;
             const Vec3 up = yUp(corner);
-            anchor.translation = rounded(std::array{up.x, up.y, up.z}, 5);
-            anchors_.push_back(addNode(std::move(anchor), root_));
+            anchor.translation = rounded(std::array{up.x, up.y, up.z}, scene.decimals);
+            anchors_.push_back(addNode(std::move(anchor), moves ? std::nullopt : std::optional(root_)));
         }
-        resting_ = groupOf(capMesh(options.shape.contact_angle, {.around = 12, .rings = 3}));
-        running_ = groupOf(capMesh(options.shape.contact_angle, {.around = 16, .rings = 5}));
+        resting_ = groupOf(scene.resting);
+        running_ = groupOf(scene.running);
+        falling_ = groupOf(scene.falling);
         // The view of the animation is the last one in the buffer.
         const int resting = spans.rests.empty() ? -1 : addGroup(resting_, "droplets at rest");
         const int running = spans.runs.empty() ? -1 : addGroup(running_, "droplets on their way");
+        const int falling = spans.falls.empty() ? -1 : addGroup(falling_, "droplets in the air");
         if (!written_.empty()) {
             // Identity matrices, which some readers require.
             bind_ = addArray(model_, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, kDropletsOfMesh + kAnchors);
         }
-        model_.animations.emplace_back().name = "rain";
+        model_.animations.emplace_back().name = scene.animation;
         tracks_.emplace(model_, static_cast<int>(model_.bufferViews.size()));
+        moveGround(ground);
         addRests(spans.rests, resting);
-        addRuns(spans.runs, running);
+        addRuns(spans.runs, running, true);
+        addRuns(spans.falls, falling, false);
         if (model_.animations.front().channels.empty()) {
             model_.animations.clear();
         } else {
@@ -370,7 +388,7 @@ public:
     std::uint64_t write(std::ostream& out) const
     {
         return writeBinary(out, model_, [&](ByteStream& bytes) {
-            writeMesh(pane_, bytes);
+            about_.ground.write(bytes);
             for (const DropletGroup* group : written_) {
                 writeGroup(*group, bytes);
             }
@@ -384,18 +402,18 @@ public:
     }
 
 private:
-    [[nodiscard]] float timeOf(std::uint32_t frame) const { return toFloat(frame / options_.frames_per_second); }
+    [[nodiscard]] float timeOf(std::uint32_t frame) const { return toFloat(frame / about_.frames_per_second); }
 
     /// Thickness of the liquid for viewers, which do not scale it with joints.
     static double meanRadius(const Spans& spans)
     {
         double sum = 0.0;
-        for (const std::vector<Span>* all : {&spans.rests, &spans.runs}) {
+        for (const std::vector<Span>* all : {&spans.rests, &spans.runs, &spans.falls}) {
             for (const Span& span : *all) {
                 sum += static_cast<double>(span.history->at(span.begin).restRadius());
             }
         }
-        const std::size_t count = spans.rests.size() + spans.runs.size();
+        const std::size_t count = spans.rests.size() + spans.runs.size() + spans.falls.size();
         return count > 0 ? sum / static_cast<double>(count) : 0.0;
     }
 
@@ -465,15 +483,35 @@ private:
             joint.scale = {0.0, 0.0, 0.0};
         } else {
             const DropletPose& pose = span.history->at(0);
-            joint.translation = rounded(std::array{place.x, place.y, place.z}, 5);
+            joint.translation = rounded(std::array{place.x, place.y, place.z}, about_.decimals);
             if (turns) {
                 joint.rotation = rounded(pose.turn, 4);
-                joint.scale = rounded(std::array{pose.along, pose.across, pose.across}, 6);
+                joint.scale = rounded(std::array{pose.along, pose.up, pose.across}, about_.decimals + 1);
             } else {
-                joint.scale = rounded(std::array{pose.restRadius(), pose.restRadius(), pose.restRadius()}, 6);
+                joint.scale =
+                    rounded(std::array{pose.restRadius(), pose.restRadius(), pose.restRadius()}, about_.decimals + 1);
             }
         }
         return addNode(std::move(joint), parent);
+    }
+
+    void moveGround(int node)
+    {
+        const std::vector<SceneGround::Pose>& poses = about_.ground.poses;
+        if (poses.empty()) {
+            return;
+        }
+        std::vector<float> times;
+        std::vector<float> places;
+        std::vector<float> turns;
+        for (std::uint32_t frame = 0; frame < poses.size(); ++frame) {
+            times.push_back(timeOf(frame));
+            places.insert(places.end(), poses[frame].place.begin(), poses[frame].place.end());
+            turns.insert(turns.end(), poses[frame].turn.begin(), poses[frame].turn.end());
+        }
+        const int input = tracks_->addTimes(times);
+        tracks_->animate(node, "translation", input, tracks_->addFloats(TINYGLTF_TYPE_VEC3, places), "LINEAR");
+        tracks_->animate(node, "rotation", input, tracks_->addFloats(TINYGLTF_TYPE_VEC4, turns), "LINEAR");
     }
 
     /// Droplets at rest with the same normal, to kFacing.
@@ -520,7 +558,7 @@ private:
                     if (span.begin > free) {
                         key(free, place, 0.0F);
                     }
-                    forChanges(span, false, [&](std::uint32_t frame, const DropletPose& pose) {
+                    forChanges(span, about_.place_tolerance, [&](std::uint32_t frame, const DropletPose& pose) {
                         place = turnedBy(back, vectorOf(pose.place));
                         key(frame, place, pose.restRadius());
                     });
@@ -546,23 +584,25 @@ private:
         show(std::move(joints), mesh, root_);
     }
 
-    void addRuns(const std::vector<Span>& runs, int mesh)
+    /// @param turns  whether the droplets have a direction
+    void addRuns(const std::vector<Span>& runs, int mesh, bool turns)
     {
         std::vector<int> joints;
         for (const std::vector<std::size_t>& slot : assignSlots(runs, 1)) {
             std::vector<float> times;
             std::vector<float> places;
             std::vector<float> changes;  // times of rotations and sizes
-            std::vector<std::array<float, 4>> turns;
+            std::vector<std::array<float, 4>> rotations;
             std::vector<float> sizes;
             const auto change = [&](std::uint32_t frame, const DropletPose& pose) {
                 changes.push_back(timeOf(frame));
-                turns.push_back(pose.turn);
-                sizes.insert(sizes.end(), {pose.along, pose.across, pose.across});
+                rotations.push_back(pose.turn);
+                sizes.insert(sizes.end(), {pose.along, pose.up, pose.across});
             };
             const auto hide = [&](std::uint32_t frame, DropletPose pose) {
                 pose.along = 0.0F;
                 pose.across = 0.0F;
+                pose.up = 0.0F;
                 change(frame, pose);
             };
             const Span& first = runs[slot.front()];
@@ -571,32 +611,35 @@ private:
             }
             for (const std::size_t number : slot) {
                 const Span& run = runs[number];
-                const auto tolerance = kPlaceTolerance * static_cast<double>(run.history->at(run.begin).across);
-                for (const Point& point : reduced(pathOf(run), tolerance, options_.frames_per_second)) {
+                const auto tolerance = about_.place_tolerance * static_cast<double>(run.history->at(run.begin).across);
+                for (const Point& point :
+                     reduced(pathOf(run), tolerance, about_.time_tolerance * about_.frames_per_second)) {
                     times.push_back(timeOf(point.frame));
                     append(places, point.place);
                 }
-                forChanges(run, true, change);
+                forChanges(run, std::nullopt, change);
                 if (run.end < frames_) {
                     hide(run.end, run.history->at(run.end - 1));
                 }
             }
-            const int joint = addJoint(first, root_, vectorOf(first.history->at(first.begin).place), true);
+            const int joint = addJoint(first, root_, vectorOf(first.history->at(first.begin).place), turns);
             joints.push_back(joint);
             tracks_->animate(joint, "translation", tracks_->addTimes(times),
                              tracks_->addFloats(TINYGLTF_TYPE_VEC3, places), "LINEAR");
             const int input = tracks_->addTimes(changes);
-            tracks_->animate(joint, "rotation", input, tracks_->addTurns(turns), "STEP");
+            if (turns) {
+                tracks_->animate(joint, "rotation", input, tracks_->addTurns(rotations), "STEP");
+            }
             tracks_->animate(joint, "scale", input, tracks_->addFloats(TINYGLTF_TYPE_VEC3, sizes), "STEP");
         }
         show(std::move(joints), mesh, root_);
     }
 
     std::uint32_t frames_;
-    DropletSceneOptions options_;
-    DropletMesh pane_;
+    const JointScene& about_;
     DropletGroup resting_;
     DropletGroup running_;
+    DropletGroup falling_;
     std::vector<const DropletGroup*> written_;
     tinygltf::Model model_;
     tinygltf::Scene scene_;
@@ -608,10 +651,25 @@ private:
 
 }  // namespace
 
-std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
-                                const DropletSceneOptions& options, std::ostream& out)
+std::uint64_t writeSceneOfJoints(const DropletHistories& histories, const JointScene& scene, std::ostream& out)
 {
-    return SceneOfNodes(histories, glass, options).write(out);
+    return SceneWriter(histories, scene).write(out);
+}
+
+void checkSceneOfJoints(const DropletHistories& histories, const char* remedy)
+{
+    // Bytes of a joint's JSON and of a sample's keys. In memory the JSON takes about fifteen times as much.
+    constexpr std::uint64_t kJoint = 800;
+    constexpr std::uint64_t kSample = 10;
+    constexpr std::uint64_t kMax = std::uint64_t{1} << 27;
+    const std::uint64_t bytes = kSample * histories.samples() + kJoint * histories.maxCount();
+    if (bytes >= kMax) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::to_string(histories.frames()) + " frames of up to " + std::to_string(histories.maxCount()) +
+                        " droplets would make a glTF file of about " + std::to_string(bytes) +
+                        " bytes; it must be less than 128 MiB: use a shorter time, fewer frames per second or " +
+                        remedy);
+    }
 }
 
 }  // namespace droplet

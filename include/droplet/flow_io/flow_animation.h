@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <span>
+
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow/flow.h"
+#include "droplet/flow/object_motion.h"
+#include "droplet/flow_io/flow_object.h"
+#include "droplet/surface/material.h"
+#include "droplet/surface/surface.h"
+#include "droplet/units.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// Options of a FlowAnimation.
+struct FlowAnimationOptions {
+    double frames_per_second = 30.0;               ///< > 0
+    Material material = Material::Water;           ///< material of the droplets
+    Vec3 gravity = {0.0, 0.0, -kStandardGravity};  ///< in the world [m/s²]
+    ObjectMotion motion = {};                      ///< of the object in the world
+
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
+    void validate() const;
+};
+
+/// Animated GLB of droplets that run over an object. Takes one frame after another, keeps their data in memory, and
+/// writes the file at the end.
+///
+/// Droplets are joints of skinned meshes, as in SceneAnimation::Nodes. Positions are exact to a tenth of the droplet's
+/// half width, plus 2 ms of the way along a path; other tolerances are those of SceneAnimation::Nodes. There are three
+/// meshes of a droplet, all with the right volume: a round cap at rest, which is scaled alike in all directions; a head
+/// with a tail for running droplets, with the length and width of the droplet's body at every key; and a ball in the
+/// air. Joints lie in the object's node, which is animated if the object moves. The object has a material for each name
+/// in its file, without textures. Metres, +Y up.
+class FlowAnimation {
+public:
+    /// Makes an animation without frames.
+    /// @param bodies  shapes of the droplets; must outlive the animation
+    /// @throws Error  InvalidArgument if an option is out of its range
+    FlowAnimation(FlowObject object, const DropletBodies& bodies, const FlowAnimationOptions& options = {});
+    ~FlowAnimation();
+    FlowAnimation(FlowAnimation&&) noexcept;             ///< Moves all frames.
+    FlowAnimation& operator=(FlowAnimation&&) noexcept;  ///< Moves all frames.
+
+    /// Adds the next frame.
+    /// @param time     for the pose of the object [s]
+    /// @param samples  droplets of that time, in the object's frame
+    /// @throws Error   InvalidArgument if the file would exceed 128 MiB
+    void add(double time, std::span<const FlowSample> samples);
+
+    /// Sets the streaks: a mesh that does not change, on the object.
+    void setStreaks(Surface streaks);
+
+    /// Writes the file.
+    ///
+    /// Guarantees: the same frames give the same bytes with any number of threads; the stream is in a failed state if a
+    /// write failed.
+    /// @return       number of bytes written
+    /// @throws Error InvalidArgument if there is no frame
+    std::uint64_t write(std::ostream& out) const;
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace droplet

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The linear model of shape/ gives heights w over the footprint; a projective map takes them to wide contact angles.
+// With t = tan(θ/2), it moves (p, w) to (p (1 + t²), t w) / (1 + t² (1 − w)). The rim stays, and the paraboloid
+// w = 1 − |p|², the solution on a disc without gravity, becomes the spherical cap with the contact angle θ. Let ρ be
+// the distance from the middle over that of the rim. Then w = (1 − ρ²) q with a smooth q, which is 1 for that
+// paraboloid.
+//
+// Forces are those of the whole droplet, not of a flat one. Gravity into the ground counts cos²(θ/2) times: then wide
+// puddles have the height 2 l sin(θ/2), l the capillary length. Gravity along the ground counts 8 V / (π r³ sin²θ)
+// times: then the sum of surface tensions along the rim of a disc holds the weight of a cap with volume V.
+#include "body/capillary_body.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "body/running_footprint.h"
+#include "droplet/error.h"
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/solve.h"
+#include "number_text.h"
+#include "wind/root.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::size_t kSolvedRings = 14;  // rim included, middle not
+constexpr auto kSolvedSteps = static_cast<double>(kSolvedRings);
+using SolvedRays = std::array<std::array<double, kSolvedRings>, kBodySlices>;  // from the middle, without the rim
+
+/// Bond numbers of the table times cos²(θ/2); negative ones are fractions of the limit.
+constexpr std::array kHanging{-1.0, -0.7, -0.4, -0.15};
+constexpr std::array kStanding{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
+
+double squared(double x)
+{
+    return x * x;
+}
+
+/// ρ of a ring of the solved mesh.
+double solvedRadius(std::size_t ring)
+{
+    return 1.0 - static_cast<double>(ring) / kSolvedSteps;
+}
+
+/// Mesh of the same form as a body.
+PlanarMesh meshOf(const std::array<Vec2, kBodySlices>& rim)
+{
+    PlanarMesh mesh;
+    for (std::size_t ring = 0; ring < kSolvedRings; ++ring) {
+        for (const Vec2 p : rim) {
+            mesh.vertices.push_back(solvedRadius(ring) * p);
+        }
+    }
+    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({});
+    for (std::size_t ring = 0; ring < kSolvedRings; ++ring) {
+        for (std::size_t j = 0; j < kBodySlices; ++j) {
+            const auto a = static_cast<std::uint32_t>(ring * kBodySlices + j);
+            const auto b = static_cast<std::uint32_t>(ring * kBodySlices + (j + 1) % kBodySlices);
+            if (ring + 1 == kSolvedRings) {
+                mesh.triangles.push_back({a, b, middle});
+                continue;
+            }
+            const auto c = static_cast<std::uint32_t>(b + kBodySlices);
+            const auto d = static_cast<std::uint32_t>(a + kBodySlices);
+            if (j < kBodySlices / 2) {
+                mesh.triangles.push_back({a, b, c});
+                mesh.triangles.push_back({a, c, d});
+            } else {
+                mesh.triangles.push_back({a, b, d});
+                mesh.triangles.push_back({b, c, d});
+            }
+        }
+    }
+    mesh.loop_starts = {0, static_cast<std::uint32_t>(kBodySlices)};
+    return mesh;
+}
+
+/// Solved heights along the slices.
+SolvedRays raysOf(const std::vector<double>& height)
+{
+    SolvedRays rays;
+    for (std::size_t j = 0; j < kBodySlices; ++j) {
+        rays[j][0] = height.back();
+        for (std::size_t i = 1; i < kSolvedRings; ++i) {
+            rays[j][i] = height[(kSolvedRings - i) * kBodySlices + j];
+        }
+    }
+    return rays;
+}
+
+/// Cubic interpolation of evenly spaced values; beyond the last one at ρ = 1.
+double valueAt(const std::array<double, kSolvedRings>& values, double radius)
+{
+    const double place = radius * kSolvedSteps;
+    const auto first =
+        static_cast<std::size_t>(std::clamp(std::floor(place) - 1.0, 0.0, static_cast<double>(kSolvedRings) - 4.0));
+    const double x = place - static_cast<double>(first);
+    const double* const v = &values[first];
+    return v[0] * (x - 1.0) * (x - 2.0) * (x - 3.0) / -6.0 + v[1] * x * (x - 2.0) * (x - 3.0) / 2.0 +
+           v[2] * x * (x - 1.0) * (x - 3.0) / -2.0 + v[3] * x * (x - 1.0) * (x - 2.0) / 6.0;
+}
+
+/// Solutions of all footprints at one Bond number.
+struct Solved {
+    std::vector<SolvedRays> level;  ///< heights per pressure on level ground
+    std::vector<SolvedRays> along;  ///< change of heights per slope to +x, at the same pressure
+    std::vector<SolvedRays> aside;  ///< change of heights per slope to +y
+};
+
+/// Solves for droplets of volume 1, in units of the density and surface tension.
+/// @param normal  gravity into the ground
+/// @param along   gravity along it
+/// @param towards  direction of `along` [rad]
+Solution solved(const std::vector<PlanarMesh>& meshes, double normal, double along = 0.0, double towards = 0.0)
+{
+    SolveOptions options;
+    options.liquid = {"", 1.0, 1.0};
+    options.fill = {FillBy::Volume, 1.0, FillSharing::Each};
+    options.gravity = along == 0.0 ? normal : std::hypot(normal, along);
+    options.tilt = along == 0.0 ? 0.0 : std::atan2(along, normal);
+    options.tilt_direction = towards;
+    Solution solution = solve(meshes, options);
+    if (!solution.report.usable()) {
+        throw Error(ErrorCode::NoSuchDroplet, "no droplet has the Bond number " + numberText(normal));
+    }
+    return solution;
+}
+
+/// @param bond  Bond number into the ground by the radius of a disc of the footprint's area
+Solved solveAll(const std::vector<PlanarMesh>& meshes, double bond)
+{
+    Solved result;
+    const Solution level = solved(meshes, bond);
+    for (const HeightField& field : level.droplets) {
+        result.level.push_back(raysOf(field.height));
+        for (auto& ray : result.level.back()) {
+            for (double& value : ray) {
+                value /= field.pressure;
+            }
+        }
+    }
+    for (auto* const changes : {&result.along, &result.aside}) {
+        const double towards = changes == &result.along ? 0.0 : 0.5 * std::numbers::pi;
+        const Solution tilted = solved(meshes, bond, 1.0, towards);
+        for (std::size_t k = 0; k < meshes.size(); ++k) {
+            SolvedRays rays = raysOf(tilted.droplets[k].height);
+            for (std::size_t j = 0; j < kBodySlices; ++j) {
+                for (std::size_t i = 0; i < kSolvedRings; ++i) {
+                    rays[j][i] -= tilted.droplets[k].pressure * result.level[k][j][i];
+                }
+            }
+            changes->push_back(rays);
+        }
+    }
+    return result;
+}
+
+/// q at the vertices of a body.
+/// @param disc  heights on a disc at every distance from its middle, close to 1 − ρ²
+std::array<double, kBodyVertices> bodyField(const SolvedRays& rays, const std::array<double, kSolvedRings>& disc,
+                                            const std::array<double, kBodyRings>& radii)
+{
+    std::array<double, kBodyVertices> field;
+    field[kBodyApex] = rays[0][0] / disc[0];
+    for (std::size_t j = 0; j < kBodySlices; ++j) {
+        std::array<double, kSolvedRings> ray;
+        for (std::size_t i = 0; i < kSolvedRings; ++i) {
+            ray[i] = rays[j][i] / disc[i];
+        }
+        for (std::size_t k = 0; k < kBodyRings; ++k) {
+            field[k * kBodySlices + j] = valueAt(ray, radii[k]);
+        }
+    }
+    return field;
+}
+
+/// Sets all slices to their mean.
+template <std::size_t Rings>
+void average(std::array<std::array<double, Rings>, kBodySlices>& rays)
+{
+    for (std::size_t i = 0; i < Rings; ++i) {
+        double sum = 0.0;
+        for (const auto& ray : rays) {
+            sum += ray[i];
+        }
+        for (auto& ray : rays) {
+            ray[i] = sum / static_cast<double>(kBodySlices);
+        }
+    }
+}
+
+/// Share of the way between two neighbours of a rising list, and the index of the first.
+template <std::size_t Count>
+std::pair<std::size_t, double> locate(const std::array<double, Count>& rising, double value)
+{
+    std::size_t i = 0;
+    while (i + 2 < Count && rising[i + 1] <= value) {
+        ++i;
+    }
+    return {i, std::clamp((value - rising[i]) / (rising[i + 1] - rising[i]), 0.0, 1.0)};
+}
+
+}  // namespace
+
+CapillaryBody::CapillaryBody(const ForceModel& model)
+{
+    const double angle = model.wetting.contact_angle;
+    tangent_ = std::tan(0.5 * angle);
+    cap_radius_ = capOf(1.0, angle).contact_radius;
+    weight_ = model.liquid.density / model.liquid.surface_tension;
+    wedge_speed_ = model.wetting.viscosity_factor > 0.0 ? model.liquid.surface_tension / model.wetting.viscosity_factor
+                                                        : std::numeric_limits<double>::infinity();
+    slope_share_ = 8.0 * capVolume(1.0, angle) / (std::numbers::pi * squared(std::sin(angle)));
+    for (std::size_t k = 0; k < kBodyRings; ++k) {
+        // Even steps of the polar angle on the cap.
+        const double share = 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings);
+        radii_[k] = k == 0 ? 1.0 : std::tan(0.5 * angle * share) / tangent_;
+    }
+    const double flat = squared(std::cos(0.5 * angle));
+    const double hanging = 3.0 * flat;  // a cap is then about 1.5 times as high
+    std::transform(kHanging.begin(), kHanging.end(), bonds_.begin(), [&](double share) { return share * hanging; });
+    std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kHanging.size());
+
+    std::vector<PlanarMesh> meshes;
+    rows_.resize(kElongations);
+    for (std::size_t e = 0; e < kElongations; ++e) {
+        rows_[e].rim = runningFootprint(static_cast<double>(e) / static_cast<double>(kElongations - 1));
+        meshes.push_back(meshOf(rows_[e].rim));
+    }
+    std::array<Solved, kBonds> solutions;
+    tbb::parallel_for(std::size_t{0}, kBonds, [&](std::size_t b) {
+        solutions[b] = solveAll(meshes, bonds_[b]);
+        average(solutions[b].level[0]);
+    });
+    // Dividing by the discrete solution on the disc, rather than by 1 − ρ², cancels most of its error.
+    std::array<double, kSolvedRings> disc = solutions[kHanging.size()].level[0][0];
+    for (double& height : disc) {
+        height *= 4.0;
+    }
+    for (std::size_t e = 0; e < kElongations; ++e) {
+        for (std::size_t b = 0; b < kBonds; ++b) {
+            Entry& entry = rows_[e].entries[b];
+            entry.level = bodyField(solutions[b].level[e], disc, radii_);
+            entry.along = bodyField(solutions[b].along[e], disc, radii_);
+            entry.aside = bodyField(solutions[b].aside[e], disc, radii_);
+            scale(rows_[e].rim, entry);
+            rows_[e].cap_bonds[b] = bonds_[b] / flat * entry.growth;
+        }
+    }
+    for (double& bond : bonds_) {
+        bond /= flat;
+    }
+}
+
+void CapillaryBody::scale(const std::array<Vec2, kBodySlices>& rim, Entry& entry) const
+{
+    const double t = tangent_;
+    // Slope and bulge of the surface at the rim per q, and the length of rim there.
+    std::array<double, kBodySlices> reach;
+    std::array<double, kBodySlices> share;
+    for (std::size_t j = 0; j < kBodySlices; ++j) {
+        const Vec2 last = rim[(j + kBodySlices - 1) % kBodySlices];
+        const Vec2 next = rim[(j + 1) % kBodySlices];
+        reach[j] = cross(rim[j], next - last) / length(next - last);
+        share[j] = length(rim[j] - last) + length(next - rim[j]);
+    }
+    const double wanted = 2.0 * std::atan(t);
+    const auto excess = [&](double factor) {
+        double sum = 0.0;
+        double total = 0.0;
+        for (std::size_t j = 0; j < kBodySlices; ++j) {
+            const double q = factor * entry.level[j];
+            sum += share[j] * (std::atan2(2.0 * t * q / reach[j], 1.0 + t * t * (1.0 - 2.0 * q)) - wanted);
+            total += share[j];
+        }
+        return sum / total;
+    };
+    double most = 1.0;
+    while (excess(most) < 0.0) {
+        most *= 2.0;
+    }
+    const double factor = rootBetween(0.0, most, excess);
+    for (double& q : entry.level) {
+        q *= factor;
+    }
+
+    // Slopes make the liquid thinner on one side, to 35 % at most, and the bulge at most 1.5 times as wide.
+    constexpr double kThinned = 0.65;
+    constexpr double kWidened = 0.5;
+    constexpr double kFar = 1e6;
+    entry.ahead = kFar;
+    entry.behind = kFar;
+    entry.sideways = kFar;
+    for (std::size_t v = 0; v < kBodyVertices; ++v) {
+        const double radius = v == kBodyApex ? 0.0 : radii_[v / kBodySlices];
+        const double paraboloid = 1.0 - radius * radius;
+        const double bulge = t * t * paraboloid;
+        const double room = kWidened * (1.0 + t * t - bulge * entry.level[v]);
+        const double level = kThinned * entry.level[v] * std::cos(0.5 * wanted);
+        const auto limit = [&](double change) {
+            const double thinned = change < 0.0 ? level / -change : kFar;
+            return change > 0.0 && bulge > 0.0 ? std::min(thinned, room / (bulge * change)) : thinned;
+        };
+        entry.ahead = std::min(entry.ahead, limit(entry.along[v]));
+        entry.behind = std::min(entry.behind, limit(-entry.along[v]));
+        entry.sideways = std::min({entry.sideways, limit(entry.aside[v]), limit(-entry.aside[v])});
+    }
+
+    BodyGrid grid;
+    place(grid, rim, entry.level);
+    close(grid);
+    BodyGrid cap;
+    Field ones;
+    ones.fill(1.0);
+    place(cap, runningFootprint(0.0), ones);
+    close(cap);
+    entry.growth = std::pow(volumeOf(grid) / volumeOf(cap), 2.0 / 3.0);
+}
+
+void CapillaryBody::place(BodyGrid& grid, const std::array<Vec2, kBodySlices>& rim, const Field& q) const
+{
+    const double t = tangent_;
+    const double t2 = t * t;
+    for (std::size_t k = 0; k < kBodyRings; ++k) {
+        const double paraboloid = k == 0 ? 0.0 : 1.0 - radii_[k] * radii_[k];
+        const double* const values = &q[k * kBodySlices];
+        for (std::size_t j = 0; j < kBodySlices; ++j) {
+            const double w = paraboloid * values[j];
+            const double inverse = 1.0 / (1.0 + t2 * (1.0 - w));
+            const double out = radii_[k] * (1.0 + t2) * inverse;
+            grid.x[k][j + 1] = out * rim[j].x;
+            grid.y[k][j + 1] = out * rim[j].y;
+            grid.z[k][j + 1] = t * w * inverse;
+        }
+    }
+    const double w = q[kBodyApex];
+    grid.apex = {0.0, 0.0, t * w / (1.0 + t2 * (1.0 - w))};
+    for (std::size_t j = 0; j < kBodySlices; ++j) {
+        // Derivative of the map at the rim, where w falls by 2 q per ρ.
+        const double out = 2.0 * t2 * q[j] - 1.0 - t2;
+        grid.inward[j] = {out * rim[j].x, out * rim[j].y, 2.0 * t * q[j]};
+    }
+}
+
+double CapillaryBody::elongation(double volume, double speed) const
+{
+    const double stretch = speed / wedge_speed_ + weight_ * speed * speed * std::cbrt(volume);
+    return stretch / (1.0 + stretch);
+}
+
+BodyGrid CapillaryBody::shape(const BodyConditions& conditions) const
+{
+    const double per_gravity = weight_ * squared(cap_radius_ * std::cbrt(conditions.volume));
+    const double place_e = elongation(conditions.volume, conditions.speed) * static_cast<double>(kElongations - 1);
+    const std::size_t e = std::min(static_cast<std::size_t>(place_e), kElongations - 2);
+    const double longer = place_e - static_cast<double>(e);
+    double bond = 0.0;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+        const auto [k, share] = locate(rows_[e + i].cap_bonds, -conditions.gravity.z * per_gravity);
+        bond += (i == 0 ? 1.0 - longer : longer) * (bonds_[k] + share * (bonds_[k + 1] - bonds_[k]));
+    }
+    const auto [b, heavier] = locate(bonds_, bond);
+    struct Corner {
+        const Entry* entry;
+        double weight;
+    };
+    const std::array<Corner, 4> corners{{{&rows_[e].entries[b], (1.0 - longer) * (1.0 - heavier)},
+                                         {&rows_[e].entries[b + 1], (1.0 - longer) * heavier},
+                                         {&rows_[e + 1].entries[b], longer * (1.0 - heavier)},
+                                         {&rows_[e + 1].entries[b + 1], longer * heavier}}};
+    const auto mixed = [&](double Entry::*value) {
+        double sum = 0.0;
+        for (const Corner& corner : corners) {
+            sum += corner.weight * corner.entry->*value;
+        }
+        return sum;
+    };
+    // The contact radius is that of the cap divided by the root of `growth`.
+    const double per_slope = slope_share_ * per_gravity / mixed(&Entry::growth);
+    const double ahead = per_slope * conditions.gravity.x;
+    const double aside = per_slope * conditions.gravity.y;
+    const double far_ahead = ahead / (ahead > 0.0 ? mixed(&Entry::ahead) : mixed(&Entry::behind));
+    const double far_aside = aside / mixed(&Entry::sideways);
+    const double limited = 1.0 / std::sqrt(1.0 + far_ahead * far_ahead + far_aside * far_aside);
+    const double x = limited * ahead;
+    const double y = limited * aside;
+
+    Field q;
+    const auto add = [&](const Corner& corner, bool first) {
+        const Field& level = corner.entry->level;
+        const Field& along = corner.entry->along;
+        const Field& across = corner.entry->aside;
+        for (std::size_t v = 0; v < kBodyVertices; ++v) {
+            q[v] = (first ? 0.0 : q[v]) + corner.weight * (level[v] + x * along[v] + y * across[v]);
+        }
+    };
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        add(corners[i], i == 0);
+    }
+    std::array<Vec2, kBodySlices> rim;
+    for (std::size_t j = 0; j < kBodySlices; ++j) {
+        rim[j] = (1.0 - longer) * rows_[e].rim[j] + longer * rows_[e + 1].rim[j];
+    }
+    BodyGrid grid;
+    place(grid, rim, q);
+    return grid;
+}
+
+}  // namespace droplet

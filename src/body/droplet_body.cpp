@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/body/droplet_body.h"
+
+#include <cmath>
+#include <utility>
+
+#include "body/body_grid.h"
+#include "body/capillary_body.h"
+#include "require.h"
+
+namespace droplet {
+
+struct DropletBodies::Content {
+    std::vector<Triangle> triangles = bodyTriangles();
+    CapillaryBody body;
+};
+
+DropletBodies::DropletBodies(BodyShape shape, const ForceModel& model)
+{
+    model.validate();
+    if (shape != BodyShape::Capillary) {
+        throw Error(ErrorCode::InvalidArgument, "shape must be capillary");
+    }
+    content_ = std::make_unique<Content>(Content{.body = CapillaryBody(model)});
+}
+
+DropletBodies::~DropletBodies() = default;
+DropletBodies::DropletBodies(DropletBodies&&) noexcept = default;
+DropletBodies& DropletBodies::operator=(DropletBodies&&) noexcept = default;
+
+std::size_t DropletBodies::vertices() const
+{
+    return kBodyVertices;
+}
+
+std::size_t DropletBodies::rimVertices() const
+{
+    return kBodySlices;
+}
+
+const std::vector<Triangle>& DropletBodies::triangles() const
+{
+    return content_->triangles;
+}
+
+void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> positions, std::span<Vec3> normals) const
+{
+    require(conditions.volume > 0.0 && std::isfinite(conditions.volume), "volume", conditions.volume,
+            "finite and more than 0 m3");
+    require(conditions.speed >= 0.0 && std::isfinite(conditions.speed), "speed", conditions.speed,
+            "finite and at least 0 m/s");
+    const double gravity = length(conditions.gravity);
+    require(std::isfinite(gravity), "gravity", gravity, "finite");
+    require(positions.size() == kBodyVertices, "positions.size", positions.size(), "the number of vertices");
+    require(normals.size() == kBodyVertices, "normals.size", normals.size(), "the number of vertices");
+    if (conditions.airborne) {
+        makeBall(conditions.volume, positions, normals);
+        return;
+    }
+    BodyGrid grid = content_->body.shape(conditions);
+    finish(grid, conditions.volume, positions, normals);
+}
+
+}  // namespace droplet

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/droplet_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "droplet/units.h"
+
+namespace droplet {
+namespace {
+
+const Vec3 kGravity{0.0, 0.0, -kStandardGravity};
+
+/// A sample on a slope that falls toward +x by an angle.
+FlowSample onSlope(double angle, Vec3 velocity = {})
+{
+    FlowSample sample;
+    sample.contact = velocity == Vec3{} ? FlowContact::Still : FlowContact::Face;
+    sample.face = 0;
+    sample.place = {0.1, 0.2, 0.3};
+    sample.normal = {std::sin(angle), 0.0, std::cos(angle)};
+    sample.velocity = velocity;
+    sample.volume = 20e-9;
+    return sample;
+}
+
+void expectNear(Vec3 a, Vec3 b, double tolerance = 1e-15)
+{
+    EXPECT_LE(length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' '
+                                        << b.z;
+}
+
+TEST(DropletSurfaces, FrameRunsAlongTheVelocityOrDown)
+{
+    const double slope = 0.5;
+    const Vec3 down{std::cos(slope), 0.0, -std::sin(slope)};
+    expectNear(frameOf(onSlope(slope, {0.0, 0.3, 0.0}), kGravity).ahead, {0.0, 1.0, 0.0});
+    expectNear(frameOf(onSlope(slope), kGravity).ahead, down);
+    // A velocity along the normal has no direction along the surface.
+    const FlowSample landing = onSlope(slope, -2.0 * onSlope(slope).normal);
+    expectNear(frameOf(landing, kGravity).ahead, down);
+    for (const FlowSample& sample :
+         {onSlope(slope, {0.1, 0.2, -0.3}), onSlope(slope), onSlope(0.0), onSlope(90.0 * kDegree), FlowSample()}) {
+        const DropletFrame frame = frameOf(sample, kGravity);
+        EXPECT_NEAR(length(frame.ahead), 1.0, 1e-15);
+        EXPECT_NEAR(length(frame.left), 1.0, 1e-15);
+        EXPECT_NEAR(dot(frame.ahead, frame.normal), 0.0, 1e-15);
+        expectNear(cross(frame.ahead, frame.left), frame.normal);
+        EXPECT_EQ(frame.place, sample.place);
+    }
+}
+
+TEST(DropletSurfaces, ConditionsAreInTheFrameOfTheDroplet)
+{
+    const double slope = 0.5;
+    const BodyConditions rest = conditionsOf(onSlope(slope), kGravity);
+    EXPECT_EQ(rest.volume, 20e-9);
+    EXPECT_EQ(rest.speed, 0.0);
+    EXPECT_FALSE(rest.airborne);
+    expectNear(rest.gravity, kStandardGravity * Vec3{std::sin(slope), 0.0, -std::cos(slope)}, 1e-14);
+    // It runs across the slope, to +y: down is on its right.
+    const BodyConditions across = conditionsOf(onSlope(slope, {0.0, 0.3, 0.0}), kGravity);
+    EXPECT_DOUBLE_EQ(across.speed, 0.3);
+    expectNear(across.gravity, kStandardGravity * Vec3{0.0, -std::sin(slope), -std::cos(slope)}, 1e-14);
+    FlowSample falling = onSlope(slope);
+    falling.contact = FlowContact::Air;
+    EXPECT_TRUE(conditionsOf(falling, kGravity).airborne);
+}
+
+TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
+{
+    const DropletBodies bodies(BodyShape::Capillary);
+    FlowSample falling = onSlope(0.0);
+    falling.contact = FlowContact::Air;
+    falling.place = {-0.1, 0.0, 0.5};
+    const std::vector<FlowSample> samples{onSlope(0.0), onSlope(0.7, {0.2, 0.0, -0.2}), falling};
+    const Surface open = dropletSurfaces(samples, bodies, kGravity);
+    open.validate();
+    ASSERT_EQ(open.positions.size(), samples.size() * bodies.vertices());
+    const Surface closed = withBases(open, bodies);
+    closed.validate();
+    EXPECT_TRUE(isClosed(closed));
+    EXPECT_EQ(topology(closed).components, samples.size());
+    EXPECT_NEAR(enclosedVolume(closed) / (3.0 * 20e-9), 1.0, 1e-6);
+    // Rims lie on the ground, the rest above it.
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t k = 0; k < bodies.vertices(); ++k) {
+            const double height = dot(open.positions[i * bodies.vertices() + k] - samples[i].place, samples[i].normal);
+            EXPECT_GE(height, -1e-12);
+            EXPECT_TRUE(k >= bodies.rimVertices() || height < 1e-12);
+        }
+    }
+    EXPECT_TRUE(dropletSurfaces({}, bodies, kGravity).positions.empty());
+    EXPECT_TRUE(withBases({}, bodies).positions.empty());
+}
+
+}  // namespace
+}  // namespace droplet

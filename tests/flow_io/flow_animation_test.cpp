@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/flow_animation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/unit_bodies.h"
+#include "support/animated_scene.h"
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+using testing::AnimatedScene;
+using ::testing::HasSubstr;
+using testing::Shown;
+
+constexpr double kRate = 30.0;
+constexpr double kFrameOfFall = kStandardGravity / kRate;  ///< speed that a droplet gains in a frame [m/s]
+
+const DropletBodies& bodies()
+{
+    static const DropletBodies made(BodyShape::Capillary);
+    return made;
+}
+
+/// A sphere with uv and two materials.
+FlowObject sphere(double radius)
+{
+    constexpr std::uint32_t kAround = 24;
+    constexpr std::uint32_t kRings = 12;
+    FlowObject object;
+    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+        for (std::uint32_t k = 0; k <= kAround; ++k) {
+            const double tilt = std::numbers::pi * ring / kRings;
+            const double turn = 2.0 * std::numbers::pi * k / kAround;
+            object.normals.push_back(
+                {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)});
+            object.positions.push_back(radius * object.normals.back());
+            object.uvs.push_back({static_cast<double>(k) / kAround, static_cast<double>(ring) / kRings});
+            if (ring < kRings && k < kAround) {
+                const std::uint32_t a = ring * (kAround + 1) + k;
+                const std::uint32_t b = a + kAround + 1;
+                object.triangles.push_back({a, b, b + 1});
+                object.triangles.push_back({a, b + 1, a + 1});
+                object.materials.insert(object.materials.end(), 2, (k / 3) % 2);
+            }
+        }
+    }
+    object.material_names = {"skin", "stripes"};
+    return object;
+}
+
+/// Droplets that start near the top of a sphere, run down, merge and fall off.
+struct Sequence {
+    FlowObject object = sphere(0.05);
+    std::vector<double> times;
+    std::vector<std::vector<FlowSample>> frames;
+    std::size_t max = 0;
+
+    Sequence()
+    {
+        const FlowScene scene(flowSurface(object.positions, object.triangles));
+        FlowParameters parameters;
+        parameters.adhesion = 30.0;
+        std::vector<FlowStart> starts;
+        for (int k = 0; k < 90; ++k) {
+            const double tilt = 0.25 + 0.015 * k;
+            const double turn = 2.4 * k;
+            const Vec3 up{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+            starts.push_back({scene.nearest(0.05 * up).place, (k % 5 == 0 ? 60e-9 : 1e-9 * (2 + k % 7)), {}});
+        }
+        FlowState state = startFlow(scene, parameters, starts);
+        for (int frame = 0; frame < 30; ++frame) {
+            times.push_back(frame / kRate);
+            state = advanceFlow(std::move(state), scene, parameters, times.back());
+            frames.push_back(sampleFlow(state, scene, parameters));
+            max = std::max(max, frames.back().size());
+        }
+    }
+
+    [[nodiscard]] std::string animation(const FlowAnimationOptions& options = {}) const
+    {
+        FlowAnimation made(object, bodies(), options);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            made.add(times[i], frames[i]);
+        }
+        std::ostringstream out;
+        const std::uint64_t bytes = made.write(out);
+        EXPECT_EQ(bytes, out.str().size());
+        return out.str();
+    }
+};
+
+const Sequence& theRun()
+{
+    static const Sequence run;
+    return run;
+}
+
+/// Vector in the file's frame: +Y up.
+Vec3 inFile(Vec3 v)
+{
+    return {v.x, v.z, -v.y};
+}
+
+TEST(FlowAnimation, ShowsTheDropletsOfEveryFrame)
+{
+    const Sequence& run = theRun();
+    const AnimatedScene scene(run.animation());
+    const double unit = unitVolume(bodies());
+    std::set<std::string> meshes;
+    for (std::size_t frame = 0; frame < run.frames.size(); frame += 5) {
+        SCOPED_TRACE(frame);
+        const std::vector<Shown> shown = scene.at((static_cast<double>(frame) + 1e-3) / kRate);
+        ASSERT_EQ(shown.size(), run.frames[frame].size());
+        for (const FlowSample& sample : run.frames[frame]) {
+            const double radius = std::cbrt(sample.volume / unit);
+            const double size = 1.6 * radius;  // a droplet on its way is wider and longer than one at rest
+            const double slack = 0.1 * size + 2e-3 * (length(sample.velocity) + kFrameOfFall) + 1e-4;
+            const auto fits = [&](const Shown& one) {
+                return length(one.place - inFile(sample.place)) < slack &&
+                       std::abs(std::cbrt(one.scale.x * one.scale.y * one.scale.z) / radius - 1.0) < 0.015;
+            };
+            const auto one = std::find_if(shown.begin(), shown.end(), fits);
+            ASSERT_NE(one, shown.end()) << sample.id;
+            meshes.insert(one->mesh);
+            EXPECT_EQ(one->mesh == "droplets in the air", sample.contact == FlowContact::Air) << sample.id;
+            if (sample.contact != FlowContact::Air) {
+                EXPECT_GT(dot(one->y, inFile(sample.normal)), std::cos(1.8 * kDegree)) << sample.id;
+            }
+            if (one->mesh == "droplets on their way" && length(sample.velocity) > 0.1) {
+                const Vec3 ahead = inFile(frameOf(sample, {}).ahead);
+                EXPECT_GT(dot(one->x, ahead), 0.5) << sample.id;
+            }
+        }
+    }
+    EXPECT_EQ(meshes.size(), 3U) << "there are resting, running and falling droplets";
+    EXPECT_LE(scene.pool(), 2 * run.max);
+}
+
+TEST(FlowAnimation, IsTheSameWithAnyNumberOfThreads)
+{
+    const std::string many = theRun().animation();
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(theRun().animation(), many);
+}
+
+TEST(FlowAnimation, MeshesOfDropletsHaveTheUnitVolume)
+{
+    const double unit = unitVolume(bodies());
+    BodyConditions running;
+    running.volume = 30e-9;
+    running.speed = 0.3;
+    running.gravity = {5.0, 0.0, -5.0};
+    for (const DropletMesh& mesh : {unitBody(bodies(), running, {}, unit), unitBall({}, unit)}) {
+        double volume = 0.0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6.0;
+        }
+        EXPECT_NEAR(volume / unit, 1.0, 1e-12);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            EXPECT_NEAR(length(mesh.normals[i]), 1.0, 1e-12);
+            EXPECT_GT(dot(mesh.normals[i], mesh.positions[i] + Vec3{0.0, 0.0, -1e-6}), 0.0) << "outward";
+        }
+    }
+    const auto [low, high] = cornersOf(unitBody(bodies(), running, {}, unit).positions);
+    EXPECT_NEAR(high.x - low.x, 2.0, 1e-9);
+    EXPECT_NEAR(high.y - low.y, 2.0, 1e-9);
+}
+
+TEST(FlowAnimation, PassesTheValidator)
+{
+    const testing::ScratchDirectory scratch;
+    std::vector<std::string> command{"node", testing::kValidator};
+    const auto store = [&](const char* name, const std::string& bytes) {
+        const std::string path = (scratch.path() / name).string();
+        testing::writeFile(path, bytes);
+        command.push_back(path);
+    };
+    store("run.glb", theRun().animation({.material = Material::Ink}));
+    FlowObject plain = sphere(0.05);
+    plain.uvs.clear();
+    plain.materials.clear();
+    plain.material_names.clear();
+    FlowAnimation dry(plain, bodies());
+    dry.add(0.0, {});
+    dry.add(0.1, {});
+    dry.setStreaks(dropletSurfaces(theRun().frames.front(), bodies(), {}));
+    std::ostringstream out;
+    dry.write(out);
+    store("dry.glb", out.str());
+    const auto verdict = testing::runProgram(command);
+    EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
+    for (const char* name : {"run", "dry"}) {
+        EXPECT_THAT(verdict.output + verdict.error, HasSubstr(std::string(name) + ".glb: 0 errors, 0 warnings"));
+    }
+}
+
+TEST(FlowAnimation, RejectsAnimationsWithoutFrames)
+{
+    EXPECT_THROW(FlowAnimation(sphere(0.05), bodies(), {.frames_per_second = 0.0}), Error);
+    std::ostringstream out;
+    EXPECT_THROW(FlowAnimation(sphere(0.05), bodies()).write(out), Error);
+}
+
+}  // namespace
+}  // namespace droplet
