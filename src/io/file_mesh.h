@@ -9,7 +9,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
-#include "turn.h"
+#include "rotation.h"
 
 namespace droplet {
 
@@ -18,7 +18,7 @@ struct FileMotion {
     struct Key {
         double time = 0.0;  ///< [s]
         Vec3 place;
-        Turn turn;
+        Rotation turn;
     };
     Vec3 pivot;             ///< it moves along a line from key to key
     std::vector<Key> keys;  ///< times that do not descend; two keys at one time are a jump
