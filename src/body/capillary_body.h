@@ -27,7 +27,7 @@ public:
 
 private:
     static constexpr std::size_t kElongations = 7;
-    static constexpr std::size_t kBonds = 13;
+    static constexpr std::size_t kBonds = 14;
     using Field = std::array<double, kBodyVertices>;
 
     /// Solved droplet, in units of the radius of a disc with the footprint's area. Its heights w are (1 − ρ²) q.
@@ -43,12 +43,18 @@ private:
     /// Entries at one elongation.
     struct Row {
         std::array<Vec2, kBodySlices> rim;
+        double height = 1.0;  ///< half the largest width: there the cross-section is a segment with the contact angle
         std::array<Entry, kBonds> entries;
         std::array<double, kBonds> cap_bonds;  ///< Bond numbers by the contact radius of the spherical cap, rising
     };
 
-    void scale(const std::array<Vec2, kBodySlices>& rim, Entry& entry) const;
-    void place(BodyGrid& grid, const std::array<Vec2, kBodySlices>& rim, const Field& q) const;
+    /// Sets the Bond numbers of the caps, by the heights of round droplets.
+    void calibrate(double angle);
+    void scale(Row& row) const;
+    void limitSlopes(const Row& row, Entry& entry) const;
+    /// 1 − ρ² of a vertex.
+    [[nodiscard]] double paraboloid(std::size_t vertex) const;
+    void place(BodyGrid& grid, const std::array<Vec2, kBodySlices>& rim, double height, const Field& q) const;
 
     double tangent_ = 0.0;                  ///< tan(θ/2)
     double cap_radius_ = 0.0;               ///< contact radius of a cap with volume 1

@@ -11,10 +11,10 @@
 #include <queue>
 #include <vector>
 
+#include "droplet/body/running_shape.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {

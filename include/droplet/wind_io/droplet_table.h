@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <iosfwd>
 
-#include "droplet/windshield/running_shape.h"
+#include "droplet/body/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {
