@@ -45,10 +45,14 @@ double squared(double x)
     return x * x;
 }
 
+// ρ = (1 + c) s − c s² of even steps s: edges are shorter at the rim, where gravity bends the surface.
+constexpr double kCrowding = 0.6;
+
 /// ρ of a ring of the solved mesh.
 double solvedRadius(std::size_t ring)
 {
-    return 1.0 - static_cast<double>(ring) / kSolvedSteps;
+    const double s = 1.0 - static_cast<double>(ring) / kSolvedSteps;
+    return s * (1.0 + kCrowding * (1.0 - s));
 }
 
 /// Mesh of the same form as a body.
@@ -99,10 +103,11 @@ SolvedRays raysOf(const std::vector<double>& height, double factor)
     return rays;
 }
 
-/// Cubic interpolation of evenly spaced values; beyond the last one at ρ = 1.
+/// Cubic interpolation at ρ of values on the solved rings; extrapolation to ρ = 1.
 double valueAt(const std::array<double, kSolvedRings>& values, double radius)
 {
-    const double place = radius * kSolvedSteps;
+    constexpr double kHalf = 0.5 * (1.0 + kCrowding);
+    const double place = (kHalf - std::sqrt(kHalf * kHalf - kCrowding * radius)) / kCrowding * kSolvedSteps;
     const auto first =
         static_cast<std::size_t>(std::clamp(std::floor(place) - 1.0, 0.0, static_cast<double>(kSolvedRings) - 4.0));
     const double x = place - static_cast<double>(first);
@@ -178,8 +183,8 @@ void centre(std::array<Vec2, kBodySlices>& rim)
         const SolvedRays heights = perPressure(*solver);
         // The parabola through the middle and two places ahead and behind
         constexpr std::size_t kRing = 2;
-        const double x = rim.front().x * kRing / kSolvedSteps;
-        const double y = rim[kBodySlices / 2].x * kRing / kSolvedSteps;
+        const double x = rim.front().x * solvedRadius(kSolvedRings - kRing);
+        const double y = rim[kBodySlices / 2].x * solvedRadius(kSolvedRings - kRing);
         const double ahead = (heights.front()[kRing] - heights.front()[0]) / x;
         const double behind = (heights[kBodySlices / 2][kRing] - heights.front()[0]) / y;
         const double bend = (ahead - behind) / (x - y);
@@ -209,6 +214,78 @@ std::array<double, kBodyVertices> bodyField(const SolvedRays& rays, const std::a
     return field;
 }
 
+/// Share of the way between two neighbours of a rising list, and the index of the first.
+template <std::size_t Count>
+std::pair<std::size_t, double> locate(const std::array<double, Count>& rising, double value)
+{
+    std::size_t i = 0;
+    while (i + 2 < Count && rising[i + 1] <= value) {
+        ++i;
+    }
+    return {i, std::clamp((value - rising[i]) / (rising[i + 1] - rising[i]), 0.0, 1.0)};
+}
+
+/// ρ of a body's rings on a cap, at even steps of the polar angle.
+std::array<double, kBodyRings> capRadii(double tangent)
+{
+    std::array<double, kBodyRings> radii{1.0};
+    for (std::size_t k = 1; k < kBodyRings; ++k) {
+        const double share = 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings);
+        radii[k] = std::tan(std::atan(tangent) * share) / tangent;
+    }
+    return radii;
+}
+
+/// ρ of a body's rings on a round droplet, at even steps of the sum of the arc's length and of its turn, each over its
+/// total.
+/// @param q  along a slice, to any scale
+std::array<double, kBodyRings> evenRadii(std::array<double, kSolvedRings> q, double tangent)
+{
+    const double at_rim = valueAt(q, 1.0);  // 1 at the contact angle
+    for (double& value : q) {
+        value /= at_rim;
+    }
+    constexpr std::size_t kSamples = 200;
+    const auto placeOf = [&](double radius) {
+        const double w = (1.0 - radius * radius) * valueAt(q, radius);
+        const double inverse = 1.0 / (1.0 + tangent * tangent * (1.0 - w));
+        return Vec2{radius * (1.0 + tangent * tangent) * inverse, tangent * w * inverse};
+    };
+    // Samples are even on a cap, too.
+    const auto radiusOf = [&](std::size_t sample) {
+        return std::tan(std::atan(tangent) * static_cast<double>(sample) / kSamples) / tangent;
+    };
+    std::array<double, kSamples + 1> arcs{};
+    std::array<double, kSamples + 1> turns{};
+    Vec2 last = placeOf(0.0);
+    double last_slope = 0.0;
+    for (std::size_t i = 1; i <= kSamples; ++i) {
+        const Vec2 next = placeOf(radiusOf(i));
+        const double slope = std::atan2(last.y - next.y, next.x - last.x);
+        arcs[i] = arcs[i - 1] + length(next - last);
+        turns[i] = turns[i - 1] + std::abs(slope - last_slope);
+        last = next;
+        last_slope = slope;
+    }
+    std::array<double, kSamples + 1> way{};
+    for (std::size_t i = 0; i <= kSamples; ++i) {
+        way[i] = 0.5 * (arcs[i] / arcs.back() + turns[i] / turns.back());
+    }
+    std::array<double, kBodyRings> radii{1.0};
+    for (std::size_t k = 1; k < kBodyRings; ++k) {
+        const auto [i, share] = locate(way, 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings));
+        radii[k] = radiusOf(i) + share * (radiusOf(i + 1) - radiusOf(i));
+    }
+    return radii;
+}
+
+/// 1 − ρ² of a vertex.
+double paraboloid(const std::array<double, kBodyRings>& radii, std::size_t vertex)
+{
+    const std::size_t ring = vertex / kBodySlices;
+    return ring < kBodyRings ? 1.0 - radii[ring] * radii[ring] : 1.0;
+}
+
 /// Sets all slices to their mean.
 template <std::size_t Rings>
 void average(std::array<std::array<double, Rings>, kBodySlices>& rays)
@@ -224,17 +301,6 @@ void average(std::array<std::array<double, Rings>, kBodySlices>& rays)
     }
 }
 
-/// Share of the way between two neighbours of a rising list, and the index of the first.
-template <std::size_t Count>
-std::pair<std::size_t, double> locate(const std::array<double, Count>& rising, double value)
-{
-    std::size_t i = 0;
-    while (i + 2 < Count && rising[i + 1] <= value) {
-        ++i;
-    }
-    return {i, std::clamp((value - rising[i]) / (rising[i + 1] - rising[i]), 0.0, 1.0)};
-}
-
 }  // namespace
 
 CapillaryBody::CapillaryBody(const ForceModel& model)
@@ -246,11 +312,6 @@ CapillaryBody::CapillaryBody(const ForceModel& model)
     wedge_speed_ = model.wetting.viscosity_factor > 0.0 ? model.liquid.surface_tension / model.wetting.viscosity_factor
                                                         : std::numeric_limits<double>::infinity();
     slope_share_ = 8.0 * capVolume(1.0, angle) / (std::numbers::pi * squared(std::sin(angle)));
-    for (std::size_t k = 0; k < kBodyRings; ++k) {
-        // Even steps of the polar angle on the cap.
-        const double share = 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings);
-        radii_[k] = k == 0 ? 1.0 : std::tan(0.5 * angle * share) / tangent_;
-    }
     const double hanging = 3.0 * squared(std::cos(0.5 * angle));  // a cap is then about 1.5 times as high
     std::transform(kHanging.begin(), kHanging.end(), bonds_.begin(), [&](double share) { return share * hanging; });
     std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kLevel);
@@ -274,13 +335,20 @@ CapillaryBody::CapillaryBody(const ForceModel& model)
     for (double& height : disc) {
         height *= 4.0;
     }
+    for (std::size_t b = 0; b < kBonds; ++b) {
+        std::array<double, kSolvedRings> q = solved[b].level[0];
+        for (std::size_t i = 0; i < kSolvedRings; ++i) {
+            q[i] /= disc[i];
+        }
+        radii_[b] = b == kLevel ? capRadii(tangent_) : evenRadii(q, tangent_);
+    }
     tbb::parallel_for(std::size_t{0}, kElongations, [&](std::size_t e) {
         for (std::size_t b = 0; b < kBonds; ++b) {
             const Solved& one = solved[e * kBonds + b];
             Entry& entry = rows_[e].entries[b];
-            entry.level = bodyField(one.level, disc, radii_);
-            entry.along = bodyField(one.along, disc, radii_);
-            entry.aside = bodyField(one.aside, disc, radii_);
+            entry.level = bodyField(one.level, disc, radii_[b]);
+            entry.along = bodyField(one.along, disc, radii_[b]);
+            entry.aside = bodyField(one.aside, disc, radii_[b]);
         }
         scale(rows_[e]);
     });
@@ -292,7 +360,7 @@ void CapillaryBody::calibrate(double angle)
     // Heights over the cube root of the volume, over that of a cap
     const auto slimness = [&](std::size_t b) {
         BodyGrid grid;
-        place(grid, rows_[0].rim, 1.0, rows_[0].entries[b].level);
+        place(grid, {rows_[0].rim, 1.0, radii_[b]}, rows_[0].entries[b].level);
         close(grid);
         return grid.apex.z / std::cbrt(volumeOf(grid));
     };
@@ -345,19 +413,20 @@ void CapillaryBody::scale(Row& row) const
     const Field& level = row.entries[kLevel].level;
     double most = 0.0;
     for (std::size_t v = 0; v < kBodyVertices; ++v) {
-        most = std::max(most, paraboloid(v) * level[v]);
+        most = std::max(most, paraboloid(radii_[kLevel], v) * level[v]);
     }
     const double slope = meanSlope(level) / most;
-    for (Entry& entry : row.entries) {
+    for (std::size_t b = 0; b < kBonds; ++b) {
+        Entry& entry = row.entries[b];
         const double factor = slope / meanSlope(entry.level);
         for (double& q : entry.level) {
             q *= factor;
         }
-        limitSlopes(row, entry);
+        limitSlopes(row, radii_[b], entry);
     }
 }
 
-void CapillaryBody::limitSlopes(const Row& row, Entry& entry) const
+void CapillaryBody::limitSlopes(const Row& row, const std::array<double, kBodyRings>& radii, Entry& entry) const
 {
     const double t = tangent_;
     // Slopes make the liquid thinner on one side, to 40 % at most, and the bulge at most 1.5 times as wide.
@@ -368,7 +437,7 @@ void CapillaryBody::limitSlopes(const Row& row, Entry& entry) const
     entry.behind = kFar;
     entry.sideways = kFar;
     for (std::size_t v = 0; v < kBodyVertices; ++v) {
-        const double bulge = t * t * paraboloid(v);
+        const double bulge = t * t * paraboloid(radii, v);
         const double room = kWidened * (1.0 + t * t - bulge * entry.level[v]);
         const double level = kThinned * entry.level[v] / std::sqrt(1.0 + t * t);
         const auto limit = [&](double change) {
@@ -381,44 +450,38 @@ void CapillaryBody::limitSlopes(const Row& row, Entry& entry) const
     }
 
     BodyGrid grid;
-    place(grid, row.rim, row.height, entry.level);
+    place(grid, {row.rim, row.height, radii}, entry.level);
     close(grid);
     BodyGrid cap;
     Field ones;
     ones.fill(1.0);
-    place(cap, runningFootprint(0.0), 1.0, ones);
+    place(cap, {rows_[0].rim, 1.0, radii_[kLevel]}, ones);
     close(cap);
     entry.growth = std::pow(volumeOf(grid) / volumeOf(cap), 2.0 / 3.0);
 }
 
-double CapillaryBody::paraboloid(std::size_t vertex) const
-{
-    const std::size_t ring = vertex / kBodySlices;
-    return ring < kBodyRings ? 1.0 - radii_[ring] * radii_[ring] : 1.0;
-}
-
-void CapillaryBody::place(BodyGrid& grid, const std::array<Vec2, kBodySlices>& rim, double height, const Field& q) const
+void CapillaryBody::place(BodyGrid& grid, const Base& footprint, const Field& q) const
 {
     const double t = tangent_;
     const double t2 = t * t;
     for (std::size_t k = 0; k < kBodyRings; ++k) {
-        const double share = paraboloid(k * kBodySlices);
+        const double share = 1.0 - footprint.radii[k] * footprint.radii[k];
         const double* const values = &q[k * kBodySlices];
         for (std::size_t j = 0; j < kBodySlices; ++j) {
             const double w = share * values[j];
             const double inverse = 1.0 / (1.0 + t2 * (1.0 - w));
-            const double out = radii_[k] * (1.0 + t2) * inverse;
-            grid.x[k][j + 1] = out * rim[j].x;
-            grid.y[k][j + 1] = out * rim[j].y;
-            grid.z[k][j + 1] = height * t * w * inverse;
+            const double out = footprint.radii[k] * (1.0 + t2) * inverse;
+            grid.x[k][j + 1] = out * footprint.rim[j].x;
+            grid.y[k][j + 1] = out * footprint.rim[j].y;
+            grid.z[k][j + 1] = footprint.height * t * w * inverse;
         }
     }
     const double w = q[kBodyApex];
-    grid.apex = {0.0, 0.0, height * t * w / (1.0 + t2 * (1.0 - w))};
+    grid.apex = {0.0, 0.0, footprint.height * t * w / (1.0 + t2 * (1.0 - w))};
     for (std::size_t j = 0; j < kBodySlices; ++j) {
         // Derivative of the map at the rim, where w falls by 2 q per ρ.
         const double out = 2.0 * t2 * q[j] - 1.0 - t2;
-        grid.inward[j] = {out * rim[j].x, out * rim[j].y, 2.0 * height * t * q[j]};
+        grid.inward[j] = {out * footprint.rim[j].x, out * footprint.rim[j].y, 2.0 * footprint.height * t * q[j]};
     }
 }
 
@@ -477,12 +540,16 @@ BodyGrid CapillaryBody::shape(const BodyConditions& conditions) const
     for (std::size_t i = 0; i < corners.size(); ++i) {
         add(corners[i], i == 0);
     }
-    std::array<Vec2, kBodySlices> rim;
+    Base footprint;
+    footprint.height = (1.0 - longer) * rows_[e].height + longer * rows_[e + 1].height;
+    for (std::size_t k = 0; k < kBodyRings; ++k) {
+        footprint.radii[k] = (1.0 - heavier) * radii_[b][k] + heavier * radii_[b + 1][k];
+    }
     for (std::size_t j = 0; j < kBodySlices; ++j) {
-        rim[j] = (1.0 - longer) * rows_[e].rim[j] + longer * rows_[e + 1].rim[j];
+        footprint.rim[j] = (1.0 - longer) * rows_[e].rim[j] + longer * rows_[e + 1].rim[j];
     }
     BodyGrid grid;
-    place(grid, rim, (1.0 - longer) * rows_[e].height + longer * rows_[e + 1].height, q);
+    place(grid, footprint, q);
     return grid;
 }
 
