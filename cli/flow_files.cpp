@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -78,11 +77,6 @@ void checkFlowFrames(const FlowOptions& options, std::size_t frames)
         if (options.output_options.no_clobber && number >= 1 && number <= frames) {
             droplet::checkWritable(options.files->at(number), options.output_options);
         }
-    }
-    const std::filesystem::path folder = std::filesystem::path(options.files->at(1)).parent_path();
-    std::error_code ignored;
-    if (!folder.empty()) {
-        std::filesystem::create_directories(folder, ignored);
     }
 }
 

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "require.h"
-#include "turn.h"
+#include "rotation.h"
 
 namespace droplet {
 namespace {
 
-Turn turnOf(const ObjectPose& pose)
+Rotation turnOf(const ObjectPose& pose)
 {
     return {pose.axis, pose.real};
 }
@@ -20,7 +20,7 @@ Turn turnOf(const ObjectPose& pose)
 /// Constant velocities: of the pivot, and angular, in the world.
 struct Piece {
     double begin = 0.0;  ///< [s]
-    Turn turn;           ///< at begin
+    Rotation turn;       ///< at begin
     Vec3 place;          ///< of the pivot at begin
     Vec3 velocity;       ///< of the pivot [m/s]
     Vec3 spin;           ///< [rad/s]
@@ -68,9 +68,9 @@ ObjectPose ObjectMotion::at(double time) const
 {
     const Piece piece = pieceAt(*this, time);
     const double passed = time - piece.begin;
-    Turn turn = piece.turn;
+    Rotation turn = piece.turn;
     if (piece.spin != Vec3{}) {
-        turn = turnBy(passed * piece.spin) * turn;
+        turn = rotationBy(passed * piece.spin) * turn;
     }
     const Vec3 pivot_at = piece.place + passed * piece.velocity;
     return {pivot_at - turn.of(pivot), turn.axis, turn.real};

@@ -19,7 +19,8 @@ namespace {
 // Lengths that droplets, floats of the files that are written, and differences of places can be computed with.
 constexpr double kMinSize = 1e-6;
 constexpr double kMaxSize = 1e6;
-constexpr double kMaxDistance = 1e6;  // from the origin, over the size
+constexpr double kMinFileSize = 1e-60;  // its fourth power is a number
+constexpr double kMaxDistance = 1e6;    // from the origin, over the size
 
 struct Extent {
     double size = 0.0;      ///< longest edge of the box around all triangles
@@ -64,9 +65,9 @@ void resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string&
     double factor = options.scale.value_or(1.0);
     if (options.size) {
         factor = *options.size / extent.size;
-        if (!(extent.size > 0.0) || !std::isfinite(factor) || factor == 0.0) {
-            refuse("has no size that could become " + numberText(*options.size) + " m: its longest edge is " +
-                   numberText(extent.size) + " m");
+        if (!(extent.size >= kMinFileSize && extent.size <= 1.0 / kMinFileSize)) {
+            refuse("is " + numberText(extent.size) + " m long, which cannot become " + numberText(*options.size) +
+                   " m");
         }
     }
     extent.size *= factor;

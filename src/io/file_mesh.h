@@ -9,7 +9,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
-#include "turn.h"
+#include "rotation.h"
 
 namespace droplet {
 
@@ -18,7 +18,7 @@ struct FileMotion {
     struct Key {
         double time = 0.0;  ///< [s]
         Vec3 place;
-        Turn turn;
+        Rotation turn;
     };
     Vec3 pivot;             ///< it moves along a line from key to key
     std::vector<Key> keys;  ///< times that do not descend; two keys at one time are a jump
@@ -43,10 +43,10 @@ struct FileMesh {
 };
 
 struct FileMeshOptions {
-    bool uvs = false;          ///< read the texture coordinates of OBJ and PLY
-    bool polygons = false;     ///< divide faces with more than three corners; otherwise they are damage
-    bool motion = false;       ///< read the animation of the node of a glTF scene that carries all meshes
-    std::optional<bool> y_up;  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
+    bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
+    bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
+    bool motion = false;            ///< read the animation of the node of a glTF scene that carries all meshes
+    std::optional<bool> y_up = {};  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
 };
 
 /// Reads .glb, .gltf, .obj, .ply or .stl. OBJ and STL are in millimetres, unless a comment of this library states

@@ -217,8 +217,8 @@ struct KeyTrack {
             return key(i);
         }
         if (!is_cubic && turns) {
-            const Turn from = turnOf(key(i));
-            const Turn turn = turnBy(t * vectorOf(turnOf(key(i + 1)) * from.inverse())) * from;
+            const Rotation from = turnOf(key(i));
+            const Rotation turn = rotationBy(t * vectorOf(turnOf(key(i + 1)) * from.inverse())) * from;
             return {turn.axis.x, turn.axis.y, turn.axis.z, turn.real};
         }
         Value value{};
@@ -234,7 +234,7 @@ struct KeyTrack {
         return value;
     }
 
-    static Turn turnOf(const Value& value)
+    static Rotation turnOf(const Value& value)
     {
         const Vec3 axis{value[0], value[1], value[2]};
         const double size = std::hypot(length(axis), value[3]);
@@ -273,7 +273,7 @@ FileMotion motionOf(const tinygltf::Node& node, const Placement& parent, const s
     const std::vector<double>& t = node.translation;
     const std::vector<double>& q = node.rotation;
     const Vec3 place_at_rest = t.empty() ? Vec3{} : Vec3{t[0], t[1], t[2]};
-    const Turn turn_at_rest = q.empty() ? Turn{} : KeyTrack::turnOf({q[0], q[1], q[2], q[3]});
+    const Rotation turn_at_rest = q.empty() ? Rotation{} : KeyTrack::turnOf({q[0], q[1], q[2], q[3]});
     const double size = length(parent.x);
     FileMotion motion;
     const Vec3 pivot = parent.place(place_at_rest);
@@ -282,7 +282,7 @@ FileMotion motionOf(const tinygltf::Node& node, const Placement& parent, const s
         for (const bool after : {false, true}) {
             FileMotion::Key key;
             key.time = time;
-            Turn turn;
+            Rotation turn;
             if (rotation) {
                 turn = KeyTrack::turnOf(rotation->at(time, after)) * turn_at_rest.inverse();
                 // A mirror image turns the other way.

@@ -15,11 +15,11 @@ namespace droplet {
 
 /// Options of scatterDroplets.
 struct ScatterOptions {
-    std::size_t count = 200;     ///< number of droplets
-    VolumeDistribution volumes;  ///< of the droplets
-    std::optional<Vec3> from;    ///< only points that rain from this direction meets first, from outside; not 0
+    std::size_t count = 200;          ///< number of droplets
+    VolumeDistribution volumes = {};  ///< of the droplets
+    std::optional<Vec3> from = {};    ///< only points that rain from this direction meets first, from outside; not 0
     /// Probability, 0 … 1, that a point of the surface may have a droplet; empty: 1. Called by many threads.
-    std::function<double(const FlowScene::Point&)> coverage;
+    std::function<double(const FlowScene::Point&)> coverage = {};
     std::uint64_t seed = 1;  ///< of the random numbers
 
     /// Checks all fields.

@@ -5,8 +5,12 @@
 #include <iosfwd>
 #include <memory>
 
+<<<<<<< HEAD
 #include "droplet/io/table_format.h"
 #include "droplet/windshield/running_shape.h"
+=======
+#include "droplet/body/running_shape.h"
+>>>>>>> flow-body
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {

@@ -9,7 +9,7 @@
 namespace droplet {
 
 /// Rotation as a unit quaternion.
-struct Turn {
+struct Rotation {
     Vec3 axis;          ///< vector part
     double real = 1.0;  ///< real part
 
@@ -19,19 +19,19 @@ struct Turn {
         const Vec3 twice = 2.0 * cross(axis, a);
         return a + real * twice + cross(axis, twice);
     }
-    [[nodiscard]] Turn inverse() const { return {-1.0 * axis, real}; }
+    [[nodiscard]] Rotation inverse() const { return {-1.0 * axis, real}; }
 
-    friend bool operator==(const Turn&, const Turn&) = default;
+    friend bool operator==(const Rotation&, const Rotation&) = default;
 };
 
 /// The rotation b, then the rotation a.
-inline Turn operator*(const Turn& a, const Turn& b)
+inline Rotation operator*(const Rotation& a, const Rotation& b)
 {
     return {a.real * b.axis + b.real * a.axis + cross(a.axis, b.axis), a.real * b.real - dot(a.axis, b.axis)};
 }
 
 /// Rotation by a vector's length about its direction [rad].
-inline Turn turnBy(Vec3 vector)
+inline Rotation rotationBy(Vec3 vector)
 {
     const double angle = length(vector);
     constexpr double kSmall = 1e-4;  // the next term of the series is below rounding
@@ -39,8 +39,8 @@ inline Turn turnBy(Vec3 vector)
     return {share * vector, std::cos(0.5 * angle)};
 }
 
-/// The vector, no longer than π, for which turnBy() gives this rotation.
-inline Vec3 vectorOf(const Turn& turn)
+/// The vector, no longer than π, for which rotationBy() gives this rotation.
+inline Vec3 vectorOf(const Rotation& turn)
 {
     const double size = length(turn.axis);
     if (size == 0.0) {
