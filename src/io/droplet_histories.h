@@ -11,7 +11,6 @@
 #include <queue>
 #include <vector>
 
-#include "droplet/body/running_shape.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
 

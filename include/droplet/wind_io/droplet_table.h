@@ -5,12 +5,8 @@
 #include <iosfwd>
 #include <memory>
 
-<<<<<<< HEAD
-#include "droplet/io/table_format.h"
-#include "droplet/windshield/running_shape.h"
-=======
 #include "droplet/body/running_shape.h"
->>>>>>> flow-body
+#include "droplet/io/table_format.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {
