@@ -59,8 +59,9 @@ void declare(CommandLine& line)
 {
     line.addArgument("OBJECT", "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres");
     line.addArgument("OUTPUT",
-                     "Animated .glb of object and droplets; or meshes of the droplets in every frame, such as "
-                     "out/%04d.obj, .glb, .ply or .stl");
+                     "Animated .glb of object and droplets; meshes of the droplets in every frame, such as "
+                     "out/%04d.obj, .glb, .ply or .stl; pictures, out/%04d.png; a .png of the last frame; or a video, "
+                     ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kObject = "Object";
     line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]");
     line.add(kObject, "--size", "LENGTH", "Longest side of the object; scales it");
@@ -117,6 +118,9 @@ void declare(CommandLine& line)
              "Shape of the droplets: capillary has least energy, springs is the paper's, capsule a cut capsule "
              "[capillary]");
     line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
+    declareView(line);
+    line.add("Picture", "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
+    line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
     line.add(kOut, "--streaks", "FILE", "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl");
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
@@ -346,10 +350,37 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     const bool is_mesh = std::set<std::string>{".glb", ".gltf", ".obj", ".ply", ".stl"}.contains(extension);
     if (options.files && is_mesh) {
         options.kind = FlowOutput::Meshes;
-    } else if (extension == ".glb") {
+    } else if (options.files && extension == ".png") {
+        options.kind = FlowOutput::Pictures;
+    } else if (!options.files && extension == ".glb") {
         options.kind = FlowOutput::Animation;
+    } else if (!options.files && extension == ".png") {
+        options.kind = FlowOutput::Picture;
+    } else if (!options.files && isVideo(options.output)) {
+        options.kind = FlowOutput::Video;
     } else {
-        refuse(output, "a .glb, or meshes such as out/%04d.obj, .glb, .gltf, .ply or .stl");
+        refuse(output,
+               "a .glb; a .png; a .mp4, .mkv, .mov or .webm; or a file for every frame such as out/%04d.png, .glb, "
+               ".gltf, .obj, .ply or .stl");
+    }
+    const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
+    for (const char* option : {"--view", "--camera", "--preview-size"}) {
+        if (line.value(option) && !is_picture) {
+            refuse(std::string(option) + " needs pictures or a video as OUTPUT, not '" + options.output + "'");
+        }
+    }
+    readView(line, options.view);
+    options.codec = text(line, "--codec");
+    for (const char* option : {"--codec", "--quality"}) {
+        if (line.value(option) && options.kind != FlowOutput::Video) {
+            refuse(std::string(option) + " needs a video as OUTPUT, not '" + options.output + "'");
+        }
+    }
+    if (const auto quality = line.value("--quality")) {
+        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
+    }
+    if (options.kind == FlowOutput::Video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
+        refuse("--preview-size: a video's frame must have even sides");
     }
     if (const auto shape = line.value("--shape")) {
         options.shape = choice<droplet::BodyShape>(*shape, {{"capillary", droplet::BodyShape::Capillary},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/flow_io/flow_animation.h"
+#include "droplet/flow_io/flow_picture.h"
 #include "droplet/flow_io/flow_table.h"
 #include "droplet/flow_io/streak_ribbons.h"
 #include "droplet_report.h"
@@ -24,6 +26,7 @@
 #include "stage_clock.h"
 #include "surface_files.h"
 #include "terminal.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -43,6 +46,10 @@ private:
     void run();
     /// Advances the state, with a row of the balance at every full second.
     void advance(double until);
+    /// Opens the video.
+    void beginVideo();
+    /// Draws a frame, and writes it unless it is the picture of the last one.
+    void draw(const std::vector<droplet::FlowSample>& samples, std::size_t number);
     /// Writes the droplets of a frame.
     void writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const;
     [[nodiscard]] droplet::Vec3 gravityAt(double time) const;
@@ -54,6 +61,9 @@ private:
     droplet::DropletBodies bodies_;
     droplet::Material material_;
     std::optional<droplet::FlowAnimation> animation_;
+    std::optional<droplet::FlowView> view_;
+    std::unique_ptr<VideoWriter> video_;
+    droplet::Picture picture_;  ///< of the last frame
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
     droplet::Surface streaks_;  ///< at the end
@@ -103,6 +113,8 @@ FlowRun::FlowRun(const FlowOptions& options)
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
         animation_.emplace(plan_.object, bodies_, animation);
+    } else if (options_.kind != FlowOutput::Meshes) {
+        view_.emplace(plan_.object, bodies_);
     }
     report_.input = *options_.object;
     report_.surface = plan_.scene.surface().report;
@@ -128,6 +140,9 @@ droplet::FlowReport FlowRun::execute()
         fingerprint_ = flowFingerprint(options_);
         resume();
     }
+    if (options_.kind == FlowOutput::Video) {
+        beginVideo();
+    }
     std::vector<OutputFile> files;
     if (options_.droplets) {
         files.push_back({*options_.droplets, [&](std::ostream& out) {
@@ -141,6 +156,11 @@ droplet::FlowReport FlowRun::execute()
     }
     if (animation_) {
         files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out); }});
+    }
+    if (options_.kind == FlowOutput::Picture) {
+        files.push_back({options_.output, [&](std::ostream& out) { droplet::writePng(picture_, out); }});
+    } else if (video_) {
+        files.push_back({options_.output, [&](std::ostream& out) { video_->finish(out); }});
     }
     std::uint64_t bytes = 0;
     if (options_.streaks) {
@@ -209,6 +229,8 @@ void FlowRun::run()
         }
         if (options_.kind == FlowOutput::Meshes) {
             writeMesh(samples, done_ + 1);
+        } else if (view_ && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
+            draw(samples, done_ + 1);
         }
         if (options_.files && (done_ + 1) % second == 0) {
             writeCheckpoint(flowCheckpointPath(options_), {kCommand, fingerprint_, done_ + 1,
@@ -246,6 +268,37 @@ void FlowRun::advance(double until)
     }
     if (until > state_.time) {
         moveTo(until);
+    }
+}
+
+void FlowRun::beginVideo()
+{
+    const std::string codec = options_.codec.value_or(codecFor(options_.output));
+    checkCodec(codec, options_.output);
+    const VideoWriterOptions video{
+        options_.output, codec, options_.view.width, options_.view.height, options_.frames_per_second,
+        options_.quality};
+    tryVideo(video);
+    video_ = std::make_unique<VideoWriter>(video);
+}
+
+void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t number)
+{
+    droplet::FlowPictureOptions options;
+    options.render.width = options_.view.width;
+    options.render.height = options_.view.height;
+    options.render.view = options_.view.view;
+    options.render.camera = options_.view.camera;
+    options.render.look = droplet::lookOf(material_);
+    options.gravity = gravityAt(state_.time);
+    picture_ = view_->draw(samples, options);
+    if (video_) {
+        video_->add(picture_);
+    } else if (options_.files) {
+        droplet::writeAtomically(
+            options_.files->at(number),
+            [&](std::ostream& out) { droplet::writePng(picture_, out, droplet::PngEffort::Fast); },
+            options_.output_options);
     }
 }
 
