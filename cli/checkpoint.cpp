@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "checkpoint.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <string_view>
-#include <type_traits>
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
-#include "droplet/windshield/state_bytes.h"
 #include "files.h"
 
 namespace cli {
 namespace {
 
-constexpr std::string_view kBeginning = "droplet-shape windshield checkpoint 1\n";
-static_assert(std::is_trivially_copyable_v<droplet::BalanceRow>,
-              "rows are written as bytes and read by the same program");
+std::string beginningOf(const std::string& command)
+{
+    return "droplet-shape " + command + " checkpoint 2\n";
+}
 
 void put(std::string& bytes, std::uint64_t number)
 {
@@ -65,18 +65,16 @@ private:
 
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
 {
-    std::string bytes(kBeginning);
+    std::string bytes = beginningOf(checkpoint.command);
     put(bytes, checkpoint.fingerprint);
     put(bytes, checkpoint.frames);
-    put(bytes, checkpoint.balance.size());
-    bytes.append(reinterpret_cast<const char*>(checkpoint.balance.data()),
-                 checkpoint.balance.size() * sizeof(droplet::BalanceRow));
-    put(bytes, bytesOf(checkpoint.state));
+    put(bytes, checkpoint.rows);
+    put(bytes, checkpoint.state);
     droplet::writeAtomically(
         path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 
-void removeCheckpoint(const std::string& path, const droplet::OutputOptions& options)
+void removeCheckpoint(const std::string& path, const std::string& command, const droplet::OutputOptions& options)
 {
     std::error_code failure;
     if (!std::filesystem::exists(path, failure)) {
@@ -84,9 +82,10 @@ void removeCheckpoint(const std::string& path, const droplet::OutputOptions& opt
     }
     droplet::checkWritable(path, options);
     std::ifstream file(path, std::ios::binary);
-    std::string beginning(kBeginning.size(), '\0');
+    const std::string expected = beginningOf(command);
+    std::string beginning(expected.size(), '\0');
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    if (beginning != kBeginning) {
+    if (beginning != expected) {
         throw droplet::Error(droplet::ErrorCode::OutputFailed,
                              path + ": is not a checkpoint, and will not be replaced by one; move it away");
     }
@@ -95,31 +94,25 @@ void removeCheckpoint(const std::string& path, const droplet::OutputOptions& opt
     }
 }
 
-std::optional<Checkpoint> readCheckpoint(const std::string& path)
+std::optional<Checkpoint> readCheckpoint(const std::string& path, const std::string& command)
 {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
         return std::nullopt;
     }
     const std::string bytes = textOf(path);
+    const std::string beginning = beginningOf(command);
     Reader reader(bytes, path);
-    if (reader.take(std::min(bytes.size(), kBeginning.size())) != kBeginning) {
+    if (reader.take(std::min(bytes.size(), beginning.size())) != beginning) {
         throw droplet::Error(droplet::ErrorCode::InvalidInput,
-                             path + ": is not a checkpoint of droplet-shape; move it away");
+                             path + ": is not a checkpoint of droplet-shape " + command + "; move it away");
     }
     Checkpoint checkpoint;
+    checkpoint.command = command;
     checkpoint.fingerprint = reader.text();
     checkpoint.frames = reader.number();
-    const std::uint64_t rows = reader.number();
-    if (rows > bytes.size() / sizeof(droplet::BalanceRow)) {
-        reader.take(bytes.size() + 1);
-    }
-    const std::string_view balance = reader.take(rows * sizeof(droplet::BalanceRow));
-    checkpoint.balance.resize(rows);
-    if (rows > 0) {
-        std::memcpy(checkpoint.balance.data(), balance.data(), balance.size());
-    }
-    checkpoint.state = droplet::stateFromBytes(reader.text(), path);
+    checkpoint.rows = reader.text();
+    checkpoint.state = reader.text();
     return checkpoint;
 }
 

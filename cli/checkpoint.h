@@ -2,35 +2,56 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "droplet/io/output.h"
-#include "droplet/wind_io/windshield_report.h"
-#include "droplet/windshield/windshield.h"
 
 namespace cli {
 
-/// State of a windshield run between two frames, from which it can resume exactly.
+/// State of a run between two frames, from which it can resume exactly.
 struct Checkpoint {
+    std::string command;      ///< whose run it is, such as `windshield`
     std::string fingerprint;  ///< hash of options and input files
     std::size_t frames = 0;   ///< number of finished frames
-    std::vector<droplet::BalanceRow> balance;
-    droplet::WindshieldState state;
+    std::string rows;         ///< bytes of the report's rows: bytesOfRows()
+    std::string state;        ///< bytes of the simulation's state
 };
+
+/// Bytes of a report's rows, for the same program to read.
+template <typename Row>
+std::string bytesOfRows(const std::vector<Row>& rows)
+{
+    static_assert(std::is_trivially_copyable_v<Row>);
+    return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)};
+}
+
+/// Rows from their bytes.
+template <typename Row>
+std::vector<Row> rowsFromBytes(const std::string& bytes)
+{
+    static_assert(std::is_trivially_copyable_v<Row>);
+    std::vector<Row> rows(bytes.size() / sizeof(Row));
+    if (!rows.empty()) {
+        std::memcpy(rows.data(), bytes.data(), rows.size() * sizeof(Row));
+    }
+    return rows;
+}
 
 /// Writes a checkpoint, completely or not at all.
 /// @throws droplet::Error OutputFailed
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// Removes the checkpoint of an earlier run, if there is one.
-/// @throws droplet::Error OutputFailed if the file is not a checkpoint, or must not be replaced
-void removeCheckpoint(const std::string& path, const droplet::OutputOptions& options);
+/// @throws droplet::Error OutputFailed if the file is not a checkpoint of the command, or must not be replaced
+void removeCheckpoint(const std::string& path, const std::string& command, const droplet::OutputOptions& options);
 
-/// Reads a checkpoint.
+/// Reads a checkpoint of a command.
 /// @return                nothing if the file does not exist
 /// @throws droplet::Error InvalidInput if the file is damaged
-std::optional<Checkpoint> readCheckpoint(const std::string& path);
+std::optional<Checkpoint> readCheckpoint(const std::string& path, const std::string& command);
 
 }  // namespace cli

@@ -19,6 +19,7 @@
 #include "compare_command.h"
 #include "droplet/error.h"
 #include "exit_code.h"
+#include "flow_command.h"
 #include "glyphs_command.h"
 #include "interruption.h"
 #include "option_values.h"
@@ -68,9 +69,10 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"animate", cli::runAnimate},        {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},        {"glyphs", cli::runGlyphs},
-                                          {"wind-tunnel", cli::runWindTunnel}, {"windshield", cli::runWindshield}};
+    static const std::vector<Command> all{{"animate", cli::runAnimate},      {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},      {"flow", cli::runFlow},
+                                          {"glyphs", cli::runGlyphs},        {"wind-tunnel", cli::runWindTunnel},
+                                          {"windshield", cli::runWindshield}};
     return all;
 }
 

@@ -19,6 +19,7 @@ const CommandText& commandText()
         "  animate      Make animated droplets from frames or a video\n"
         "  batch        Make droplets from many pictures\n"
         "  compare      Measure the difference of two surfaces\n"
+        "  flow         Let droplets run over a mesh\n"
         "  glyphs       Make droplets from type\n"
         "  wind-tunnel  Compute how droplets move in the wind\n"
         "  windshield   Show rain on the windshield of a moving car\n"

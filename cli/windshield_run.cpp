@@ -14,6 +14,7 @@
 #include "checkpoint.h"
 #include "droplet/wind_io/droplet_scene.h"
 #include "droplet/wind_io/droplet_table.h"
+#include "droplet/windshield/state_bytes.h"
 #include "droplet_report.h"
 #include "files.h"
 #include "option_values.h"
@@ -25,6 +26,8 @@
 
 namespace cli {
 namespace {
+
+constexpr const char* kCommand = "windshield";
 
 class WindshieldRun {
 public:
@@ -150,10 +153,10 @@ void WindshieldRun::begin()
 bool WindshieldRun::resume()
 {
     const std::string path = checkpointPath(*options_.files);
-    const auto checkpoint = options_.resume ? readCheckpoint(path) : std::optional<Checkpoint>();
+    const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
     if (!checkpoint) {
         // The checkpoint of another run must not be used for this one.
-        removeCheckpoint(path, options_.output_options);
+        removeCheckpoint(path, kCommand, options_.output_options);
         return false;
     }
     if (checkpoint->fingerprint != fingerprint_) {
@@ -172,8 +175,8 @@ bool WindshieldRun::resume()
     if (options_.droplets || options_.model || !is_whole) {
         return false;
     }
-    state_ = checkpoint->state;
-    report_.balance = checkpoint->balance;
+    state_ = droplet::stateFromBytes(checkpoint->state, path);
+    report_.balance = rowsFromBytes<droplet::BalanceRow>(checkpoint->rows);
     done_ = checkpoint->frames;
     for (std::size_t k = 1; k < done_; ++k) {
         travel();
@@ -230,7 +233,8 @@ void WindshieldRun::run()
         }
         if (options_.files && done_ + 1 > drawn_before_ && (done_ + 1) % second == 0) {
             frames_.wait();
-            writeCheckpoint(checkpointPath(*options_.files), {fingerprint_, done_ + 1, report_.balance, state_});
+            writeCheckpoint(checkpointPath(*options_.files),
+                            {kCommand, fingerprint_, done_ + 1, bytesOfRows(report_.balance), bytesOf(state_)});
         }
         showProgress();
     }

@@ -16,12 +16,13 @@ _droplet_shape()
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
+        flow) options='--scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --streaks --droplets --json --resume --no-clobber --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
         windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
         *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
-    [[ ' animate batch compare glyphs wind-tunnel windshield ' == *" $command "* ]] || command=
+    [[ ' animate batch compare flow glyphs wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
         *:--width) return ;;
         *:--pixel-size) return ;;
@@ -42,6 +43,7 @@ _droplet_shape()
         *:--liquid) choices='water ethanol glycerol mercury honey' ;;
         *:--surface-tension) return ;;
         *:--density) return ;;
+        flow:--model) choices='capillary paper' ;;
         windshield:--model) files=1 ;;
         *:--model) choices='linear exact' ;;
         *:--gravity) return ;;
@@ -55,6 +57,7 @@ _droplet_shape()
         *:--triangles) return ;;
         *:--edge) return ;;
         *:--grading) choices='1 2 4 8 16 32 64' ;;
+        flow:--material) return ;;
         *:--material) choices='water ink mercury honey plain' ;;
         *:--unit) choices='m cm mm' ;;
         *:--format) choices='glb gltf obj ply stl' ;;
@@ -88,6 +91,43 @@ _droplet_shape()
         *:--volume-tolerance) return ;;
         *:--normal-tolerance) return ;;
         *:--picture) files=1 ;;
+        *:--scale) return ;;
+        *:--size) return ;;
+        *:--up) choices='y z' ;;
+        *:--spin) return ;;
+        *:--spin-axis) return ;;
+        *:--motion) files=1 ;;
+        *:--drops) return ;;
+        *:--radius) return ;;
+        *:--volume-spread) return ;;
+        *:--from) return ;;
+        *:--mask) files=1 ;;
+        *:--start) files=1 ;;
+        *:--emitter) return ;;
+        *:--rain) return ;;
+        *:--condensation) return ;;
+        *:--dew-spacing) return ;;
+        *:--hysteresis) return ;;
+        *:--friction) return ;;
+        *:--roughness) return ;;
+        *:--adhesion) return ;;
+        *:--gravity-direction) return ;;
+        windshield:--wind) choices='turned projected' ;;
+        *:--wind) return ;;
+        *:--film) return ;;
+        *:--bead-spacing) return ;;
+        *:--drying) return ;;
+        *:--viscosity-factor) choices='artistic wedge' ;;
+        *:--kinetic-fraction) return ;;
+        *:--drag-coefficient) return ;;
+        *:--boundary-layer) return ;;
+        *:--profile-exponent) return ;;
+        *:--air-density) return ;;
+        *:--time) return ;;
+        *:--seed) return ;;
+        *:--shape) choices='capillary springs capsule' ;;
+        *:--streaks) files=1 ;;
+        *:--droplets) files=1 ;;
         *:--font) files=1 ;;
         *:--face-index) return ;;
         *:--axis) return ;;
@@ -98,41 +138,27 @@ _droplet_shape()
         *:--line-spacing) return ;;
         windshield:--preset) choices='figure-3.10 figure-3.11 figure-3.12' ;;
         *:--preset) choices='hashimoto thesis thesis,hashimoto' ;;
-        windshield:--wind) choices='turned projected' ;;
-        *:--wind) return ;;
         *:--slope) return ;;
-        *:--hysteresis) return ;;
         *:--sliding-angle) return ;;
         *:--sliding-volume) choices='every' ;;
-        *:--viscosity-factor) choices='artistic wedge' ;;
-        *:--kinetic-fraction) return ;;
-        *:--drag-coefficient) return ;;
-        *:--boundary-layer) return ;;
-        *:--profile-exponent) return ;;
-        *:--air-density) return ;;
         *:--chart) files=1 ;;
         *:--map) files=1 ;;
         *:--measured) return ;;
         *:--trace) files=1 ;;
-        *:--time) return ;;
         *:--trace-step) return ;;
         *:--initial-speed) return ;;
         *:--gust) return ;;
         *:--gust-period) return ;;
-        *:--rain) return ;;
         *:--speed) return ;;
         *:--drive-cycle) files=1 ;;
         *:--noise) return ;;
         *:--wiper-period) return ;;
-        *:--seed) return ;;
         *:--glass-width) return ;;
         *:--glass-height) return ;;
         *:--glass-radius) return ;;
         *:--still-diameter) return ;;
-        *:--film) return ;;
         *:--warm-up) return ;;
         *:--background-blur) return ;;
-        *:--size) return ;;
         *:--field-of-view) return ;;
         *:--eye-distance) return ;;
         *:--eye) return ;;
@@ -145,7 +171,6 @@ _droplet_shape()
         *:--quality) return ;;
         *:--maps) files=1 ;;
         *:--map-width) return ;;
-        *:--droplets) files=1 ;;
         *:--model-animation) choices='nodes texture' ;;
     esac
     if [[ -n $choices ]]; then
@@ -155,7 +180,7 @@ _droplet_shape()
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         if ((COMP_CWORD == 1)); then
-            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare glyphs wind-tunnel windshield' -- "$word")
+            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs wind-tunnel windshield' -- "$word")
         fi
     fi
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays the droplets of `windshield --model` in three.js, from node animations or from a texture (one draw call).
+// Plays the droplets of `windshield --model` and of `flow` in three.js, from node animations or from a texture (one
+// draw call).
 import { AnimationMixer, InstancedBufferGeometry, NoColorSpace, PropertyBinding, Sphere, Vector3 } from 'three';
 
 const kVertex = /* glsl */ `

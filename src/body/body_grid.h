@@ -11,8 +11,8 @@
 
 namespace droplet {
 
-inline constexpr std::size_t kBodySlices = 32;                      ///< vertices around the footprint
-inline constexpr std::size_t kBodyRings = 6;                        ///< rim included, apex not
+inline constexpr std::size_t kBodySlices = 28;                      ///< vertices around the footprint
+inline constexpr std::size_t kBodyRings = 7;                        ///< rim included, apex not
 inline constexpr std::size_t kBodyApex = kBodySlices * kBodyRings;  ///< index of the last vertex
 inline constexpr std::size_t kBodyVertices = kBodyApex + 1;         ///< rings from the rim up, then the apex
 inline constexpr std::size_t kBodyStride = kBodySlices + 2;         ///< of a ring in a BodyGrid

@@ -6,9 +6,9 @@
 // the distance from the middle over that of the rim. Then w = (1 − ρ²) q with a smooth q, which is 1 for that
 // paraboloid.
 //
-// Forces are those of the whole droplet, not of a flat one. Gravity into the ground counts cos²(θ/2) times: then wide
-// puddles have the height 2 l sin(θ/2), l the capillary length. Gravity along the ground counts 8 V / (π r³ sin²θ)
-// times: then the sum of surface tensions along the rim of a disc holds the weight of a cap with volume V.
+// Forces are those of the whole droplet, not of a flat one. A Bond number of the table belongs to the round droplet
+// that gravity makes as much lower; that of a flat droplet would be too small. Gravity along the ground counts 8 V / (π
+// r³ sin²θ) times: then the sum of surface tensions along the rim of a disc holds the weight of a cap with volume V.
 #include "body/capillary_body.h"
 
 #include <tbb/parallel_for.h>
@@ -17,14 +17,15 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <utility>
 
+#include "body/axial_droplet.h"
 #include "body/running_footprint.h"
-#include "droplet/error.h"
 #include "droplet/mesh/planar_mesh.h"
-#include "droplet/shape/solve.h"
-#include "number_text.h"
-#include "wind/root.h"
+#include "shape/constrained.h"
+#include "shape/operator.h"
 
 namespace droplet {
 namespace {
@@ -33,19 +34,25 @@ constexpr std::size_t kSolvedRings = 14;  // rim included, middle not
 constexpr auto kSolvedSteps = static_cast<double>(kSolvedRings);
 using SolvedRays = std::array<std::array<double, kSolvedRings>, kBodySlices>;  // from the middle, without the rim
 
-/// Bond numbers of the table times cos²(θ/2); negative ones are fractions of the limit.
+/// Bond numbers of the linear model; negative ones are fractions of the limit.
 constexpr std::array kHanging{-1.0, -0.7, -0.4, -0.15};
-constexpr std::array kStanding{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
+constexpr std::array kStanding{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
+
+constexpr std::size_t kLevel = kHanging.size();  // the entry without gravity
 
 double squared(double x)
 {
     return x * x;
 }
 
+// ρ = (1 + c) s − c s² of even steps s: edges are shorter at the rim, where gravity bends the surface.
+constexpr double kCrowding = 0.6;
+
 /// ρ of a ring of the solved mesh.
 double solvedRadius(std::size_t ring)
 {
-    return 1.0 - static_cast<double>(ring) / kSolvedSteps;
+    const double s = 1.0 - static_cast<double>(ring) / kSolvedSteps;
+    return s * (1.0 + kCrowding * (1.0 - s));
 }
 
 /// Mesh of the same form as a body.
@@ -82,23 +89,25 @@ PlanarMesh meshOf(const std::array<Vec2, kBodySlices>& rim)
     return mesh;
 }
 
-/// Solved heights along the slices.
-SolvedRays raysOf(const std::vector<double>& height)
+/// Heights along the slices, times a factor.
+/// @param height  at inner vertices
+SolvedRays raysOf(const std::vector<double>& height, double factor)
 {
     SolvedRays rays;
     for (std::size_t j = 0; j < kBodySlices; ++j) {
-        rays[j][0] = height.back();
+        rays[j][0] = factor * height.back();
         for (std::size_t i = 1; i < kSolvedRings; ++i) {
-            rays[j][i] = height[(kSolvedRings - i) * kBodySlices + j];
+            rays[j][i] = factor * height[(kSolvedRings - 1 - i) * kBodySlices + j];
         }
     }
     return rays;
 }
 
-/// Cubic interpolation of evenly spaced values; beyond the last one at ρ = 1.
+/// Cubic interpolation at ρ of values on the solved rings; extrapolation to ρ = 1.
 double valueAt(const std::array<double, kSolvedRings>& values, double radius)
 {
-    const double place = radius * kSolvedSteps;
+    constexpr double kHalf = 0.5 * (1.0 + kCrowding);
+    const double place = (kHalf - std::sqrt(kHalf * kHalf - kCrowding * radius)) / kCrowding * kSolvedSteps;
     const auto first =
         static_cast<std::size_t>(std::clamp(std::floor(place) - 1.0, 0.0, static_cast<double>(kSolvedRings) - 4.0));
     const double x = place - static_cast<double>(first);
@@ -107,59 +116,83 @@ double valueAt(const std::array<double, kSolvedRings>& values, double radius)
            v[2] * x * (x - 1.0) * (x - 3.0) / -2.0 + v[3] * x * (x - 1.0) * (x - 2.0) / 6.0;
 }
 
-/// Solutions of all footprints at one Bond number.
+/// Solutions on one footprint at one Bond number.
 struct Solved {
-    std::vector<SolvedRays> level;  ///< heights per pressure on level ground
-    std::vector<SolvedRays> along;  ///< change of heights per slope to +x, at the same pressure
-    std::vector<SolvedRays> aside;  ///< change of heights per slope to +y
+    SolvedRays level;  ///< heights per pressure on level ground
+    SolvedRays along;  ///< change of heights per slope to +x, at the same pressure
+    SolvedRays aside;  ///< change of heights per slope to +y
 };
 
-/// Solves for droplets of volume 1, in units of the density and surface tension.
-/// @param normal  gravity into the ground
-/// @param along   gravity along it
-/// @param towards  direction of `along` [rad]
-Solution solved(const std::vector<PlanarMesh>& meshes, double normal, double along = 0.0, double towards = 0.0)
+/// ∫xφ at inner vertices, for the coordinate x along a direction.
+std::vector<double> pullAlong(const PlanarMesh& mesh, Vec2 direction)
 {
-    SolveOptions options;
-    options.liquid = {"", 1.0, 1.0};
-    options.fill = {FillBy::Volume, 1.0, FillSharing::Each};
-    options.gravity = along == 0.0 ? normal : std::hypot(normal, along);
-    options.tilt = along == 0.0 ? 0.0 : std::atan2(along, normal);
-    options.tilt_direction = towards;
-    Solution solution = solve(meshes, options);
-    if (!solution.report.usable()) {
-        throw Error(ErrorCode::NoSuchDroplet, "no droplet has the Bond number " + numberText(normal));
+    std::vector<double> pull(mesh.vertices.size());
+    for (const Triangle& triangle : mesh.triangles) {
+        double sum = 0.0;
+        for (const std::uint32_t v : triangle) {
+            sum += dot(direction, mesh.vertices[v]);
+        }
+        for (const std::uint32_t v : triangle) {
+            pull[v] += doubleArea(mesh, triangle) / 24.0 * (sum + dot(direction, mesh.vertices[v]));
+        }
     }
-    return solution;
+    pull.erase(pull.begin(), pull.begin() + mesh.rimVertexCount());
+    return pull;
+}
+
+/// Heights per pressure on level ground.
+SolvedRays perPressure(const ConstrainedSolver& solver)
+{
+    const ConstrainedSolution level = solver.solve({.right = {}, .volume = 1.0});
+    return raysOf(level.values, 1.0 / level.multiplier);
 }
 
 /// @param bond  Bond number into the ground by the radius of a disc of the footprint's area
-Solved solveAll(const std::vector<PlanarMesh>& meshes, double bond)
+Solved solveAll(const PlanarMesh& mesh, double bond)
 {
+    const std::unique_ptr<ConstrainedSolver> solver = directSolver(mesh);
+    Operator op;
+    op.mass_weight = bond;
+    solver->prepare(op);
     Solved result;
-    const Solution level = solved(meshes, bond);
-    for (const HeightField& field : level.droplets) {
-        result.level.push_back(raysOf(field.height));
-        for (auto& ray : result.level.back()) {
-            for (double& value : ray) {
-                value /= field.pressure;
+    result.level = perPressure(*solver);
+    const auto perSlope = [&](Vec2 direction) {
+        const ConstrainedSolution tilted = solver->solve({.right = pullAlong(mesh, direction)});
+        SolvedRays rays = raysOf(tilted.values, 1.0);
+        for (std::size_t j = 0; j < kBodySlices; ++j) {
+            for (std::size_t i = 0; i < kSolvedRings; ++i) {
+                rays[j][i] -= tilted.multiplier * result.level[j][i];
             }
         }
-    }
-    for (auto* const changes : {&result.along, &result.aside}) {
-        const double towards = changes == &result.along ? 0.0 : 0.5 * std::numbers::pi;
-        const Solution tilted = solved(meshes, bond, 1.0, towards);
-        for (std::size_t k = 0; k < meshes.size(); ++k) {
-            SolvedRays rays = raysOf(tilted.droplets[k].height);
-            for (std::size_t j = 0; j < kBodySlices; ++j) {
-                for (std::size_t i = 0; i < kSolvedRings; ++i) {
-                    rays[j][i] -= tilted.droplets[k].pressure * result.level[k][j][i];
-                }
-            }
-            changes->push_back(rays);
-        }
-    }
+        return rays;
+    };
+    result.along = perSlope({1.0, 0.0});
+    result.aside = perSlope({0.0, 1.0});
     return result;
+}
+
+/// Moves the origin of a footprint to the summit of the droplet on level ground without gravity. The projective map is
+/// the most sensitive there.
+void centre(std::array<Vec2, kBodySlices>& rim)
+{
+    constexpr int kSteps = 3;
+    for (int step = 0; step < kSteps; ++step) {
+        const PlanarMesh mesh = meshOf(rim);
+        const std::unique_ptr<ConstrainedSolver> solver = directSolver(mesh);
+        solver->prepare(Operator{});
+        const SolvedRays heights = perPressure(*solver);
+        // The parabola through the middle and two places ahead and behind
+        constexpr std::size_t kRing = 2;
+        const double x = rim.front().x * solvedRadius(kSolvedRings - kRing);
+        const double y = rim[kBodySlices / 2].x * solvedRadius(kSolvedRings - kRing);
+        const double ahead = (heights.front()[kRing] - heights.front()[0]) / x;
+        const double behind = (heights[kBodySlices / 2][kRing] - heights.front()[0]) / y;
+        const double bend = (ahead - behind) / (x - y);
+        const double summit = 0.5 * (bend * x - ahead) / bend;
+        for (Vec2& point : rim) {
+            point.x -= summit;
+        }
+    }
 }
 
 /// q at the vertices of a body.
@@ -181,6 +214,78 @@ std::array<double, kBodyVertices> bodyField(const SolvedRays& rays, const std::a
     return field;
 }
 
+/// Share of the way between two neighbours of a rising list, and the index of the first.
+template <std::size_t Count>
+std::pair<std::size_t, double> locate(const std::array<double, Count>& rising, double value)
+{
+    std::size_t i = 0;
+    while (i + 2 < Count && rising[i + 1] <= value) {
+        ++i;
+    }
+    return {i, std::clamp((value - rising[i]) / (rising[i + 1] - rising[i]), 0.0, 1.0)};
+}
+
+/// ρ of a body's rings on a cap, at even steps of the polar angle.
+std::array<double, kBodyRings> capRadii(double tangent)
+{
+    std::array<double, kBodyRings> radii{1.0};
+    for (std::size_t k = 1; k < kBodyRings; ++k) {
+        const double share = 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings);
+        radii[k] = std::tan(std::atan(tangent) * share) / tangent;
+    }
+    return radii;
+}
+
+/// ρ of a body's rings on a round droplet, at even steps of the sum of the arc's length and of its turn, each over its
+/// total.
+/// @param q  along a slice, to any scale
+std::array<double, kBodyRings> evenRadii(std::array<double, kSolvedRings> q, double tangent)
+{
+    const double at_rim = valueAt(q, 1.0);  // 1 at the contact angle
+    for (double& value : q) {
+        value /= at_rim;
+    }
+    constexpr std::size_t kSamples = 200;
+    const auto placeOf = [&](double radius) {
+        const double w = (1.0 - radius * radius) * valueAt(q, radius);
+        const double inverse = 1.0 / (1.0 + tangent * tangent * (1.0 - w));
+        return Vec2{radius * (1.0 + tangent * tangent) * inverse, tangent * w * inverse};
+    };
+    // Samples are even on a cap, too.
+    const auto radiusOf = [&](std::size_t sample) {
+        return std::tan(std::atan(tangent) * static_cast<double>(sample) / kSamples) / tangent;
+    };
+    std::array<double, kSamples + 1> arcs{};
+    std::array<double, kSamples + 1> turns{};
+    Vec2 last = placeOf(0.0);
+    double last_slope = 0.0;
+    for (std::size_t i = 1; i <= kSamples; ++i) {
+        const Vec2 next = placeOf(radiusOf(i));
+        const double slope = std::atan2(last.y - next.y, next.x - last.x);
+        arcs[i] = arcs[i - 1] + length(next - last);
+        turns[i] = turns[i - 1] + std::abs(slope - last_slope);
+        last = next;
+        last_slope = slope;
+    }
+    std::array<double, kSamples + 1> way{};
+    for (std::size_t i = 0; i <= kSamples; ++i) {
+        way[i] = 0.5 * (arcs[i] / arcs.back() + turns[i] / turns.back());
+    }
+    std::array<double, kBodyRings> radii{1.0};
+    for (std::size_t k = 1; k < kBodyRings; ++k) {
+        const auto [i, share] = locate(way, 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings));
+        radii[k] = radiusOf(i) + share * (radiusOf(i + 1) - radiusOf(i));
+    }
+    return radii;
+}
+
+/// 1 − ρ² of a vertex.
+double paraboloid(const std::array<double, kBodyRings>& radii, std::size_t vertex)
+{
+    const std::size_t ring = vertex / kBodySlices;
+    return ring < kBodyRings ? 1.0 - radii[ring] * radii[ring] : 1.0;
+}
+
 /// Sets all slices to their mean.
 template <std::size_t Rings>
 void average(std::array<std::array<double, Rings>, kBodySlices>& rays)
@@ -196,17 +301,6 @@ void average(std::array<std::array<double, Rings>, kBodySlices>& rays)
     }
 }
 
-/// Share of the way between two neighbours of a rising list, and the index of the first.
-template <std::size_t Count>
-std::pair<std::size_t, double> locate(const std::array<double, Count>& rising, double value)
-{
-    std::size_t i = 0;
-    while (i + 2 < Count && rising[i + 1] <= value) {
-        ++i;
-    }
-    return {i, std::clamp((value - rising[i]) / (rising[i + 1] - rising[i]), 0.0, 1.0)};
-}
-
 }  // namespace
 
 CapillaryBody::CapillaryBody(const ForceModel& model)
@@ -218,92 +312,134 @@ CapillaryBody::CapillaryBody(const ForceModel& model)
     wedge_speed_ = model.wetting.viscosity_factor > 0.0 ? model.liquid.surface_tension / model.wetting.viscosity_factor
                                                         : std::numeric_limits<double>::infinity();
     slope_share_ = 8.0 * capVolume(1.0, angle) / (std::numbers::pi * squared(std::sin(angle)));
-    for (std::size_t k = 0; k < kBodyRings; ++k) {
-        // Even steps of the polar angle on the cap.
-        const double share = 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings);
-        radii_[k] = k == 0 ? 1.0 : std::tan(0.5 * angle * share) / tangent_;
-    }
-    const double flat = squared(std::cos(0.5 * angle));
-    const double hanging = 3.0 * flat;  // a cap is then about 1.5 times as high
+    const double hanging = 3.0 * squared(std::cos(0.5 * angle));  // a cap is then about 1.5 times as high
     std::transform(kHanging.begin(), kHanging.end(), bonds_.begin(), [&](double share) { return share * hanging; });
-    std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kHanging.size());
+    std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kLevel);
 
-    std::vector<PlanarMesh> meshes;
+    // On small footprints of wide contact angles droplets roll without a tail.
+    const double longest = std::min(1.0, 2.0 * std::cos(0.5 * angle));
     rows_.resize(kElongations);
     for (std::size_t e = 0; e < kElongations; ++e) {
-        rows_[e].rim = runningFootprint(static_cast<double>(e) / static_cast<double>(kElongations - 1));
-        meshes.push_back(meshOf(rows_[e].rim));
+        rows_[e].rim = runningFootprint(longest * static_cast<double>(e) / static_cast<double>(kElongations - 1));
     }
-    std::array<Solved, kBonds> solutions;
-    tbb::parallel_for(std::size_t{0}, kBonds, [&](std::size_t b) {
-        solutions[b] = solveAll(meshes, bonds_[b]);
-        average(solutions[b].level[0]);
+    tbb::parallel_for(std::size_t{1}, kElongations, [&](std::size_t e) { centre(rows_[e].rim); });
+    std::vector<Solved> solved(kElongations * kBonds);
+    tbb::parallel_for(std::size_t{0}, solved.size(), [&](std::size_t i) {
+        solved[i] = solveAll(meshOf(rows_[i / kBonds].rim), bonds_[i % kBonds]);
+        if (i < kBonds) {
+            average(solved[i].level);
+        }
     });
     // Dividing by the discrete solution on the disc, rather than by 1 − ρ², cancels most of its error.
-    std::array<double, kSolvedRings> disc = solutions[kHanging.size()].level[0][0];
+    std::array<double, kSolvedRings> disc = solved[kLevel].level[0];
     for (double& height : disc) {
         height *= 4.0;
     }
-    for (std::size_t e = 0; e < kElongations; ++e) {
+    for (std::size_t b = 0; b < kBonds; ++b) {
+        std::array<double, kSolvedRings> q = solved[b].level[0];
+        for (std::size_t i = 0; i < kSolvedRings; ++i) {
+            q[i] /= disc[i];
+        }
+        radii_[b] = b == kLevel ? capRadii(tangent_) : evenRadii(q, tangent_);
+    }
+    tbb::parallel_for(std::size_t{0}, kElongations, [&](std::size_t e) {
         for (std::size_t b = 0; b < kBonds; ++b) {
+            const Solved& one = solved[e * kBonds + b];
             Entry& entry = rows_[e].entries[b];
-            entry.level = bodyField(solutions[b].level[e], disc, radii_);
-            entry.along = bodyField(solutions[b].along[e], disc, radii_);
-            entry.aside = bodyField(solutions[b].aside[e], disc, radii_);
-            scale(rows_[e].rim, entry);
-            rows_[e].cap_bonds[b] = bonds_[b] / flat * entry.growth;
+            entry.level = bodyField(one.level, disc, radii_[b]);
+            entry.along = bodyField(one.along, disc, radii_[b]);
+            entry.aside = bodyField(one.aside, disc, radii_[b]);
+        }
+        scale(rows_[e]);
+    });
+    calibrate(angle);
+}
+
+void CapillaryBody::calibrate(double angle)
+{
+    // Heights over the cube root of the volume, over that of a cap
+    const auto slimness = [&](std::size_t b) {
+        BodyGrid grid;
+        place(grid, {rows_[0].rim, 1.0, radii_[b]}, rows_[0].entries[b].level);
+        close(grid);
+        return grid.apex.z / std::cbrt(volumeOf(grid));
+    };
+    const double cap = slimness(kLevel);
+    const double cap_volume = capVolume(1.0, angle);
+    const double true_cap = tangent_ / std::cbrt(cap_volume);
+    std::array<double, kBonds> bonds{};
+    for (const bool hangs : {false, true}) {
+        const std::vector<AxialDroplet> droplets = axialDroplets(angle, hangs);
+        const double sign = hangs ? -1.0 : 1.0;
+        const auto slimnessOf = [&](const AxialDroplet& one) { return one.height / std::cbrt(one.volume) / true_cap; };
+        const auto bondOf = [&](const AxialDroplet& one) {
+            return sign * std::pow(one.volume / cap_volume, 2.0 / 3.0);
+        };
+        for (std::size_t b = hangs ? 0 : kLevel + 1; b < (hangs ? kLevel : kBonds); ++b) {
+            const double wanted = slimness(b) / cap;
+            std::size_t k = 0;
+            while (k + 2 < droplets.size() && (slimnessOf(droplets[k + 1]) - wanted) * sign > 0.0) {
+                ++k;
+            }
+            const double first = slimnessOf(droplets[k]);
+            const double share = (wanted - first) / (slimnessOf(droplets[k + 1]) - first);
+            bonds[b] = bondOf(droplets[k]) + share * (bondOf(droplets[k + 1]) - bondOf(droplets[k]));
         }
     }
-    for (double& bond : bonds_) {
-        bond /= flat;
+    for (Row& row : rows_) {
+        for (std::size_t b = 0; b < kBonds; ++b) {
+            row.cap_bonds[b] = bonds[b] * row.entries[b].growth / rows_[0].entries[b].growth;
+        }
     }
 }
 
-void CapillaryBody::scale(const std::array<Vec2, kBodySlices>& rim, Entry& entry) const
+void CapillaryBody::scale(Row& row) const
 {
-    const double t = tangent_;
-    // Slope and bulge of the surface at the rim per q, and the length of rim there.
-    std::array<double, kBodySlices> reach;
-    std::array<double, kBodySlices> share;
-    for (std::size_t j = 0; j < kBodySlices; ++j) {
-        const Vec2 last = rim[(j + kBodySlices - 1) % kBodySlices];
-        const Vec2 next = rim[(j + 1) % kBodySlices];
-        reach[j] = cross(rim[j], next - last) / length(next - last);
-        share[j] = length(rim[j] - last) + length(next - rim[j]);
+    row.height = 0.0;
+    for (const Vec2 p : row.rim) {
+        row.height = std::max(row.height, p.y);
     }
-    const double wanted = 2.0 * std::atan(t);
-    const auto excess = [&](double factor) {
+    // Without gravity, w is 1 at its largest; with gravity, the mean slope at the rim is the same.
+    const auto meanSlope = [&](const Field& q) {
         double sum = 0.0;
         double total = 0.0;
         for (std::size_t j = 0; j < kBodySlices; ++j) {
-            const double q = factor * entry.level[j];
-            sum += share[j] * (std::atan2(2.0 * t * q / reach[j], 1.0 + t * t * (1.0 - 2.0 * q)) - wanted);
-            total += share[j];
+            const Vec2 along = row.rim[(j + 1) % kBodySlices] - row.rim[(j + kBodySlices - 1) % kBodySlices];
+            sum += dot(along, along) / cross(row.rim[j], along) * q[j];
+            total += length(along);
         }
         return sum / total;
     };
-    double most = 1.0;
-    while (excess(most) < 0.0) {
-        most *= 2.0;
+    const Field& level = row.entries[kLevel].level;
+    double most = 0.0;
+    for (std::size_t v = 0; v < kBodyVertices; ++v) {
+        most = std::max(most, paraboloid(radii_[kLevel], v) * level[v]);
     }
-    const double factor = rootBetween(0.0, most, excess);
-    for (double& q : entry.level) {
-        q *= factor;
+    const double slope = meanSlope(level) / most;
+    for (std::size_t b = 0; b < kBonds; ++b) {
+        Entry& entry = row.entries[b];
+        const double factor = slope / meanSlope(entry.level);
+        for (double& q : entry.level) {
+            q *= factor;
+        }
+        limitSlopes(row, radii_[b], entry);
     }
+}
 
-    // Slopes make the liquid thinner on one side, to 35 % at most, and the bulge at most 1.5 times as wide.
-    constexpr double kThinned = 0.65;
+void CapillaryBody::limitSlopes(const Row& row, const std::array<double, kBodyRings>& radii, Entry& entry) const
+{
+    const double t = tangent_;
+    // Slopes make the liquid thinner on one side, to 40 % at most, and the bulge at most 1.5 times as wide.
+    constexpr double kThinned = 0.6;
     constexpr double kWidened = 0.5;
     constexpr double kFar = 1e6;
     entry.ahead = kFar;
     entry.behind = kFar;
     entry.sideways = kFar;
     for (std::size_t v = 0; v < kBodyVertices; ++v) {
-        const double radius = v == kBodyApex ? 0.0 : radii_[v / kBodySlices];
-        const double paraboloid = 1.0 - radius * radius;
-        const double bulge = t * t * paraboloid;
+        const double bulge = t * t * paraboloid(radii, v);
         const double room = kWidened * (1.0 + t * t - bulge * entry.level[v]);
-        const double level = kThinned * entry.level[v] * std::cos(0.5 * wanted);
+        const double level = kThinned * entry.level[v] / std::sqrt(1.0 + t * t);
         const auto limit = [&](double change) {
             const double thinned = change < 0.0 ? level / -change : kFar;
             return change > 0.0 && bulge > 0.0 ? std::min(thinned, room / (bulge * change)) : thinned;
@@ -314,38 +450,38 @@ void CapillaryBody::scale(const std::array<Vec2, kBodySlices>& rim, Entry& entry
     }
 
     BodyGrid grid;
-    place(grid, rim, entry.level);
+    place(grid, {row.rim, row.height, radii}, entry.level);
     close(grid);
     BodyGrid cap;
     Field ones;
     ones.fill(1.0);
-    place(cap, runningFootprint(0.0), ones);
+    place(cap, {rows_[0].rim, 1.0, radii_[kLevel]}, ones);
     close(cap);
     entry.growth = std::pow(volumeOf(grid) / volumeOf(cap), 2.0 / 3.0);
 }
 
-void CapillaryBody::place(BodyGrid& grid, const std::array<Vec2, kBodySlices>& rim, const Field& q) const
+void CapillaryBody::place(BodyGrid& grid, const Base& footprint, const Field& q) const
 {
     const double t = tangent_;
     const double t2 = t * t;
     for (std::size_t k = 0; k < kBodyRings; ++k) {
-        const double paraboloid = k == 0 ? 0.0 : 1.0 - radii_[k] * radii_[k];
+        const double share = 1.0 - footprint.radii[k] * footprint.radii[k];
         const double* const values = &q[k * kBodySlices];
         for (std::size_t j = 0; j < kBodySlices; ++j) {
-            const double w = paraboloid * values[j];
+            const double w = share * values[j];
             const double inverse = 1.0 / (1.0 + t2 * (1.0 - w));
-            const double out = radii_[k] * (1.0 + t2) * inverse;
-            grid.x[k][j + 1] = out * rim[j].x;
-            grid.y[k][j + 1] = out * rim[j].y;
-            grid.z[k][j + 1] = t * w * inverse;
+            const double out = footprint.radii[k] * (1.0 + t2) * inverse;
+            grid.x[k][j + 1] = out * footprint.rim[j].x;
+            grid.y[k][j + 1] = out * footprint.rim[j].y;
+            grid.z[k][j + 1] = footprint.height * t * w * inverse;
         }
     }
     const double w = q[kBodyApex];
-    grid.apex = {0.0, 0.0, t * w / (1.0 + t2 * (1.0 - w))};
+    grid.apex = {0.0, 0.0, footprint.height * t * w / (1.0 + t2 * (1.0 - w))};
     for (std::size_t j = 0; j < kBodySlices; ++j) {
         // Derivative of the map at the rim, where w falls by 2 q per ρ.
         const double out = 2.0 * t2 * q[j] - 1.0 - t2;
-        grid.inward[j] = {out * rim[j].x, out * rim[j].y, 2.0 * t * q[j]};
+        grid.inward[j] = {out * footprint.rim[j].x, out * footprint.rim[j].y, 2.0 * footprint.height * t * q[j]};
     }
 }
 
@@ -404,12 +540,16 @@ BodyGrid CapillaryBody::shape(const BodyConditions& conditions) const
     for (std::size_t i = 0; i < corners.size(); ++i) {
         add(corners[i], i == 0);
     }
-    std::array<Vec2, kBodySlices> rim;
+    Base footprint;
+    footprint.height = (1.0 - longer) * rows_[e].height + longer * rows_[e + 1].height;
+    for (std::size_t k = 0; k < kBodyRings; ++k) {
+        footprint.radii[k] = (1.0 - heavier) * radii_[b][k] + heavier * radii_[b + 1][k];
+    }
     for (std::size_t j = 0; j < kBodySlices; ++j) {
-        rim[j] = (1.0 - longer) * rows_[e].rim[j] + longer * rows_[e + 1].rim[j];
+        footprint.rim[j] = (1.0 - longer) * rows_[e].rim[j] + longer * rows_[e + 1].rim[j];
     }
     BodyGrid grid;
-    place(grid, rim, q);
+    place(grid, footprint, q);
     return grid;
 }
 

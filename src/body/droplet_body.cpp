@@ -3,25 +3,60 @@
 
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "body/body_grid.h"
 #include "body/capillary_body.h"
+#include "body/capsule_body.h"
+#include "body/spring_body.h"
+#include "droplet/body/running_shape.h"
+#include "droplet/error.h"
 #include "require.h"
 
 namespace droplet {
 
+namespace {
+
+/// Capsules of the thesis.
+class CapsuleBody {
+public:
+    explicit CapsuleBody(const ForceModel& model) { options_.contact_angle = model.wetting.contact_angle; }
+
+    [[nodiscard]] BodyGrid shape(const BodyConditions& conditions) const
+    {
+        return capsuleGrid(runningShape(conditions.volume, conditions.speed, options_));
+    }
+
+private:
+    ShapeOptions options_;
+};
+
+using AnyBody = std::variant<CapillaryBody, SpringBody, CapsuleBody>;
+
+AnyBody bodyOf(BodyShape shape, const ForceModel& model)
+{
+    model.validate();
+    switch (shape) {
+        case BodyShape::Capillary:
+            return CapillaryBody(model);
+        case BodyShape::Springs:
+            return SpringBody(model);
+        case BodyShape::Capsule:
+            return CapsuleBody(model);
+    }
+    throw Error(ErrorCode::InvalidArgument, "shape must be capillary, springs or capsule");
+}
+
+}  // namespace
+
 struct DropletBodies::Content {
+    AnyBody body;
     std::vector<Triangle> triangles = bodyTriangles();
-    CapillaryBody body;
 };
 
 DropletBodies::DropletBodies(BodyShape shape, const ForceModel& model)
+    : content_(std::make_unique<Content>(Content{.body = bodyOf(shape, model)}))
 {
-    model.validate();
-    if (shape != BodyShape::Capillary) {
-        throw Error(ErrorCode::InvalidArgument, "shape must be capillary");
-    }
-    content_ = std::make_unique<Content>(Content{.body = CapillaryBody(model)});
 }
 
 DropletBodies::~DropletBodies() = default;
@@ -57,7 +92,7 @@ void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> posit
         makeBall(conditions.volume, positions, normals);
         return;
     }
-    BodyGrid grid = content_->body.shape(conditions);
+    BodyGrid grid = std::visit([&](const auto& body) { return body.shape(conditions); }, content_->body);
     finish(grid, conditions.volume, positions, normals);
 }
 

@@ -8,8 +8,8 @@
 namespace droplet {
 namespace {
 
-constexpr double kTail = 2.0;    ///< how far the tail is drawn out, over the radius of the head
-constexpr double kTaper = 0.55;  ///< how much narrower its end is
+constexpr double kTail = 1.7;   ///< how far the tail is drawn out, over the radius of the head
+constexpr double kTaper = 0.5;  ///< how much narrower its end is
 
 }  // namespace
 
@@ -26,17 +26,17 @@ std::array<Vec2, kBodySlices> runningFootprint(double elongation)
         rim[j] = {1.0 - 2.0 * u - kTail * elongation * u * u, mirrored == j ? half_width : -half_width};
     }
     double twice_area = 0.0;
-    double moment = 0.0;
     for (std::size_t j = 0; j < kBodySlices; ++j) {
-        const Vec2 a = rim[j];
-        const Vec2 b = rim[(j + 1) % kBodySlices];
-        twice_area += cross(a, b);
-        moment += cross(a, b) * (a.x + b.x);
+        twice_area += cross(rim[j], rim[(j + 1) % kBodySlices]);
     }
+    // The width is largest where u (1 − u) (1 − a u)² is: 4 a u² − (2 + 3 a) u + 1 = 0.
+    const double a = kTaper * elongation;
+    const double u = 2.0 / (2.0 + 3.0 * a + std::sqrt((2.0 + 3.0 * a) * (2.0 + 3.0 * a) - 16.0 * a));
+    const double widest = 1.0 - 2.0 * u - kTail * elongation * u * u;
     constexpr auto kCount = static_cast<double>(kBodySlices);
     const double scale = std::sqrt(kCount * std::sin(2.0 * std::numbers::pi / kCount) / twice_area);
     for (Vec2& point : rim) {
-        point = {scale * (point.x - moment / (3.0 * twice_area)), scale * point.y};
+        point = {scale * (point.x - widest), scale * point.y};
     }
     return rim;
 }

@@ -49,4 +49,35 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
     return surface;
 }
 
+Surface withBases(Surface surface, const DropletBodies& bodies)
+{
+    const std::size_t rim = bodies.rimVertices();
+    const std::size_t droplets = surface.positions.size() / bodies.vertices();
+    for (std::size_t i = 0; i < droplets; ++i) {
+        const auto first = static_cast<std::uint32_t>(i * bodies.vertices());
+        const auto centre = static_cast<std::uint32_t>(surface.positions.size());
+        Vec3 middle;
+        Vec3 area;
+        for (std::uint32_t k = 0; k < rim; ++k) {
+            const Vec3 position = surface.positions[first + k];
+            const auto next = static_cast<std::uint32_t>((k + 1) % rim);
+            middle = middle + (1.0 / static_cast<double>(rim)) * position;
+            area = area + cross(position - surface.positions[first], surface.positions[first + next] - position);
+            surface.triangles.push_back({centre, centre + 1 + next, centre + 1 + k});
+        }
+        // A ball in the air touches the ground in a point.
+        const Vec3 down = length(area) > 0.0 ? (-1.0 / length(area)) * area : Vec3{0.0, 0.0, -1.0};
+        surface.positions.push_back(middle);
+        surface.weld.push_back(centre);
+        for (std::uint32_t k = 0; k < rim; ++k) {
+            surface.positions.push_back(surface.positions[first + k]);
+            surface.weld.push_back(surface.weld[first + k]);
+        }
+        surface.normals.resize(surface.positions.size(), down);
+    }
+    surface.uvs.resize(surface.positions.size());
+    surface.contact_angle.resize(surface.positions.size());
+    return surface;
+}
+
 }  // namespace droplet

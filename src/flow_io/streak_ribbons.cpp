@@ -15,6 +15,8 @@ namespace {
 /// Points may be left out where the path is straight to this part of its width, and shorter than this number of widths.
 constexpr double kStraight = 0.02;
 constexpr double kLongest = 4.0;
+/// Steps shorter than this part of the width are left out, as where a droplet follows an edge on both of its sides.
+constexpr double kShort = 0.05;
 /// Ribbons shorter than this part of their width are left out: the droplet hardly moved.
 constexpr double kShortest = 0.25;
 /// Height of a ribbon's sides over that of its middle.
@@ -90,17 +92,18 @@ StreakRibbons::StreakRibbons(const StreakRibbonOptions& options) : options_(opti
 void StreakRibbons::extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal) const
 {
     Point& last = ribbon.back();
-    if (last.face == track.face) {
-        const Point& before = ribbon[ribbon.size() - 2];
-        const Vec3 chord = track.to - before.place;
-        const Vec3 off = last.place - before.place;
-        const double size = length(chord);
-        const double across = size > 0.0 ? length(cross(unit(chord), off)) : length(off);
-        if (size >= length(off) && size <= kLongest * track.width && across <= kStraight * track.width) {
-            last = {track.to, last.normal, track.width, track.time, track.face};
-            return;
-        }
-    } else {
+    const Point& before = ribbon[ribbon.size() - 2];
+    const Vec3 chord = track.to - before.place;
+    const Vec3 off = last.place - before.place;
+    const double size = length(chord);
+    const double across = size > 0.0 ? length(cross(unit(chord), off)) : length(off);
+    const bool is_straight = last.face == track.face && size >= length(off) && size <= kLongest * track.width &&
+                             across <= kStraight * track.width;
+    if (is_straight || std::max(size, length(off)) <= kShort * track.width) {
+        last = {track.to, last.normal, track.width, track.time, track.face};
+        return;
+    }
+    if (last.face != track.face) {
         last.normal = unit(last.normal + normal);
     }
     ribbon.push_back({track.to, normal, track.width, track.time, track.face});
@@ -111,8 +114,12 @@ void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& su
     for (const FlowTrack& track : tracks) {
         const Vec3 normal = surface.faces[track.face].normal;
         std::vector<Ribbon>& all = ribbons_[track.id];
-        // Where one piece ends, the next begins; only after a flight there is a gap.
-        if (!all.empty() && length(all.back().back().place - track.from) <= 1e-3 * track.width) {
+        // Where one piece ends, the next begins; droplets that merge move to their common centre.
+        const double gap = all.empty() ? 0.0 : length(all.back().back().place - track.from);
+        if (!all.empty() && gap <= track.width) {
+            if (gap > kShort * track.width) {
+                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time}, normal);
+            }
             extend(all.back(), track, normal);
             continue;
         }

@@ -16,6 +16,7 @@
 #include <deque>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -183,6 +184,7 @@ void checkValues(Json& root)
         forObjects(mesh, "primitives", [](Json& primitive) {
             checkWhole(primitive, "mode", Number::Index);
             checkWhole(primitive, "indices", Number::Index);
+            checkWhole(primitive, "material", Number::Index);
             const auto attributes = primitive.find("attributes");
             if (attributes != primitive.end() && attributes->is_object()) {
                 for (const auto& attribute : attributes->items()) {
@@ -191,6 +193,63 @@ void checkValues(Json& root)
             }
         });
     });
+}
+
+// ------------------------------------------------------------------------------------- materials and animations
+
+/// Member of an object in a list, or of an object; null if there is none.
+const Json& memberOf(const Json& parent, const char* key)
+{
+    static const Json kNone;
+    const auto found = parent.find(key);  // end() of anything but an object
+    return found == parent.end() ? kNone : *found;
+}
+
+std::string textOf(const Json& value, const char* otherwise)
+{
+    return value.is_string() ? value.get<std::string>() : otherwise;
+}
+
+std::optional<int> indexOf(const Json& value)
+{
+    const double number = value.is_number() ? value.get<double>() : -1.0;
+    return number >= 0.0 && number <= std::numeric_limits<int>::max() && std::floor(number) == number
+               ? std::optional(static_cast<int>(number))
+               : std::nullopt;
+}
+
+std::vector<std::string> materialNamesOf(const Json& root)
+{
+    std::vector<std::string> names;
+    for (const Json& material : memberOf(root, "materials")) {
+        names.push_back(textOf(memberOf(material, "name"), ""));
+    }
+    return names;
+}
+
+/// Channels that are damaged have no node: not all readers need them.
+std::vector<std::vector<GltfChannel>> animationsOf(const Json& root)
+{
+    std::vector<std::vector<GltfChannel>> animations;
+    for (const Json& animation : memberOf(root, "animations")) {
+        const Json& samplers = memberOf(animation, "samplers");
+        std::vector<GltfChannel>& channels = animations.emplace_back();
+        for (const Json& from : memberOf(animation, "channels")) {
+            GltfChannel& channel = channels.emplace_back();
+            const Json& target = memberOf(from, "target");
+            const std::optional<int> sampler = indexOf(memberOf(from, "sampler"));
+            if (const auto node = indexOf(memberOf(target, "node"));
+                node && sampler && samplers.is_array() && static_cast<std::size_t>(*sampler) < samplers.size()) {
+                const Json& values = samplers[static_cast<std::size_t>(*sampler)];
+                channel.node = static_cast<std::size_t>(*node);
+                channel.path = textOf(memberOf(target, "path"), "");
+                channel.interpolation = textOf(memberOf(values, "interpolation"), "LINEAR");
+                channel.times = indexOf(memberOf(values, "input")).value_or(-1);
+                channel.values = indexOf(memberOf(values, "output")).value_or(-1);
+            }
+        }
+    }
+    return animations;
 }
 
 // ----------------------------------------------------------------------------------------------- the buffers
@@ -287,7 +346,8 @@ GltfFile readGltfFile(const std::filesystem::path& path)
     checkValues(root);
     Sources sources = sourcesOf(root, container.chunk);
     GltfFile file;
-    file.animated = root.contains("animations") && !root["animations"].empty();
+    file.material_names = materialNamesOf(root);
+    file.animations = animationsOf(root);
     Json kept = Json::object();
     for (const char* const key : {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"}) {
         if (const auto found = root.find(key); found != root.end()) {

@@ -3,15 +3,29 @@
 
 #include <tiny_gltf.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace droplet {
 
-/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors and buffers. Materials, images,
-/// extras and extensions are left out.
+/// Channel of an animation with its sampler. Indices may be too large.
+struct GltfChannel {
+    std::optional<std::size_t> node;  ///< empty: none that could be read
+    std::string path;                 ///< "translation", "rotation" …
+    std::string interpolation = "LINEAR";
+    int times = -1;   ///< accessor; -1: none
+    int values = -1;  ///< accessor; -1: none
+};
+
+/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors and buffers. Images, extras and
+/// extensions are left out.
 struct GltfFile {
     tinygltf::Model model;
-    bool animated = false;  ///< the file has animations
+    std::vector<std::string> material_names;           ///< "" where a material has none
+    std::vector<std::vector<GltfChannel>> animations;  ///< channels of every animation
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.

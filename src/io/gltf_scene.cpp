@@ -52,7 +52,8 @@ public:
             throw Damage(name + " should hold " +
                          (type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
                           : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
-                                                       : "VEC3"));
+                          : type == TINYGLTF_TYPE_VEC3 ? "VEC3"
+                                                       : "VEC4"));
         }
         if (accessor.bufferView < 0) {
             throw Damage(name + " has no data or compressed data");
@@ -148,6 +149,15 @@ struct Placement {
     {
         return {direction(inner.x), direction(inner.y), direction(inner.z), place(inner.origin)};
     }
+    /// Whether it is a similarity.
+    [[nodiscard]] bool keepsAngles() const
+    {
+        const double size = dot(x, x);
+        constexpr double kNear = 1e-5;  // files hold floats
+        const auto is_near = [&](double a, double b) { return std::abs(a - b) <= kNear * size; };
+        return size > 0.0 && is_near(dot(y, y), size) && is_near(dot(z, z), size) && is_near(dot(x, y), 0.0) &&
+               is_near(dot(y, z), 0.0) && is_near(dot(z, x), 0.0);
+    }
     [[nodiscard]] bool mirrors() const { return dot(cross(x, y), z) < 0.0; }
     /// Normals transform by the cofactor matrix.
     [[nodiscard]] Vec3 normal(Vec3 a) const
@@ -178,6 +188,122 @@ Placement placementOf(const tinygltf::Node& node)
             s[1] * Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
             s[2] * Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
             {t[0], t[1], t[2]}};
+}
+
+/// Key track of one property (appendix C of the specification).
+struct KeyTrack {
+    using Value = std::array<double, 4>;
+    enum class Interpolation { Linear, Step, CubicSpline };
+
+    Interpolation interpolation = Interpolation::Linear;
+    bool turns = false;         ///< values are quaternions
+    std::vector<double> times;  ///< ascending
+    std::vector<Value> values;  ///< with CubicSpline, three for each time: tangent before, value, tangent after
+
+    /// Value at a time; at a jump, the one before or after it.
+    [[nodiscard]] Value at(double time, bool after) const
+    {
+        const auto next = after ? std::upper_bound(times.begin(), times.end(), time)
+                                : std::lower_bound(times.begin(), times.end(), time);
+        const bool is_cubic = interpolation == Interpolation::CubicSpline;
+        const auto key = [&](std::size_t i) { return is_cubic ? values[3 * i + 1] : values[i]; };
+        if (next == times.begin() || next == times.end()) {
+            return key(next == times.begin() ? 0 : times.size() - 1);
+        }
+        const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
+        const double span = times[i + 1] - times[i];
+        const double t = (time - times[i]) / span;
+        if (interpolation == Interpolation::Step) {
+            return key(i);
+        }
+        if (!is_cubic && turns) {
+            const Rotation from = turnOf(key(i));
+            const Rotation turn = rotationBy(t * vectorOf(turnOf(key(i + 1)) * from.inverse())) * from;
+            return {turn.axis.x, turn.axis.y, turn.axis.z, turn.real};
+        }
+        Value value{};
+        for (std::size_t k = 0; k < value.size(); ++k) {
+            const double a = key(i)[k];
+            const double b = key(i + 1)[k];
+            value[k] = a + t * (b - a);
+            if (is_cubic) {
+                value[k] = (1 + 2 * t) * (1 - t) * (1 - t) * a + t * (1 - t) * (1 - t) * span * values[3 * i + 2][k] +
+                           t * t * (3 - 2 * t) * b - t * t * (1 - t) * span * values[3 * i + 3][k];
+            }
+        }
+        return value;
+    }
+
+    static Rotation turnOf(const Value& value)
+    {
+        const Vec3 axis{value[0], value[1], value[2]};
+        const double size = std::hypot(length(axis), value[3]);
+        if (!(size > 0.0) || !std::isfinite(size)) {
+            throw Damage("the rotation of an animation is not a quaternion");
+        }
+        return {(1.0 / size) * axis, value[3] / size};
+    }
+};
+
+/// Times of keys that represent the tracks; curves become pieces.
+std::vector<double> keyTimes(const std::optional<KeyTrack>& a, const std::optional<KeyTrack>& b)
+{
+    constexpr std::size_t kPieces = 16;
+    std::vector<double> times;
+    for (const std::optional<KeyTrack>& track : {a, b}) {
+        for (std::size_t i = 0; track && i < track->times.size(); ++i) {
+            times.push_back(track->times[i]);
+            const bool is_curve = track->interpolation == KeyTrack::Interpolation::CubicSpline;
+            for (std::size_t k = 1; is_curve && i + 1 < track->times.size() && k < kPieces; ++k) {
+                times.push_back(track->times[i] + static_cast<double>(k) / static_cast<double>(kPieces) *
+                                                      (track->times[i + 1] - track->times[i]));
+            }
+        }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+/// Motion of what an animated node carries, away from its rest pose.
+/// @param parent  keeps angles if there is a rotation
+FileMotion motionOf(const tinygltf::Node& node, const Placement& parent, const std::optional<KeyTrack>& translation,
+                    const std::optional<KeyTrack>& rotation)
+{
+    const std::vector<double>& t = node.translation;
+    const std::vector<double>& q = node.rotation;
+    const Vec3 place_at_rest = t.empty() ? Vec3{} : Vec3{t[0], t[1], t[2]};
+    const Rotation turn_at_rest = q.empty() ? Rotation{} : KeyTrack::turnOf({q[0], q[1], q[2], q[3]});
+    const double size = length(parent.x);
+    FileMotion motion;
+    const Vec3 pivot = parent.place(place_at_rest);
+    motion.pivot = zUp(pivot);
+    for (const double time : keyTimes(translation, rotation)) {
+        for (const bool after : {false, true}) {
+            FileMotion::Key key;
+            key.time = time;
+            Rotation turn;
+            if (rotation) {
+                turn = KeyTrack::turnOf(rotation->at(time, after)) * turn_at_rest.inverse();
+                // A mirror image turns the other way.
+                turn.axis = ((parent.mirrors() ? -1.0 : 1.0) / size) * parent.direction(turn.axis);
+            }
+            Vec3 place = pivot;
+            if (translation) {
+                const KeyTrack::Value value = translation->at(time, after);
+                place = parent.place({value[0], value[1], value[2]});
+            }
+            key.turn = {zUp(turn.axis), turn.real};
+            key.place = zUp(place - turn.of(pivot));
+            if (!std::isfinite(length(key.place))) {
+                throw Damage("an animation holds numbers that are not finite");
+            }
+            if (!after || !(motion.keys.back().turn == key.turn && motion.keys.back().place == key.place)) {
+                motion.keys.push_back(key);
+            }
+        }
+    }
+    return motion;
 }
 
 std::vector<int> rootsOf(const tinygltf::Model& model)
@@ -225,51 +351,175 @@ std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& in
 
 class Scene {
 public:
-    Scene(const GltfFile& file, const SceneOptions& options) : model_(file.model), options_(options)
+    Scene(const GltfFile& file, const SceneOptions& options)
+        : file_(file), model_(file.model), options_(options), is_animated_(model_.nodes.size(), false)
     {
-        struct Visit {
-            int node = 0;
-            Placement parent;
-        };
+        for (const std::vector<GltfChannel>& channels : file.animations) {
+            for (const GltfChannel& channel : channels) {
+                if (isMotion(channel) && channel.node < model_.nodes.size()) {
+                    is_animated_[*channel.node] = true;
+                }
+            }
+        }
         std::vector<Visit> open;
-        const auto visit_later = [&open](std::vector<int> nodes, const Placement& parent) {
+        const auto visit_later = [&open](std::vector<int> nodes, const Placement& parent,
+                                         const std::optional<Mover>& mover) {
             std::reverse(nodes.begin(), nodes.end());  // this is a stack: the first node is visited first
             for (const int node : nodes) {
-                open.push_back({node, parent});
+                open.push_back({node, parent, mover});
             }
         };
-        visit_later(rootsOf(model_), {});
-        mesh_.moves = file.animated;
+        visit_later(rootsOf(model_), {}, {});
         std::vector<bool> seen(model_.nodes.size(), false);
         while (!open.empty()) {
             const Visit visit = open.back();
             open.pop_back();
             const tinygltf::Node& node = entry(model_.nodes, visit.node, "nodes");
-            if (seen[static_cast<std::size_t>(visit.node)]) {
+            const auto index = static_cast<std::size_t>(visit.node);
+            if (seen[index]) {
                 throw Damage("nodes[" + std::to_string(visit.node) + "] has two parents");
             }
-            seen[static_cast<std::size_t>(visit.node)] = true;
+            seen[index] = true;
             const Placement placement = visit.parent.of(placementOf(node));
-            mesh_.moves = mesh_.moves || node.skin >= 0;
+            const std::optional<Mover> mover =
+                visit.mover || !is_animated_[index] ? visit.mover : std::optional(Mover{index, visit.parent});
+            mesh_.deforms = mesh_.deforms || node.skin >= 0;
             if (node.mesh >= 0) {
+                const std::size_t before = mesh_.triangles.size();
                 addMesh(node.mesh, placement);
+                if (mesh_.triangles.size() > before) {
+                    movers_.push_back(mover);
+                }
             }
-            visit_later(node.children, placement);
+            visit_later(node.children, placement, mover);
         }
         if (mesh_.triangles.empty()) {
             throw Damage("its scene has no triangles");
         }
+        dropEmptyColumns();
         mesh_.weld = firstAtPlace(mesh_.positions);
         fillNormals(mesh_.positions, mesh_.triangles, mesh_.weld, mesh_.normals);
         for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
             mesh_.positions[v] = zUp(mesh_.positions[v]);
             mesh_.normals[v] = zUp(mesh_.normals[v]);
         }
+        readMotion();
     }
 
-    [[nodiscard]] SceneMesh take() { return std::move(mesh_); }
+    [[nodiscard]] FileMesh take() { return std::move(mesh_); }
 
 private:
+    /// Outermost animated node above a mesh.
+    struct Mover {
+        std::size_t node = 0;
+        Placement parent;
+    };
+    struct Visit {
+        int node = 0;
+        Placement parent;
+        std::optional<Mover> mover;
+    };
+
+    static bool isMotion(const GltfChannel& channel)
+    {
+        return channel.node && (channel.path == "translation" || channel.path == "rotation");
+    }
+
+    void dropEmptyColumns()
+    {
+        mesh_.lacks_uv = has_uv_ && lacks_uv_;
+        if (!has_uv_) {
+            mesh_.uvs.clear();
+        }
+        const std::size_t names = file_.material_names.size();
+        const auto none = static_cast<std::uint32_t>(names);
+        mesh_.material_names = file_.material_names;
+        if (std::find(mesh_.materials.begin(), mesh_.materials.end(), none) != mesh_.materials.end()) {
+            mesh_.material_names.emplace_back();
+        }
+        if (names == 0) {
+            mesh_.materials.clear();
+            mesh_.material_names.clear();
+        }
+    }
+
+    void readMotion()
+    {
+        std::size_t channels = 0;
+        for (const std::vector<GltfChannel>& animation : file_.animations) {
+            channels += std::max<std::size_t>(animation.size(), 1);
+        }
+        const std::optional<Mover>& mover = movers_.front();
+        const auto is_same = [&](const std::optional<Mover>& other) { return other && other->node == mover->node; };
+        std::size_t read = 0;
+        if (options_.motion && mover && std::all_of(movers_.begin(), movers_.end(), is_same)) {
+            read = readMotionOf(*mover);
+        }
+        mesh_.ignores_animation = read < channels;
+    }
+
+    /// @return  number of channels read
+    std::size_t readMotionOf(const Mover& mover)
+    {
+        const tinygltf::Node& node = model_.nodes[mover.node];
+        const auto animation = std::find_if(
+            file_.animations.begin(), file_.animations.end(), [&](const std::vector<GltfChannel>& channels) {
+                return std::any_of(channels.begin(), channels.end(), [&](const GltfChannel& channel) {
+                    return isMotion(channel) && *channel.node == mover.node;
+                });
+            });
+        std::optional<KeyTrack> translation;
+        std::optional<KeyTrack> rotation;
+        std::size_t read = 0;
+        for (const GltfChannel& channel : *animation) {
+            if (!isMotion(channel) || *channel.node != mover.node) {
+                continue;
+            }
+            std::optional<KeyTrack>& track = channel.path == "rotation" ? rotation : translation;
+            if (!track) {
+                track = trackOf(channel);
+                ++read;
+            }
+        }
+        if (!node.matrix.empty() || (rotation && !mover.parent.keepsAngles())) {
+            return 0;  // not a rigid motion
+        }
+        mesh_.motion = motionOf(node, mover.parent, translation, rotation);
+        return read;
+    }
+
+    [[nodiscard]] KeyTrack trackOf(const GltfChannel& channel) const
+    {
+        const bool turns = channel.path == "rotation";
+        const Column times(model_, channel.times, TINYGLTF_TYPE_SCALAR);
+        const Column values(model_, channel.values, turns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
+        KeyTrack track;
+        track.turns = turns;
+        track.interpolation = channel.interpolation == "STEP"          ? KeyTrack::Interpolation::Step
+                              : channel.interpolation == "CUBICSPLINE" ? KeyTrack::Interpolation::CubicSpline
+                                                                       : KeyTrack::Interpolation::Linear;
+        const std::size_t each = track.interpolation == KeyTrack::Interpolation::CubicSpline ? 3 : 1;
+        if (times.size() == 0 || values.size() != each * times.size()) {
+            throw Damage("an animation has " + std::to_string(times.size()) + " times and " +
+                         std::to_string(values.size()) + " values");
+        }
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            track.times.push_back(times.number(i));
+            if (!std::isfinite(track.times[i]) || (i > 0 && !(track.times[i] > track.times[i - 1]))) {
+                throw Damage("the times of an animation do not ascend");
+            }
+        }
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const KeyTrack::Value value{values.number(i, 0), values.number(i, 1), values.number(i, 2),
+                                        turns ? values.number(i, 3) : 0.0};
+            if (!std::isfinite(value[0] + value[1] + value[2] + value[3])) {
+                throw Damage("an animation holds numbers that are not finite");
+            }
+            track.values.push_back(value);
+        }
+        return track;
+    }
+
     void addMesh(int mesh_index, const Placement& placement)
     {
         const tinygltf::Mesh& mesh = entry(model_.meshes, mesh_index, "meshes");
@@ -288,7 +538,7 @@ private:
             return found == primitive.attributes.end() ? std::nullopt
                                                        : std::optional(Column(model_, found->second, type));
         };
-        mesh_.moves = mesh_.moves || !primitive.targets.empty();
+        mesh_.deforms = mesh_.deforms || !primitive.targets.empty();
         const std::optional<Column> found = column("POSITION", TINYGLTF_TYPE_VEC3);
         if (!found) {
             throw Damage(name + " has no POSITION");
@@ -327,6 +577,12 @@ private:
             mesh_.uvs.push_back(uv);
             mesh_.contact_angles.push_back(static_cast<float>(kDegree * angle));
         }
+        (uvs ? has_uv_ : lacks_uv_) = true;
+        const std::size_t materials = file_.material_names.size();
+        const bool has_material = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < materials;
+        mesh_.materials.insert(
+            mesh_.materials.end(), triangles.size(),
+            static_cast<std::uint32_t>(has_material ? static_cast<std::size_t>(primitive.material) : materials));
         for (const Triangle& t : triangles) {
             mesh_.triangles.push_back(placement.mirrors() ? Triangle{first + t[0], first + t[2], first + t[1]}
                                                           : Triangle{first + t[0], first + t[1], first + t[2]});
@@ -355,14 +611,19 @@ private:
         return indices;
     }
 
+    const GltfFile& file_;
     const tinygltf::Model& model_;
     const SceneOptions& options_;
-    SceneMesh mesh_;
+    std::vector<bool> is_animated_;             ///< of every node
+    std::vector<std::optional<Mover>> movers_;  ///< of every node that has triangles
+    bool has_uv_ = false;
+    bool lacks_uv_ = false;
+    FileMesh mesh_;
 };
 
 }  // namespace
 
-SceneMesh readScene(const std::filesystem::path& path, const SceneOptions& options)
+FileMesh readScene(const std::filesystem::path& path, const SceneOptions& options)
 {
     const GltfFile file = readGltfFile(path);
     return Scene(file, options).take();

@@ -12,7 +12,7 @@ TexturedMesh readObject(const std::filesystem::path& path)
 {
     TexturedMesh mesh;
     readFile(path, [&] {
-        SceneMesh scene = readScene(path, {.needs_uv = true});
+        FileMesh scene = readScene(path, {.needs_uv = true});
         mesh.positions = std::move(scene.positions);
         mesh.normals = std::move(scene.normals);
         mesh.uvs = std::move(scene.uvs);

@@ -65,12 +65,6 @@ double degrees(double radians)
     return radians / kDegree;
 }
 
-template <typename Value>
-Json orNull(const std::optional<Value>& value)
-{
-    return value ? Json(*value) : Json();
-}
-
 std::optional<double> degrees(const std::optional<double>& radians)
 {
     return radians ? std::optional(degrees(*radians)) : std::nullopt;
@@ -318,6 +312,13 @@ Json sections(const Report& report)
 }
 
 }  // namespace
+
+void addRunSection(ReportJson& json, const RunFigures& run)
+{
+    json["warnings"] = run.warnings;
+    json["time_s"] = {{"total", run.time_total}};
+    json["peak_memory_bytes"] = run.peak_memory;
+}
 
 void writeReportJson(std::ostream& out, const ReportJson& report)
 {

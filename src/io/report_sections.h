@@ -2,9 +2,12 @@
 // Sections that several reports have.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "droplet/io/report.h"
 
@@ -23,6 +26,23 @@ ReportJson shapeSection(const ShapeFigures& figures, const ReportJson& pressure,
 
 /// Row of one droplet: footprint and shape.
 ReportJson dropletRow(const DropletReport& droplet);
+
+/// The value, or null.
+template <typename Value>
+ReportJson orNull(const std::optional<Value>& value)
+{
+    return value ? ReportJson(*value) : ReportJson();
+}
+
+/// What a run took.
+struct RunFigures {
+    const std::vector<std::string>& warnings;
+    double time_total = 0.0;        ///< [s]
+    std::uint64_t peak_memory = 0;  ///< [byte]
+};
+
+/// Adds the keys at the end of a report: warnings, time_s, peak_memory_bytes.
+void addRunSection(ReportJson& json, const RunFigures& run);
 
 /// Writes a report, indented.
 /// @throws Error NoSuchDroplet, naming the key, if a number is not finite: JSON has no NaN and no infinity; the library

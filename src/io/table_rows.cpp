@@ -3,7 +3,6 @@
 
 #include <ostream>
 
-#include "io/rounded_time.h"
 
 namespace droplet {
 
@@ -27,7 +26,7 @@ void TableRows::beginRow(std::size_t frame, double time, std::uint64_t id)
     has_rows_ = true;
     is_first_ = true;
     append(frame);
-    append(roundedTime(time), std::chars_format::fixed);
+    append(time, std::chars_format::fixed);
     append(id);
 }
 

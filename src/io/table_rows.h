@@ -15,7 +15,7 @@
 namespace droplet {
 
 /// Writes a table of droplets row by row. Its first columns are frame, time_s and id. Numbers are the shortest that
-/// read back as the same doubles; times are rounded to whole nanoseconds. JSON is an object with `schema`, `columns`
+/// read back as the same doubles. JSON is an object with `schema`, `columns`
 /// and `rows`, an array of arrays.
 class TableRows {
 public:

@@ -168,6 +168,7 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
         fill(embree_->parts[kStand], *stand);
         embree_->parts[kStand].triangles = stand->triangles;
         shown_.insert(shown_.end(), embree_->parts[kStand].positions.begin(), embree_->parts[kStand].positions.end());
+        shown_.insert(shown_.end(), framed_.begin(), framed_.end());
     }
     // The stand and the base touch: through air the stand is seen, through the liquid the base.
     embree_->air = stand != nullptr ? embree_->build({kLiquid, kStand}) : embree_->build({kLiquid, kBase});

@@ -12,11 +12,6 @@
 namespace droplet {
 namespace {
 
-ReportJson orNull(const std::optional<double>& value)
-{
-    return value ? ReportJson(*value) : ReportJson();
-}
-
 ReportJson frameRow(const FrameReport& frame)
 {
     std::size_t holes = 0;
@@ -129,9 +124,7 @@ void writeSequenceReport(std::ostream& out, const SequenceReport& report)
     for (const FrameReport& frame : report.frames) {
         json["frames"].push_back(frameRow(frame));
     }
-    json["warnings"] = report.warnings;
-    json["time_s"] = {{"total", report.time_total}};
-    json["peak_memory_bytes"] = report.peak_memory;
+    addRunSection(json, {report.warnings, report.time_total, report.peak_memory});
     writeReportJson(out, json);
 }
 

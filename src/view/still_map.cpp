@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "droplet/windshield/running_shape.h"
+#include "droplet/body/running_shape.h"
 
 namespace droplet {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "io/rounded_time.h"
 #include "io/table_rows.h"
 
 namespace droplet {
@@ -31,7 +32,7 @@ void DropletTable::add(std::size_t frame, const WindshieldState& state, DropletR
             continue;
         }
         const RunningShape shape = runningShape(droplet.volume, length(droplet.velocity), shape_);
-        rows_->beginRow(frame, state.time, droplet.id);
+        rows_->beginRow(frame, roundedTime(state.time), droplet.id);
         for (const double number :
              {droplet.position.x, droplet.position.y, droplet.velocity.x, droplet.velocity.y, droplet.volume,
               shape.contact_radius, 2.0 * (shape.half_length + shape.contact_radius)}) {

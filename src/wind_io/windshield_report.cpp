@@ -9,15 +9,10 @@
 #include "droplet/version.h"
 #include "io/report_sections.h"
 #include "io/rounded_time.h"
+#include "wind_io/forces_section.h"
 
 namespace droplet {
 namespace {
-
-template <typename Value>
-ReportJson orNull(const std::optional<Value>& value)
-{
-    return value ? ReportJson(*value) : ReportJson();
-}
 
 ReportJson placeOrNull(const std::optional<Vec3>& place)
 {
@@ -32,24 +27,6 @@ ReportJson glassSection(const WindshieldReport& report)
     section["radius_m"] = cylinder && cylinder->radius < 1e300 ? ReportJson(cylinder->radius) : ReportJson();
     section["slope_deg"] = cylinder ? ReportJson(cylinder->slope / kDegree) : ReportJson();
     return section;
-}
-
-ReportJson forcesSection(const ForceModel& forces)
-{
-    return {{"liquid", forces.liquid.name},
-            {"surface_tension_n_per_m", forces.liquid.surface_tension},
-            {"density_kg_per_m3", forces.liquid.density},
-            {"gravity_m_per_s2", forces.gravity},
-            {"contact_angle_deg", forces.wetting.contact_angle / kDegree},
-            {"hysteresis", forces.wetting.hysteresis},
-            {"falling_angle_deg",
-             forces.wetting.sliding_angle ? ReportJson(*forces.wetting.sliding_angle / kDegree) : ReportJson()},
-            {"kinetic_fraction", forces.wetting.kinetic_fraction},
-            {"viscosity_factor_pa_s", forces.wetting.viscosity_factor},
-            {"air_density_kg_per_m3", forces.air.density},
-            {"drag_coefficient", forces.air.drag_coefficient},
-            {"boundary_layer_m", forces.air.boundary_layer},
-            {"profile_exponent", forces.air.profile_exponent}};
 }
 
 ReportJson rowOf(const BalanceRow& row)
@@ -134,9 +111,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
                       {"swept", report.counts.swept},         {"grown", report.counts.grown},
                       {"torn", report.counts.torn},           {"left", report.counts.left},
                       {"wiped", report.counts.wiped}};
-    json["warnings"] = report.warnings;
-    json["time_s"] = {{"total", report.time_total}};
-    json["peak_memory_bytes"] = report.peak_memory;
+    addRunSection(json, {report.warnings, report.time_total, report.peak_memory});
     writeReportJson(out, json);
 }
 

@@ -295,7 +295,7 @@ TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
     std::filesystem::create_directory(path("f"));
     for (const std::string& bytes :
          {std::string(), std::string("something else"),
-          std::string("droplet-shape windshield checkpoint 1\n\xff\xff\xff\xff\xff\xff\xff\xff")}) {
+          std::string("droplet-shape windshield checkpoint 2\n\xff\xff\xff\xff\xff\xff\xff\xff")}) {
         stored("f/checkpoint.state", bytes);
         const CommandResult result = simulate(path("f/%d.png"), {"--resume"});
         EXPECT_EQ(result.exit_code, 3) << result.error;

@@ -69,5 +69,32 @@ TEST(DropletSurfaces, ConditionsAreInTheFrameOfTheDroplet)
     EXPECT_TRUE(conditionsOf(falling, kGravity).airborne);
 }
 
+TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
+{
+    const DropletBodies bodies(BodyShape::Capillary);
+    FlowSample falling = onSlope(0.0);
+    falling.contact = FlowContact::Air;
+    falling.place = {-0.1, 0.0, 0.5};
+    const std::vector<FlowSample> samples{onSlope(0.0), onSlope(0.7, {0.2, 0.0, -0.2}), falling};
+    const Surface open = dropletSurfaces(samples, bodies, kGravity);
+    open.validate();
+    ASSERT_EQ(open.positions.size(), samples.size() * bodies.vertices());
+    const Surface closed = withBases(open, bodies);
+    closed.validate();
+    EXPECT_TRUE(isClosed(closed));
+    EXPECT_EQ(topology(closed).components, samples.size());
+    EXPECT_NEAR(enclosedVolume(closed) / (3.0 * 20e-9), 1.0, 1e-6);
+    // Rims lie on the ground, the rest above it.
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t k = 0; k < bodies.vertices(); ++k) {
+            const double height = dot(open.positions[i * bodies.vertices() + k] - samples[i].place, samples[i].normal);
+            EXPECT_GE(height, -1e-12);
+            EXPECT_TRUE(k >= bodies.rimVertices() || height < 1e-12);
+        }
+    }
+    EXPECT_TRUE(dropletSurfaces({}, bodies, kGravity).positions.empty());
+    EXPECT_TRUE(withBases({}, bodies).positions.empty());
+}
+
 }  // namespace
 }  // namespace droplet

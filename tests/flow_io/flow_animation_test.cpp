@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -69,6 +70,7 @@ struct Sequence {
     std::vector<double> times;
     std::vector<std::vector<FlowSample>> frames;
     std::size_t max = 0;
+    double volume = 0.0;  ///< of all droplets at the start [m³]
 
     Sequence()
     {
@@ -81,6 +83,9 @@ struct Sequence {
             const double turn = 2.4 * k;
             const Vec3 up{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
             starts.push_back({scene.nearest(0.05 * up).place, (k % 5 == 0 ? 60e-9 : 1e-9 * (2 + k % 7)), {}});
+        }
+        for (const FlowStart& start : starts) {
+            volume += start.volume;
         }
         FlowState state = startFlow(scene, parameters, starts);
         for (int frame = 0; frame < 30; ++frame) {
@@ -116,6 +121,12 @@ Vec3 inFile(Vec3 v)
     return {v.x, v.z, -v.y};
 }
 
+/// Tolerance of a place along the path of a droplet [m].
+double slackOf(const FlowSample& sample)
+{
+    return 2e-3 * (length(sample.velocity) + kFrameOfFall) + 1e-4;
+}
+
 TEST(FlowAnimation, ShowsTheDropletsOfEveryFrame)
 {
     const Sequence& run = theRun();
@@ -129,7 +140,7 @@ TEST(FlowAnimation, ShowsTheDropletsOfEveryFrame)
         for (const FlowSample& sample : run.frames[frame]) {
             const double radius = std::cbrt(sample.volume / unit);
             const double size = 1.6 * radius;  // a droplet on its way is wider and longer than one at rest
-            const double slack = 0.1 * size + 2e-3 * (length(sample.velocity) + kFrameOfFall) + 1e-4;
+            const double slack = 0.1 * size + slackOf(sample);
             const auto fits = [&](const Shown& one) {
                 return length(one.place - inFile(sample.place)) < slack &&
                        std::abs(std::cbrt(one.scale.x * one.scale.y * one.scale.z) / radius - 1.0) < 0.015;
@@ -149,6 +160,59 @@ TEST(FlowAnimation, ShowsTheDropletsOfEveryFrame)
     }
     EXPECT_EQ(meshes.size(), 3U) << "there are resting, running and falling droplets";
     EXPECT_LE(scene.pool(), 2 * run.max);
+}
+
+TEST(FlowAnimation, MovesTheDropletsWithTheObject)
+{
+    ObjectMotion motion;
+    motion.keys = {{0.0, {}}, {0.5, {{0.1, 0.2, 0.3}, {0.0, 0.6, 0.0}, 0.8}}};
+    FlowSample sample = theRun().frames.front().front();
+    sample.velocity = {};
+    FlowAnimation made(theRun().object, bodies(), {.motion = motion});
+    for (int frame = 0; frame <= 30; ++frame) {
+        made.add(frame / kRate, {&sample, 1});
+    }
+    std::ostringstream out;
+    made.write(out);
+    const AnimatedScene scene(out.str());
+    for (const int frame : {0, 7, 15, 30}) {
+        const ObjectPose pose = motion.at(frame / kRate);
+        const std::vector<Shown> shown = scene.at(frame / kRate + 1e-6);
+        ASSERT_EQ(shown.size(), 1U);
+        EXPECT_LT(length(shown[0].place - inFile(pose.place + pose.toWorld(sample.place))), 1e-5) << frame;
+        EXPECT_GT(dot(shown[0].y, inFile(pose.toWorld(sample.normal))), std::cos(0.1 * kDegree)) << frame;
+    }
+}
+
+TEST(FlowAnimation, PlaysInThree)
+{
+    const testing::ScratchDirectory scratch;
+    const std::string file = (scratch.path() / "run.glb").string();
+    testing::writeFile(file, theRun().animation());
+    const std::vector<std::size_t> frames{0, 9, 29};
+    std::vector<std::string> command{"node", testing::inSource("tests/page/joints.mjs"), testing::kThree, file};
+    for (const std::size_t frame : frames) {
+        command.push_back(std::to_string((static_cast<double>(frame) + 1e-3) / kRate));
+    }
+    const auto run = testing::runProgram(command);
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto played = nlohmann::json::parse(run.output);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const std::vector<FlowSample>& samples = theRun().frames[frames[i]];
+        ASSERT_EQ(played.at(i).size(), samples.size());
+        double volume = 0.0;
+        for (const auto& joint : played.at(i)) {
+            volume += std::pow(joint.at("size").get<double>(), 3) * unitVolume(bodies());
+        }
+        for (const FlowSample& sample : samples) {
+            volume -= sample.volume;
+            EXPECT_TRUE(std::any_of(played.at(i).begin(), played.at(i).end(), [&](const auto& joint) {
+                const Vec3 place{joint.at("place").at(0), joint.at("place").at(1), joint.at("place").at(2)};
+                return length(place - inFile(sample.place)) < 0.2 * std::cbrt(sample.volume) + slackOf(sample);
+            })) << sample.id;
+        }
+        EXPECT_NEAR(volume / theRun().volume, 0.0, 0.02);
+    }
 }
 
 TEST(FlowAnimation, IsTheSameWithAnyNumberOfThreads)
@@ -190,7 +254,10 @@ TEST(FlowAnimation, PassesTheValidator)
         testing::writeFile(path, bytes);
         command.push_back(path);
     };
-    store("run.glb", theRun().animation({.material = Material::Ink}));
+    FlowAnimationOptions options;
+    options.material = Material::Ink;
+    options.motion.spin = {0.5, 0.0, 6.0};
+    store("run.glb", theRun().animation(options));
     FlowObject plain = sphere(0.05);
     plain.uvs.clear();
     plain.materials.clear();

@@ -59,7 +59,7 @@ TEST(FlowTable, CsvReadsBackToTheSameNumbersWithYUp)
     }
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0][0], "0");
-    EXPECT_EQ(rows[0][1], "0.3");
+    EXPECT_EQ(rows[0][1], "0.30000000000000004");
     EXPECT_EQ(rows[0][2], "18446744073709551615");
     const std::vector<double> expected{0.1 + 0.2, -1e-17, -1.0 / 3.0, 0.0, 1e300, 0.7, 1.0 / 7e9};
     for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -99,6 +99,19 @@ TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
     EXPECT_EQ(topology(ribbons.surface(1.5)).components, 2U) << "the second droplet hardly moved";
 }
 
+TEST(StreakRibbons, StayWholeWhereDropletsMerge)
+{
+    const FlowSurface surface = roof(0.5);
+    std::vector<FlowTrack> tracks = levelRun(surface, 90);
+    for (std::size_t i = 45; i < tracks.size(); ++i) {
+        tracks[i].from.y += 0.3 * kWidth;
+        tracks[i].to.y += 0.3 * kWidth;
+    }
+    StreakRibbons ribbons;
+    ribbons.add(tracks, surface);
+    EXPECT_EQ(topology(ribbons.surface(0.9)).components, 1U);
+}
+
 TEST(StreakRibbons, DryFromTheirBegin)
 {
     const FlowSurface surface = roof(0.5);

@@ -32,4 +32,10 @@ BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
 /// @param gravity  in the object's frame [m/s²]
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity);
 
+/// Closes the droplets at the ground, each by a flat base.
+/// @param surface  from dropletSurfaces()
+/// @param bodies   the same
+/// @return         the vertices and triangles of `surface`, followed by those of the bases
+Surface withBases(Surface surface, const DropletBodies& bodies);
+
 }  // namespace droplet

@@ -32,9 +32,9 @@ enum class UpAxis { Y, Z };
 
 /// Options of readFlowObject.
 struct FlowObjectOptions {
-    std::optional<double> scale;  ///< factor on the file's lengths, > 0
-    std::optional<double> size;   ///< longest edge of the box around the object [m], > 0; not with `scale`
-    std::optional<UpAxis> up;     ///< empty: y, in PLY z; ignored for glTF
+    std::optional<double> scale = {};  ///< factor on the file's lengths, > 0
+    std::optional<double> size = {};   ///< longest edge of the box around the object [m], > 0; not with `scale`
+    std::optional<UpAxis> up = {};     ///< empty: y, in PLY z; ignored for glTF
 };
 
 /// Reads an object: .glb, .gltf, .obj, .ply, .stl.

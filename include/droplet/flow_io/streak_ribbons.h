@@ -25,7 +25,7 @@ struct StreakRibbonOptions {
 };
 
 /// Mesh of the streaks behind droplets: a ribbon along the path of each droplet, from face to face. Where a droplet has
-/// flown, one ribbon ends and another begins.
+/// flown over more than its width, one ribbon ends and another begins.
 class StreakRibbons {
 public:
     /// Makes a builder without streaks.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "droplet/body/running_shape.h"
 #include "droplet/picture/picture.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {

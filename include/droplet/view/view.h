@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "droplet/body/running_shape.h"
 #include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 #include "droplet/windshield/wipers.h"
 

@@ -5,9 +5,9 @@
 #include <iosfwd>
 #include <memory>
 
+#include "droplet/body/running_shape.h"
 #include "droplet/surface/material.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {

@@ -5,8 +5,8 @@
 #include <iosfwd>
 #include <memory>
 
+#include "droplet/body/running_shape.h"
 #include "droplet/io/table_format.h"
-#include "droplet/windshield/running_shape.h"
 #include "droplet/windshield/windshield.h"
 
 namespace droplet {

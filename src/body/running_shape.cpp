@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // N. Nakata, M. Kakimoto, T. Nishita, "Animation of Water Droplets on a Hydrophobic Windshield" (2012), section 3.2.1
 // of the thesis: a hemisphere at rest, a capsule of the same volume in motion.
-#include "droplet/windshield/running_shape.h"
+#include "droplet/body/running_shape.h"
 
 #include <cmath>
 #include <numbers>

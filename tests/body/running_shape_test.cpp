@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "droplet/windshield/running_shape.h"
+#include "droplet/body/running_shape.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_options.h"
+
+#include <charconv>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include "command_line.h"
+#include "common_options.h"
+#include "droplet/units.h"
+#include "droplet/version.h"
+#include "force_options.h"
+#include "option_values.h"
+#include "value_list.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+using droplet::kDegree;
+using droplet::Vec3;
+
+constexpr Range kVolume{Dimension::Volume, 1e-13, 1e-3, "from 0.1nL to 1L"};
+constexpr Range kSize{Dimension::Length, 1e-4, 1e3, "from 0.1mm to 1000m"};
+constexpr Range kRadius{Dimension::Length, 1e-5, 0.1, "from 0.01mm to 100mm"};
+constexpr Range kRain{Dimension::Rainfall, 0.0, 1000.0 * droplet::kMillimetrePerHour, "from 0mm/h to 1000mm/h"};
+constexpr Range kBump{Dimension::Length, 0.0, 0.1, "from 0mm to 100mm"};
+constexpr Range kFilm{Dimension::Length, 0.0, 1e-3, "from 0mm to 1mm"};
+constexpr Range kSpacing{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
+constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
+constexpr Range kPlace{Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
+constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"};
+constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such as 30deg/s"};
+
+const CommandText& commandText()
+{
+    static const CommandText text{
+        "droplet-shape flow", "let droplets run over a mesh", "[OPTIONS] OBJECT OUTPUT",
+        "Quantities carry a unit:\n"
+        "  lengths nm um mm cm m in; volumes nL uL mL L mm3 cm3 m3; rainfall mm/h in/h;\n"
+        "  durations ms s min h; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
+        "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
+        "Vectors x,y,z are in the frame of the object's file, +Y up, in metres or metres\n"
+        "per second unless they carry a unit.\n"
+        "\n"
+        "Examples:\n"
+        "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
+        "  droplet-shape flow car.stl 'rain-%04d.obj' --size 4.5m --rain 25mm/h --wind 0,0,-20m/s\n"
+        "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets paths.csv --json report.json\n"
+        "\n"
+        "Exit codes:\n"
+        "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for droplets;\n"
+        "  4 output cannot be written"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    line.addArgument("OBJECT", "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres");
+    line.addArgument("OUTPUT",
+                     "Animated .glb of object and droplets; meshes of the droplets in every frame, such as "
+                     "out/%04d.obj, .glb, .ply or .stl; pictures, out/%04d.png; a .png of the last frame; or a video, "
+                     ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
+    constexpr const char* kObject = "Object";
+    line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]");
+    line.add(kObject, "--size", "LENGTH", "Longest side of the object; scales it");
+    line.exclude({"--scale", "--size"});
+    line.add(kObject, "--up", "y|z", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]");
+    line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
+    line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");
+    line.add(kObject, "--motion", "FILE",
+             "Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y, "
+             "rotation_z, rotation_w");
+    line.exclude({"--spin", "--motion"});
+    line.addFlag(kObject, "--no-animation", "Ignore the animation of the object's file");
+    constexpr const char* kSources = "Droplets";
+    line.add(kSources, "--drops", "N", "Scatter droplets over the object at the start [0]");
+    line.add(kSources, "--volume", "VOLUME", "Volume of scattered and emitted droplets, the median [20uL]");
+    line.add(kSources, "--radius", "LENGTH", "Contact radius instead of --volume");
+    line.exclude({"--volume", "--radius"});
+    line.add(kSources, "--volume-spread", "NUMBER",
+             "Spread of the volumes: standard deviation of their logarithm, 0 to 3 [0]");
+    line.add(kSources, "--from", "X,Y,Z",
+             "Direction that rain comes from; --drops then wet only what it can reach [for --rain 0,1,0]");
+    line.add(kSources, "--mask", "FILE",
+             "Picture over the object's texture coordinates: --drops start where it is light");
+    line.add(kSources, "--start", "FILE",
+             "Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move, "
+             "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s");
+    line.addList(kSources, "--emitter", "X,Y,Z,RATE", "Release droplets at a place, such as 0,0.1,0,50uL/s");
+    line.add(kSources, "--rain", "RAINFALL", "Rain, with the drop sizes of Marshall and Palmer [0mm/h]");
+    line.add(kSources, "--condensation", "RATE", "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
+    line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]");
+    constexpr const char* kMotion = "Motion";
+    line.add(kMotion, "--model", "capillary|paper",
+             "What holds droplets: capillary is contact angle hysteresis, paper is roughness alone [capillary]");
+    line.add(kMotion, "--hysteresis", "NUMBER",
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [0.2]");
+    line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor");
+    line.add(kMotion, "--roughness", "LENGTH",
+             "Height of the surface's bumps; those of a droplet's height hold it [0mm]");
+    line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]");
+    line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
+    line.add(kMotion, "--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
+    line.addFlag(kMotion, "--no-merge", "Droplets that touch stay apart");
+    line.addFlag(kMotion, "--no-wetting", "Streaks do not smooth the surface for the next droplets");
+    line.add(kMotion, "--film", "LENGTH", "Thickness of the film that droplets leave behind; it becomes beads [0mm]");
+    line.add(kMotion, "--bead-spacing", "LENGTH", "Distance of these beads [4mm]");
+    line.add(kMotion, "--drying", "DURATION", "Time after which streaks and beads are dry [never]");
+    declareForces(line);
+    constexpr const char* kTimes = "Time";
+    line.add(kTimes, "--time", "DURATION", "Time to show [5s]");
+    line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths [30]");
+    line.add(kTimes, "--seed", "N", "Random seed [1]");
+    constexpr const char* kOut = "Output";
+    line.add(kOut, "--shape", "capillary|springs|capsule",
+             "Shape of the droplets: capillary has least energy, springs is the paper's, capsule a cut capsule "
+             "[capillary]");
+    line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
+    declareView(line);
+    line.add("Picture", "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
+    line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    line.add(kOut, "--streaks", "FILE", "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl");
+    line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
+    line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
+    constexpr const char* kRun = "Run";
+    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    declareCommon(line, kRun, "time = \"5s\"");
+    line.exclude({"--resume", "--no-clobber"});
+}
+
+void readQuantity(const CommandLine& line, const char* option, const Range& range, double& value)
+{
+    if (const auto given = line.value(option)) {
+        value = quantity(*given, range);
+    }
+}
+
+std::optional<std::string> text(const CommandLine& line, const char* option)
+{
+    const auto given = line.value(option);
+    return given ? std::optional(given->text) : std::nullopt;
+}
+
+/// A number in SI units, or a quantity.
+double plainOr(const Given& given, const Range& range)
+{
+    if (const auto plain = finiteNumber(given.text)) {
+        if (*plain < range.min || *plain > range.max) {
+            refuse(given, range.allowed);
+        }
+        return *plain;
+    }
+    return quantity(given, range);
+}
+
+std::vector<Given> partsOf(const Given& given)
+{
+    std::vector<Given> parts;
+    std::string_view rest = given.text;
+    for (;;) {
+        const std::size_t comma = rest.find(',');
+        parts.push_back({std::string(rest.substr(0, comma)), given.subject});
+        if (comma == std::string_view::npos) {
+            return parts;
+        }
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+/// A vector of a file's frame, turned to z up.
+Vec3 vector(const Given& given, const Range& range)
+{
+    const std::vector<Given> parts = partsOf(given);
+    if (parts.size() != 3) {
+        refuse(given, "three numbers x,y,z");
+    }
+    const double x = plainOr(parts[0], range);
+    const double y = plainOr(parts[1], range);
+    const double z = plainOr(parts[2], range);
+    return {x, 0.0 - z, y};
+}
+
+Vec3 direction(const Given& given)
+{
+    constexpr Range kNumber{Dimension::Length, -1e6, 1e6, "three numbers x,y,z from -1e6 to 1e6"};
+    const Vec3 d = vector(given, kNumber);
+    if (!(length(d) > 0.0)) {
+        refuse(given, "a direction x,y,z other than 0,0,0");
+    }
+    return (1.0 / length(d)) * d;
+}
+
+/// A quantity per second, minute or hour.
+double rate(const Given& given, const Range& range, const char* allowed)
+{
+    const std::size_t slash = given.text.rfind('/');
+    const std::string per = slash == std::string::npos ? "" : given.text.substr(slash + 1);
+    const double seconds = per == "s" ? 1.0 : per == "min" ? 60.0 : per == "h" ? 3600.0 : 0.0;
+    if (seconds == 0.0) {
+        refuse(given, allowed);
+    }
+    return quantity({given.text.substr(0, slash), given.subject}, range) / seconds;
+}
+
+/// A number, or a number with its only unit.
+double inUnit(const Given& given, std::string_view unit, const NumberRange& range)
+{
+    Given bare = given;
+    if (bare.text.ends_with(unit)) {
+        bare.text.resize(bare.text.size() - unit.size());
+    }
+    if (!finiteNumber(bare.text)) {
+        refuse(given, range.allowed);
+    }
+    return number(bare, range);
+}
+
+void readObject(const CommandLine& line, FlowOptions& options)
+{
+    options.object = line.argument("OBJECT");
+    if (const auto scale = line.value("--scale")) {
+        options.reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
+    }
+    if (const auto size = line.value("--size")) {
+        options.reading.size = quantity(*size, kSize);
+    }
+    if (const auto up = line.value("--up")) {
+        options.reading.up = choice<droplet::UpAxis>(*up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}});
+    }
+    const auto spin = line.value("--spin");
+    const auto axis = line.value("--spin-axis");
+    if (axis && !spin) {
+        refuse("--spin-axis needs --spin");
+    }
+    if (spin) {
+        options.parameters.motion.spin =
+            rate(*spin, kTurn, kTurn.allowed) * (axis ? direction(*axis) : Vec3{0.0, 0.0, 1.0});
+    }
+    options.motion = text(line, "--motion");
+    options.keeps_animation = !line.flag("--no-animation") && !spin && !options.motion;
+}
+
+void readSources(const CommandLine& line, FlowOptions& options)
+{
+    droplet::FlowParameters& parameters = options.parameters;
+    if (const auto drops = line.value("--drops")) {
+        options.drops = drops->text == "0" ? 0 : count(*drops, 1'000'000, "1M");
+    }
+    readQuantity(line, "--volume", kVolume, options.volumes.median);
+    if (const auto radius = line.value("--radius")) {
+        options.volumes.median =
+            droplet::capVolume(quantity(*radius, kRadius), parameters.forces.wetting.contact_angle);
+    }
+    if (const auto spread = line.value("--volume-spread")) {
+        options.volumes.spread = number(*spread, {0.0, 3.0, "a number from 0 to 3"});
+    }
+    if (const auto from = line.value("--from")) {
+        options.from = direction(*from);
+    }
+    options.mask = text(line, "--mask");
+    options.start = text(line, "--start");
+    if (options.mask && options.drops == 0) {
+        refuse("--mask needs --drops");
+    }
+    for (const Given& emitter : line.values("--emitter")) {
+        constexpr const char* kAllowed = "x,y,z,rate such as 0,0.1,0,50uL/s";
+        const std::size_t comma = emitter.text.rfind(',');
+        if (comma == std::string::npos) {
+            refuse(emitter, kAllowed);
+        }
+        const Vec3 place = vector({emitter.text.substr(0, comma), emitter.subject}, kPlace);
+        constexpr Range kRate{Dimension::Volume, 0.0, 1e-2, "a rate from 0uL/s to 10L/s"};
+        parameters.emitters.push_back(
+            {place, rate({emitter.text.substr(comma + 1), emitter.subject}, kRate, kAllowed), options.volumes});
+    }
+    if (const auto rain = line.value("--rain")) {
+        droplet::FlowRain falling;
+        falling.rainfall = quantity(*rain, kRain);
+        falling.from = options.from.value_or(falling.from);
+        parameters.rain = falling;
+    }
+    if (const auto dew = line.value("--condensation")) {
+        droplet::FlowCondensation condensation;
+        condensation.rate = quantity(*dew, kRain);
+        readQuantity(line, "--dew-spacing", kSpacing, condensation.spacing);
+        parameters.condensation = condensation;
+    } else if (line.value("--dew-spacing")) {
+        refuse("--dew-spacing needs --condensation");
+    }
+    if (options.from && options.drops == 0 && !parameters.rain) {
+        refuse("--from needs --drops or --rain");
+    }
+    options.has_source = options.drops > 0 || options.start || !parameters.emitters.empty() || parameters.rain ||
+                         parameters.condensation;
+    if (!options.has_source) {
+        refuse("no droplets are asked for; give --drops, --start, --emitter, --rain or --condensation");
+    }
+}
+
+void readMotion(const CommandLine& line, FlowOptions& options)
+{
+    droplet::FlowParameters& parameters = options.parameters;
+    parameters.forces = readForces(line, parameters.forces);
+    if (const auto model = line.value("--model")) {
+        parameters.model = choice<droplet::FlowModel>(
+            *model, {{"capillary", droplet::FlowModel::Capillary}, {"paper", droplet::FlowModel::Paper}});
+    }
+    if (const auto hysteresis = line.value("--hysteresis")) {
+        parameters.forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
+    }
+    if (const auto friction = line.value("--friction")) {
+        parameters.friction = inUnit(*friction, "kg/s", {0.0, 1e3, "a number from 0 to 1000, in kg/s"});
+    }
+    if (const auto roughness = line.value("--roughness")) {
+        parameters.roughness = plainOr(*roughness, kBump);
+    }
+    if (const auto adhesion = line.value("--adhesion")) {
+        parameters.adhesion = inUnit(*adhesion, "Pa", {0.0, 1e12, "a number from 0 to 1e12, in Pa"});
+    }
+    const auto down = line.value("--gravity-direction");
+    parameters.gravity = parameters.forces.gravity * (down ? direction(*down) : Vec3{0.0, 0.0, -1.0});
+    if (const auto wind = line.value("--wind")) {
+        parameters.wind = vector(*wind, kSpeed);
+    }
+    parameters.merges = !line.flag("--no-merge");
+    parameters.wets = !line.flag("--no-wetting");
+    readQuantity(line, "--film", kFilm, parameters.streaks.film);
+    readQuantity(line, "--bead-spacing", kSpacing, parameters.streaks.spacing);
+    if (const auto drying = line.value("--drying")) {
+        parameters.drying = quantity(*drying, kTime);
+    }
+    if (const auto seed = line.value("--seed")) {
+        const char* const end = seed->text.data() + seed->text.size();
+        const auto [stop, failure] = std::from_chars(seed->text.data(), end, parameters.seed);
+        if (failure != std::errc{} || stop != end) {
+            refuse(*seed, "a whole number from 0 to 18446744073709551615");
+        }
+    }
+}
+
+void readOutputs(const CommandLine& line, FlowOptions& options)
+{
+    options.output = line.argument("OUTPUT");
+    const Given output{options.output, "OUTPUT"};
+    options.files = NumberedPath::of(options.output, "OUTPUT");
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    const bool is_mesh = std::set<std::string>{".glb", ".gltf", ".obj", ".ply", ".stl"}.contains(extension);
+    if (options.files && is_mesh) {
+        options.kind = FlowOutput::Meshes;
+    } else if (options.files && extension == ".png") {
+        options.kind = FlowOutput::Pictures;
+    } else if (!options.files && extension == ".glb") {
+        options.kind = FlowOutput::Animation;
+    } else if (!options.files && extension == ".png") {
+        options.kind = FlowOutput::Picture;
+    } else if (!options.files && isVideo(options.output)) {
+        options.kind = FlowOutput::Video;
+    } else {
+        refuse(output,
+               "a .glb; a .png; a .mp4, .mkv, .mov or .webm; or a file for every frame such as out/%04d.png, .glb, "
+               ".gltf, .obj, .ply or .stl");
+    }
+    const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
+    for (const char* option : {"--view", "--camera", "--preview-size"}) {
+        if (line.value(option) && !is_picture) {
+            refuse(std::string(option) + " needs pictures or a video as OUTPUT, not '" + options.output + "'");
+        }
+    }
+    readView(line, options.view);
+    options.codec = text(line, "--codec");
+    for (const char* option : {"--codec", "--quality"}) {
+        if (line.value(option) && options.kind != FlowOutput::Video) {
+            refuse(std::string(option) + " needs a video as OUTPUT, not '" + options.output + "'");
+        }
+    }
+    if (const auto quality = line.value("--quality")) {
+        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
+    }
+    if (options.kind == FlowOutput::Video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
+        refuse("--preview-size: a video's frame must have even sides");
+    }
+    if (const auto shape = line.value("--shape")) {
+        options.shape = choice<droplet::BodyShape>(*shape, {{"capillary", droplet::BodyShape::Capillary},
+                                                            {"springs", droplet::BodyShape::Springs},
+                                                            {"capsule", droplet::BodyShape::Capsule}});
+    }
+    if (const auto material = line.value("--material")) {
+        options.material = forOption("--material", [&] { return droplet::materialNamed(material->text); });
+    }
+    const auto requireExtension = [&](const char* option, const std::set<std::string>& allowed, const char* words) {
+        const auto given = line.value(option);
+        if (given && !allowed.contains(std::filesystem::path(given->text).extension().string())) {
+            refuse(*given, words);
+        }
+        return text(line, option);
+    };
+    options.streaks = requireExtension("--streaks", {".glb", ".gltf", ".obj", ".ply", ".stl"},
+                                       "a file that ends in .glb, .gltf, .obj, .ply or .stl");
+    options.droplets = requireExtension("--droplets", {".csv", ".json"}, "a file that ends in .csv or .json");
+    options.json = text(line, "--json");
+    options.resume = line.flag("--resume");
+    if (options.resume && !options.files) {
+        refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.obj, not '" + options.output + "'");
+    }
+}
+
+}  // namespace
+
+std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (const auto text = requestedText(line)) {
+        return *text;
+    }
+    FlowOptions options;
+    readMotion(line, options);
+    readObject(line, options);
+    readSources(line, options);
+    readOutputs(line, options);
+    if (const auto duration = line.value("--time")) {
+        options.duration = quantity(*duration, kTime);
+    }
+    if (const auto rate = line.value("--fps")) {
+        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
+    }
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    options.threads = readThreads(line);
+    options.output_options.no_clobber = line.flag("--no-clobber");
+    options.quiet = line.flag("--quiet");
+    // These options do not change what a frame shows.
+    const std::set<std::string> neutral{"--time",  "--resume", "--no-clobber", "--threads",
+                                        "--quiet", "--config", "--json",       "--droplets"};
+    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
+    for (const auto& [name, value] : line.given()) {
+        if (neutral.count(name) == 0) {
+            options.fingerprint.append("\n").append(name).append(" ").append(value);
+        }
+    }
+    return options;
+}
+
+}  // namespace cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow/flow_parameters.h"
+#include "droplet/flow_io/flow_object.h"
+#include "droplet/io/output.h"
+#include "droplet/surface/material.h"
+#include "numbered_path.h"
+#include "preview.h"
+#include "video_writer.h"
+
+namespace cli {
+
+/// What the output of `droplet-shape flow` is.
+enum class FlowOutput {
+    Animation,  ///< animated .glb
+    Meshes,     ///< a mesh of the droplets for every frame
+    Pictures,   ///< a picture for every frame
+    Picture,    ///< a picture of the last frame
+    Video,
+};
+
+/// Options of `droplet-shape flow`. All values are in range; vectors are turned to z up; no file but the configuration
+/// file has been read.
+struct FlowOptions {
+    std::optional<std::string> object;  ///< path; empty: the preset's
+    std::string output;                 ///< path
+    FlowOutput kind = FlowOutput::Animation;
+    std::optional<NumberedPath> files;  ///< set if every frame gets a file
+    std::optional<std::string> preset;
+    droplet::FlowObjectOptions reading;
+    bool keeps_animation = true;         ///< the object moves as its file says
+    std::optional<std::string> motion;   ///< path of keys
+    droplet::FlowParameters parameters;  ///< without the content of files
+    bool has_source = false;             ///< whether any source of droplets is given
+    std::size_t drops = 0;
+    droplet::VolumeDistribution volumes;
+    std::optional<droplet::Vec3> from;
+    std::optional<std::string> mask;
+    std::optional<std::string> start;
+    std::optional<std::string> roughness_map;
+    std::optional<std::string> friction_map;
+    droplet::BodyShape shape = droplet::BodyShape::Capillary;
+    std::optional<droplet::Material> material;
+    PreviewOptions view;  ///< camera and size of pictures
+    std::optional<std::string> codec;
+    double quality = kVideoQuality;
+    std::optional<std::string> streaks;
+    std::optional<std::string> droplets;
+    std::optional<std::string> json;
+    std::optional<double> duration;  ///< [s]; empty: the preset's, or 5 s
+    double frames_per_second = 30.0;
+    bool resume = false;
+    std::string fingerprint;  ///< all options that decide what the frames show
+    std::optional<std::string> config;
+    std::optional<std::size_t> threads;
+    droplet::OutputOptions output_options;
+    bool quiet = false;
+};
+
+/// Reads the command line and the configuration file that it names.
+/// @return                the options, or the text that --help or --version prints
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* argv);
+
+}  // namespace cli

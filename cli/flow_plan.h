@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "droplet/flow/flow.h"
+#include "droplet/flow_io/flow_object.h"
+#include "flow_options.h"
+
+namespace cli {
+
+/// What a run simulates: the options with the content of their files.
+struct FlowPlan {
+    droplet::FlowObject object;
+    droplet::FlowScene scene;
+    droplet::FlowParameters parameters;
+    std::vector<droplet::FlowStart> starts;
+    std::size_t frames = 1;
+    std::vector<std::string> warnings;
+};
+
+/// Reads the options' files and makes the plan.
+/// @throws droplet::Error InvalidArgument, InvalidInput
+FlowPlan planOf(const FlowOptions& options);
+
+}  // namespace cli

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checkpoint.h"
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow_io/droplet_surfaces.h"
+#include "droplet/flow_io/flow_animation.h"
+#include "droplet/flow_io/flow_picture.h"
+#include "droplet/flow_io/flow_table.h"
+#include "droplet/flow_io/streak_ribbons.h"
+#include "droplet_report.h"
+#include "files.h"
+#include "flow_files.h"
+#include "flow_plan.h"
+#include "option_values.h"
+#include "stage_clock.h"
+#include "surface_files.h"
+#include "terminal.h"
+#include "video_writer.h"
+
+namespace cli {
+namespace {
+
+constexpr const char* kCommand = "flow";
+
+class FlowRun {
+public:
+    explicit FlowRun(const FlowOptions& options);
+
+    droplet::FlowReport execute();
+
+private:
+    /// Resumes from the checkpoint, if that is possible; otherwise the run starts from the first frame.
+    void resume();
+    /// Simulates and writes all remaining frames.
+    void run();
+    /// Advances the state, with a row of the balance at every full second.
+    void advance(double until);
+    /// Opens the video.
+    void beginVideo();
+    /// Draws a frame, and writes it unless it is the picture of the last one.
+    void draw(const std::vector<droplet::FlowSample>& samples, std::size_t number);
+    /// Writes the droplets of a frame.
+    void writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const;
+    [[nodiscard]] droplet::Vec3 gravityAt(double time) const;
+    void finish();
+
+    const FlowOptions& options_;
+    StageClock clock_;
+    FlowPlan plan_;
+    droplet::DropletBodies bodies_;
+    droplet::Material material_;
+    std::optional<droplet::FlowAnimation> animation_;
+    std::optional<droplet::FlowView> view_;
+    std::unique_ptr<VideoWriter> video_;
+    droplet::Picture picture_;  ///< of the last frame
+    std::optional<droplet::FlowTable> table_;
+    droplet::StreakRibbons ribbons_;
+    droplet::Surface streaks_;  ///< at the end
+    droplet::FlowState state_;
+    std::string fingerprint_;
+    std::size_t done_ = 0;
+    droplet::FlowReport report_;
+};
+
+droplet::Format formatOf(const std::string& path)
+{
+    return droplet::formatNamed(std::filesystem::path(path).extension().string().substr(1));
+}
+
+/// Turns a surface to the axes of the object's file, for formats that are written z up.
+void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading)
+{
+    const bool is_z_up_file = format == droplet::Format::Ply || format == droplet::Format::Stl;
+    if (!is_z_up_file || reading.up == droplet::UpAxis::Z) {
+        return;
+    }
+    const auto turn = [](droplet::Vec3& v) { v = {v.x, v.z, 0.0 - v.y}; };
+    std::for_each(surface.positions.begin(), surface.positions.end(), turn);
+    std::for_each(surface.normals.begin(), surface.normals.end(), turn);
+}
+
+droplet::StreakRibbonOptions ribbonOptions(const droplet::FlowParameters& parameters)
+{
+    droplet::StreakRibbonOptions options;
+    options.drying = parameters.drying;
+    return options;
+}
+
+FlowRun::FlowRun(const FlowOptions& options)
+    : options_(options),
+      plan_(planOf(options)),
+      bodies_(options.shape, plan_.parameters.forces),
+      material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
+      ribbons_(ribbonOptions(plan_.parameters))
+{
+    checkFlowFrames(options_, plan_.frames);
+    state_ = droplet::startFlow(plan_.scene, plan_.parameters, plan_.starts);
+    if (options_.kind == FlowOutput::Animation) {
+        droplet::FlowAnimationOptions animation;
+        animation.frames_per_second = options_.frames_per_second;
+        animation.material = material_;
+        animation.gravity = plan_.parameters.gravity;
+        animation.motion = plan_.parameters.motion;
+        animation_.emplace(plan_.object, bodies_, animation);
+    } else if (options_.kind != FlowOutput::Meshes) {
+        view_.emplace(plan_.object, bodies_);
+    }
+    report_.input = *options_.object;
+    report_.surface = plan_.scene.surface().report;
+    droplet::Vec3 low = plan_.object.positions.front();
+    droplet::Vec3 high = low;
+    for (const droplet::Vec3& p : plan_.object.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    report_.size = high - low;
+    report_.output = options_.output;
+    report_.start = options_.start;
+    report_.parameters = plan_.parameters;
+    report_.shape = options_.shape;
+    report_.frames_per_second = options_.frames_per_second;
+    report_.frames = plan_.frames;
+    report_.warnings = plan_.warnings;
+}
+
+droplet::FlowReport FlowRun::execute()
+{
+    if (options_.files) {
+        fingerprint_ = flowFingerprint(options_);
+        resume();
+    }
+    if (options_.kind == FlowOutput::Video) {
+        beginVideo();
+    }
+    std::vector<OutputFile> files;
+    if (options_.droplets) {
+        files.push_back({*options_.droplets, [&](std::ostream& out) {
+                             const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
+                             table_.emplace(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
+                             run();
+                             table_->finish();
+                         }});
+    } else {
+        run();
+    }
+    if (animation_) {
+        files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out); }});
+    }
+    if (options_.kind == FlowOutput::Picture) {
+        files.push_back({options_.output, [&](std::ostream& out) { droplet::writePng(picture_, out); }});
+    } else if (video_) {
+        files.push_back({options_.output, [&](std::ostream& out) { video_->finish(out); }});
+    }
+    std::uint64_t bytes = 0;
+    if (options_.streaks) {
+        SurfaceTarget target{*options_.streaks, formatOf(*options_.streaks), {}};
+        target.options.material = material_;
+        for (OutputFile& file : surfaceFiles(streaks_, target, bytes)) {
+            files.push_back(std::move(file));
+        }
+    }
+    if (options_.json) {
+        files.push_back({*options_.json, [&](std::ostream& out) {
+                             finish();
+                             writeFlowReport(out, report_);
+                         }});
+    }
+    writeTogether(files, options_.output_options);
+    if (options_.files) {
+        std::error_code none;
+        std::filesystem::remove(flowCheckpointPath(options_), none);
+    }
+    finish();
+    return std::move(report_);
+}
+
+void FlowRun::resume()
+{
+    const std::string path = flowCheckpointPath(options_);
+    const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
+    if (!checkpoint) {
+        // The checkpoint of another run must not be used for this one.
+        removeCheckpoint(path, kCommand, options_.output_options);
+        return;
+    }
+    if (checkpoint->fingerprint != fingerprint_) {
+        refuse("--resume: " + path + " belongs to a run with other options or files");
+    }
+    if (checkpoint->frames > plan_.frames) {
+        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
+               std::to_string(plan_.frames));
+    }
+    // Tables and streaks need every frame to be simulated again, and so do missing files.
+    bool is_whole = !options_.droplets && !options_.streaks;
+    for (std::size_t number = 1; is_whole && number <= checkpoint->frames; ++number) {
+        std::error_code ignored;
+        is_whole = std::filesystem::exists(options_.files->at(number), ignored);
+    }
+    if (!is_whole) {
+        return;
+    }
+    state_ = droplet::flowStateFromBytes(checkpoint->state, plan_.scene.surface().faces.size(), path);
+    report_.balance = rowsFromBytes<droplet::FlowBalanceRow>(checkpoint->rows);
+    done_ = checkpoint->frames;
+}
+
+void FlowRun::run()
+{
+    const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
+    for (; done_ < plan_.frames; ++done_) {
+        advance(static_cast<double>(done_) / options_.frames_per_second);
+        const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.scene, plan_.parameters);
+        if (table_) {
+            table_->add(done_ + 1, state_.time, samples, plan_.scene.surface());
+        }
+        if (animation_) {
+            animation_->add(state_.time, samples);
+        }
+        if (options_.kind == FlowOutput::Meshes) {
+            writeMesh(samples, done_ + 1);
+        } else if (view_ && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
+            draw(samples, done_ + 1);
+        }
+        if (options_.files && (done_ + 1) % second == 0) {
+            writeCheckpoint(flowCheckpointPath(options_), {kCommand, fingerprint_, done_ + 1,
+                                                           bytesOfRows(report_.balance), droplet::bytesOf(state_)});
+        }
+        if (!options_.quiet && errorIsTerminal()) {
+            std::cerr << "\rframe " << done_ + 1 << " of " << plan_.frames << (done_ + 1 == plan_.frames ? "\n" : "")
+                      << std::flush;
+        }
+    }
+    if (report_.balance.empty() || report_.balance.back().time != state_.time) {
+        report_.balance.push_back(flowBalanceRow(state_));
+    }
+    report_.counts = state_.counts;
+    report_.time = state_.time;
+    if (options_.streaks) {
+        streaks_ = ribbons_.surface(state_.time);
+        turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
+    }
+}
+
+void FlowRun::advance(double until)
+{
+    const auto moveTo = [&](double time) {
+        state_ = droplet::advanceFlow(std::move(state_), plan_.scene, plan_.parameters, time);
+        if (options_.streaks) {
+            ribbons_.add(state_.tracks, plan_.scene.surface());
+        }
+    };
+    double second = std::floor(state_.time) + 1.0;
+    while (second <= until) {
+        moveTo(second);
+        report_.balance.push_back(flowBalanceRow(state_));
+        second += 1.0;
+    }
+    if (until > state_.time) {
+        moveTo(until);
+    }
+}
+
+void FlowRun::beginVideo()
+{
+    const std::string codec = options_.codec.value_or(codecFor(options_.output));
+    checkCodec(codec, options_.output);
+    const VideoWriterOptions video{
+        options_.output, codec, options_.view.width, options_.view.height, options_.frames_per_second,
+        options_.quality};
+    tryVideo(video);
+    video_ = std::make_unique<VideoWriter>(video);
+}
+
+void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t number)
+{
+    droplet::FlowPictureOptions options;
+    options.render.width = options_.view.width;
+    options.render.height = options_.view.height;
+    options.render.view = options_.view.view;
+    options.render.camera = options_.view.camera;
+    options.render.look = droplet::lookOf(material_);
+    options.gravity = gravityAt(state_.time);
+    picture_ = view_->draw(samples, options);
+    if (video_) {
+        video_->add(picture_);
+    } else if (options_.files) {
+        droplet::writeAtomically(
+            options_.files->at(number),
+            [&](std::ostream& out) { droplet::writePng(picture_, out, droplet::PngEffort::Fast); },
+            options_.output_options);
+    }
+}
+
+void FlowRun::writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const
+{
+    droplet::Surface surface = droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time));
+    SurfaceTarget target{options_.files->at(number), formatOf(options_.output), {}};
+    target.options.material = material_;
+    turnToFile(surface, target.format, options_.reading);
+    std::uint64_t bytes = 0;
+    writeTogether(surfaceFiles(surface, target, bytes), options_.output_options);
+}
+
+droplet::Vec3 FlowRun::gravityAt(double time) const
+{
+    const droplet::FlowParameters& parameters = plan_.parameters;
+    return parameters.motion.rests() ? parameters.gravity : parameters.motion.at(time).toObject(parameters.gravity);
+}
+
+void FlowRun::finish()
+{
+    report_.time_total = clock_.total();
+    report_.peak_memory = peakMemory();
+}
+
+}  // namespace
+
+droplet::FlowReport simulateFlow(const FlowOptions& options)
+{
+    return FlowRun(options).execute();
+}
+
+}  // namespace cli

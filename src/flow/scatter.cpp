@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow/scatter.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <string>
+
+#include "droplet/error.h"
+#include "require.h"
+#include "wind/random.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::uint64_t kMaxTries = 1'000'000;
+
+/// Points that droplets may have.
+class Places {
+public:
+    Places(const FlowScene& scene, const ScatterOptions& options) : scene_(scene), options_(options)
+    {
+        if (options.from) {
+            up_ = (1.0 / length(*options.from)) * *options.from;
+        }
+    }
+
+    [[nodiscard]] std::optional<FlowStart> startOf(std::size_t k) const
+    {
+        const RandomStream random(options_.seed, RandomPurpose::Scatter, k);
+        FlowStart start;
+        start.volume = options_.volumes.at(random.uniform(0), random.uniform(1));
+        for (std::uint64_t i = 0; i < kMaxTries; ++i) {
+            const FlowScene::Point point = scene_.pointAt(random.uniform(2 + 3 * i), random.uniform(3 + 3 * i));
+            const bool is_covered = !options_.coverage || random.uniform(4 + 3 * i) < options_.coverage(point);
+            if (is_covered && isMet(point)) {
+                start.place = point.place;
+                return start;
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    /// Whether rain meets a point first.
+    [[nodiscard]] bool isMet(const FlowScene::Point& point) const
+    {
+        if (!up_) {
+            return true;
+        }
+        if (!(dot(scene_.surface().faces[point.face].normal, *up_) > 0.0)) {
+            return false;
+        }
+        const double size = scene_.diameter();
+        const std::optional<FlowScene::Point> met = scene_.firstAlong(point.place + 2.0 * size * *up_, -1.0 * *up_);
+        constexpr double kNear = 1e-6;  // the search works with floats
+        return met && (met->face == point.face || length(met->place - point.place) <= kNear * size);
+    }
+
+    const FlowScene& scene_;
+    const ScatterOptions& options_;
+    std::optional<Vec3> up_;
+};
+
+}  // namespace
+
+void ScatterOptions::validate() const
+{
+    volumes.validate();
+    if (from) {
+        const double size = length(*from);
+        require(size > 0.0 && std::isfinite(size), "from", size, "a direction that is not 0");
+    }
+}
+
+std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOptions& options)
+{
+    options.validate();
+    const Places places(scene, options);
+    std::vector<FlowStart> starts(options.count);
+    const auto put = [&](std::size_t k) {
+        const std::optional<FlowStart> start = places.startOf(k);
+        if (!start) {
+            throw Error(ErrorCode::InvalidInput, "no place for droplet " + std::to_string(k + 1) + " of " +
+                                                     std::to_string(options.count) + " in a million tries: " +
+                                                     (options.coverage && options.from
+                                                          ? "too little of the object is in the mask and faces the rain"
+                                                      : options.coverage ? "too little of the object is in the mask"
+                                                                         : "too little of the object faces the rain"));
+        }
+        starts[k] = *start;
+    };
+    if (options.count > 0) {
+        put(0);  // if there is no place at all, one search is enough
+        tbb::parallel_for(std::size_t{1}, options.count, put);
+    }
+    return starts;
+}
+
+}  // namespace droplet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/vector.h"
+#include "rotation.h"
+
+namespace droplet {
+
+/// Motion of a rigid object from a file: a point p at rest is at place + turn p.
+struct FileMotion {
+    struct Key {
+        double time = 0.0;  ///< [s]
+        Vec3 place;
+        Rotation turn;
+    };
+    Vec3 pivot;             ///< it moves along a line from key to key
+    std::vector<Key> keys;  ///< times that do not descend; two keys at one time are a jump
+};
+
+/// All triangles of a file.
+///
+/// Invariants: there is a triangle, its indices are in range; numbers are finite; arrays of vertices have one length.
+struct FileMesh {
+    std::vector<Vec3> positions;              ///< in metres
+    std::vector<Vec3> normals;                ///< unit
+    std::vector<Vec2> uvs;                    ///< (0,0) top left; 0 for vertices without uv; empty: none has uv
+    std::vector<float> contact_angles;        ///< [rad]; 0 for vertices without one; may be empty
+    std::vector<Triangle> triangles;          ///< indices of vertices
+    std::vector<std::uint32_t> weld;          ///< index of the first vertex at the same place
+    std::vector<std::uint32_t> materials;     ///< of every triangle, in material_names; empty: none has one
+    std::vector<std::string> material_names;  ///< "": no name
+    std::optional<FileMotion> motion;
+    bool deforms = false;            ///< the file has skins or morph targets, which are ignored
+    bool ignores_animation = false;  ///< the file has an animation that `motion` does not hold
+    bool lacks_uv = false;           ///< some triangles have no uv, but others have
+};
+
+struct FileMeshOptions {
+    bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
+    bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
+    bool motion = false;            ///< read the animation of the node of a glTF scene that carries all meshes
+    std::optional<bool> y_up = {};  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
+};
+
+/// Reads .glb, .gltf, .obj, .ply or .stl. OBJ and STL are in millimetres, unless a comment of this library states
+/// another unit.
+/// @throws Error InvalidArgument for an unknown extension; InvalidInput, naming the file: it cannot be read, is
+///               damaged, has no triangles, numbers that are not finite, or more than 2²⁶ triangles
+FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& options = {});
+
+}  // namespace droplet

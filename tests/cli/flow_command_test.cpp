@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `droplet-shape flow`: the contract of its files, errors, resuming an interrupted run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/io/read_surface.h"
+#include "droplet/units.h"
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::runDroplet;
+using ::testing::StartsWith;
+
+// A rectangle of 1 m by 1 m that slopes down 30° to +z, in millimetres.
+constexpr const char* kSlope =
+    "v 0 0 0\nv 1000 0 0\nv 1000 577.350269189626 -1000\nv 0 577.350269189626 -1000\nf 1 2 3\nf 1 3 4\n";
+
+class FlowCommand : public ::testing::Test {
+protected:
+    FlowCommand() { testing::writeFile(path("slope.obj"), kSlope); }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    [[nodiscard]] CommandResult flow(const std::string& output, const std::vector<std::string>& more,
+                                     const std::string& object = "slope.obj") const
+    {
+        std::vector<std::string> arguments{"flow", path(object), path(output), "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    }
+
+    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message,
+                       const std::string& object = "slope.obj") const
+    {
+        const CommandResult result = flow("refused.glb", arguments, object);
+        EXPECT_EQ(result.exit_code, exit_code) << result.error;
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+        EXPECT_FALSE(std::filesystem::exists(path("refused.glb")));
+    }
+
+    /// Rows of a table, without its header.
+    [[nodiscard]] std::vector<std::vector<double>> rows(const std::string& table) const
+    {
+        std::istringstream lines(readFile(path(table)));
+        std::vector<std::vector<double>> all;
+        std::string line;
+        std::getline(lines, line);
+        EXPECT_EQ(line,
+                  "frame,time_s,id,x_m,y_m,z_m,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s,volume_m3,"
+                  "face");
+        while (std::getline(lines, line)) {
+            std::istringstream cells(line);
+            all.emplace_back();
+            for (std::string cell; std::getline(cells, cell, ',');) {
+                all.back().push_back(std::stod(cell));
+            }
+        }
+        return all;
+    }
+
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(FlowCommand, IsTheFormulaOnASlope)
+{
+    const double slope = 30.0 * kDegree;
+    testing::writeFile(path("start.csv"), "x_m,y_m,z_m,volume_m3\n0.5,0.519615242270663,-0.9,2e-8\n");
+    const CommandResult run = flow("out.glb", {"--start", path("start.csv"), "--model", "paper", "--friction", "1e-4",
+                                               "--droplets", path("paths.csv"), "--time", "1s", "--fps", "24"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const double decay = 1e-4 / (998.2 * 2e-8);
+    const double pull = 9.81 * std::sin(slope);
+    const auto all = rows("paths.csv");
+    ASSERT_EQ(all.size(), 24U);
+    for (const std::vector<double>& row : all) {
+        const double t = row[1];
+        const double way = pull / decay * t + pull / (decay * decay) * std::expm1(-decay * t);
+        EXPECT_NEAR(row[5], -0.9 + std::cos(slope) * way, 1e-12);
+        EXPECT_NEAR(row[4], -std::tan(slope) * row[5], 1e-12);
+        EXPECT_NEAR(row[8], std::cos(slope) * pull / decay * -std::expm1(-decay * t), 1e-12);
+        EXPECT_EQ(row[9], 2e-8);
+    }
+}
+
+TEST_F(FlowCommand, WritesAllThatItSays)
+{
+    ASSERT_EQ(flow("out.glb", {"--drops", "30", "--time", "0.5s", "--json", path("report.json"), "--droplets",
+                               path("paths.json"), "--streaks", path("streaks.ply"), "--hysteresis", "0.02"})
+                  .exit_code,
+              0);
+    EXPECT_THAT(readFile(path("out.glb")), StartsWith("glTF"));
+    const auto report = nlohmann::json::parse(readFile(path("report.json")));
+    EXPECT_EQ(report.at("schema"), "droplet-shape.flow/1");
+    EXPECT_EQ(nlohmann::json::parse(readFile(path("paths.json"))).at("schema"), "droplet-shape.flow-droplets/1");
+    EXPECT_GT(readSurface(path("streaks.ply")).surface.triangles.size(), 100U);
+    for (const char* name : {"mesh-%d.obj", "mesh-%d.stl", "mesh-%d.ply", "mesh-%d.glb"}) {
+        ASSERT_EQ(flow(name, {"--drops", "3", "--time", "0.1s"}).exit_code, 0) << name;
+        const std::string first = path(std::string(name).replace(5, 2, "1"));
+        // They lie on the slope, y = −tan 30° z in the file.
+        const Surface surface = readSurface(first).surface;
+        const bool is_turned = first.ends_with(".stl") || first.ends_with(".ply");
+        for (const Vec3& p : surface.positions) {
+            const Vec3 in_file = is_turned ? p : Vec3{p.x, p.z, -p.y};
+            EXPECT_NEAR(in_file.y, -std::tan(30.0 * kDegree) * in_file.z, 5e-3) << first;
+        }
+    }
+}
+
+TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
+{
+    for (const char* folder : {"a", "b"}) {
+        std::filesystem::create_directory(path(folder));
+    }
+    const std::vector<std::string> options{"--drops", "40",    "--rain", "100mm/h", "--film",
+                                           "5um",     "--fps", "10",     "--time"};
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> all = options;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    ASSERT_EQ(flow("a/%d.ply", with({"3s", "-j", "1"})).exit_code, 0);
+    // A folder in the place of a frame interrupts the run.
+    std::filesystem::create_directories(path("b/25.ply/x"));
+    ASSERT_EQ(flow("b/%d.ply", with({"3s", "-j", "2"})).exit_code, 4);
+    EXPECT_TRUE(std::filesystem::exists(path("b/checkpoint.state")));
+    std::filesystem::remove_all(path("b/25.ply"));
+    EXPECT_EQ(flow("b/%d.ply", with({"3s", "--resume", "--seed", "7"})).exit_code, 2) << "another run";
+    testing::writeFile(path("b/5.ply"), "kept");
+    ASSERT_EQ(flow("b/%d.ply", with({"3s", "--resume"})).exit_code, 0);
+    EXPECT_EQ(readFile(path("b/5.ply")), "kept") << "frames that exist are not made again";
+    EXPECT_FALSE(std::filesystem::exists(path("b/checkpoint.state")));
+    testing::writeFile(path("b/5.ply"), readFile(path("a/5.ply")));
+    for (int k = 1; k <= 30; ++k) {
+        const std::string name = "/" + std::to_string(k) + ".ply";
+        EXPECT_EQ(readFile(path("a" + name)), readFile(path("b" + name))) << k;
+    }
+}
+
+TEST_F(FlowCommand, RefusesWhatItCannotUse)
+{
+    expectRefused({}, 2, "no droplets are asked for");
+    expectRefused({"--rain", "-3mm/h"}, 2, "--rain");
+    expectRefused({"--drops", "3", "--volume", "20"}, 2, "--volume");
+    expectRefused({"--drops", "3", "--from", "0,0"}, 2, "--from");
+    expectRefused({"--drops", "3", "--from", "0,-1,0"}, 3, "--drops");
+    expectRefused({"--drops", "3", "--spin", "30deg"}, 2, "--spin");
+    expectRefused({"--emitter", "0,1,0"}, 2, "--emitter");
+    expectRefused({"--start", path("no.csv")}, 3, "no.csv");
+    expectRefused({"--drops", "3", "--size", "20mm", "--volume", "1L"}, 2, "the object");
+    expectRefused({"--drops", "3", "--json", path("slope.obj")}, 2, "slope.obj");
+    testing::writeFile(path("points.obj"), "v 0 0 0\nv 1 0 0\n");
+    expectRefused({"--drops", "3"}, 3, "points.obj", "points.obj");
+    testing::writeFile(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    expectRefused({"--drops", "3"}, 3, "flat.obj", "flat.obj");
+    testing::writeFile(path("tiny.obj"), "v 0 0 0\nv 1e-27 0 0\nv 0 1e-27 0\nf 1 2 3\n");
+    expectRefused({"--drops", "3"}, 3, "tiny.obj", "tiny.obj");
+    testing::writeFile(path("tent.obj"),
+                       "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    expectRefused({"--emitter", "0.01,0.01,0.01,5uL/s"}, 2, "inside", "tent.obj");
+}
+
+}  // namespace
+}  // namespace droplet

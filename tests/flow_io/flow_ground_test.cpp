@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/flow_ground.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "droplet/error.h"
+#include "droplet/flow/scatter.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Unit square of two triangles, the second one of which winds the other way, and has another material.
+FlowObject square()
+{
+    FlowObject object;
+    object.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+    object.normals.assign(4, {0.0, 0.0, 1.0});
+    object.uvs = {{0.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 0.0}};
+    object.triangles = {{0, 1, 2}, {0, 3, 2}};
+    object.materials = {0, 1};
+    object.material_names = {"glass", "rust"};
+    return object;
+}
+
+/// White where x > y, counted from the top left.
+HeightMap half(int size)
+{
+    HeightMap picture{size, size, {}, false};
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            picture.levels.push_back(x >= size - y ? 1.0F : 0.0F);
+        }
+    }
+    return picture;
+}
+
+TEST(FlowGround, TakesMeansOfPicturesOverTriangles)
+{
+    const FlowObject object = square();
+    const FlowSurface surface = flowSurface(object.positions, object.triangles);
+    EXPECT_EQ(surface.report.turned, 1U);
+    ASSERT_EQ(surface.faces[0].source, 0U);
+    // The lower right half of the picture is the first triangle.
+    const std::vector<double> means = meansOverFaces(half(512), object, surface);
+    EXPECT_NEAR(means[0], 1.0, 0.02);
+    EXPECT_NEAR(means[1], 0.0, 0.02);
+    HeightMap grey{1, 1, {0.25F}, false};
+    const FlowGround ground =
+        flowGround(object, surface,
+                   {.roughness_picture = grey, .max_roughness = 2e-4, .friction_picture = grey, .max_friction = 8});
+    EXPECT_THAT(ground.roughness, ElementsAre(Vec2{5e-5, 5e-5}, Vec2{5e-5, 5e-5}));
+    EXPECT_THAT(ground.friction, ElementsAre(2.0, 2.0));
+    EXPECT_THAT(ground.hysteresis, IsEmpty());
+    // A picture repeats, and levels are limited.
+    FlowObject far = object;
+    for (Vec2& uv : far.uvs) {
+        uv = uv + Vec2{-3.0, 7.0};
+    }
+    EXPECT_EQ(meansOverFaces(half(64), far, surface), meansOverFaces(half(64), object, surface));
+    EXPECT_THAT(meansOverFaces({1, 1, {7.0F}, true}, object, surface), ElementsAre(1.0, 1.0));
+}
+
+TEST(FlowGround, HasPropertiesOfMaterials)
+{
+    const FlowObject object = square();
+    const FlowSurface surface = flowSurface(object.positions, object.triangles);
+    const FlowGround ground =
+        flowGround(object, surface,
+                   {.friction_picture = HeightMap{1, 1, {0.5F}, false},
+                    .roughness = 1e-5,
+                    .materials = {{"rust", {.roughness = 3e-4, .friction = 4.0}}, {"glass", {.hysteresis = 0.5}}}});
+    EXPECT_THAT(ground.roughness, ElementsAre(Vec2{1e-5, 1e-5}, Vec2{3e-4, 3e-4}));
+    EXPECT_THAT(ground.friction, ElementsAre(0.5, 4.0));
+    EXPECT_THAT(ground.hysteresis, ElementsAre(0.5, 1.0));
+    const FlowGround none = flowGround(object, surface, {});
+    EXPECT_THAT(none.roughness, IsEmpty());
+    EXPECT_THAT(none.friction, IsEmpty());
+}
+
+TEST(FlowGround, NamesWhatIsWrong)
+{
+    FlowObject object = square();
+    const FlowSurface surface = flowSurface(object.positions, object.triangles);
+    const auto refusal_of = [&](const FlowGroundOptions& options) -> std::string {
+        try {
+            (void)flowGround(object, surface, options);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+            return error.what();
+        }
+        return "no refusal";
+    };
+    EXPECT_THAT(refusal_of({.materials = {{"wood", {}}}}), HasSubstr("wood, must be one of the object's: glass, rust"));
+    EXPECT_THAT(refusal_of({.materials = {{"rust", {.friction = -1.0}}}}), HasSubstr("friction of rust is -1"));
+    EXPECT_THAT(refusal_of({.max_roughness = -1.0}), HasSubstr("max_roughness"));
+    object.material_names.clear();
+    object.materials.clear();
+    EXPECT_THAT(refusal_of({.materials = {{"wood", {}}}}), HasSubstr("has no materials"));
+    object.uvs.clear();
+    EXPECT_THAT(refusal_of({.roughness_picture = half(4)}), HasSubstr("unwrap"));
+}
+
+TEST(FlowGround, ScattersDropletsOverAMask)
+{
+    const FlowObject object = square();
+    const FlowScene scene(flowSurface(object.positions, object.triangles));
+    Mask mask;
+    mask.width = 2;
+    mask.height = 4;
+    mask.coverage = {0, 0, 0, 65535, 0, 0, 0, 0};  // right, second row from above
+    ScatterOptions options{.count = 100};
+    options.coverage = coverageOver(mask, object, scene.surface());
+    for (const FlowStart& start : scatterDroplets(scene, options)) {
+        EXPECT_GE(start.place.x, 0.5);
+        EXPECT_GE(start.place.y, 0.5);
+        EXPECT_LE(start.place.y, 0.75);
+    }
+    FlowObject bare = object;
+    bare.uvs.clear();
+    EXPECT_THROW((void)coverageOver(mask, bare, scene.surface()), Error);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/flow_object.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "support/command.h"
+#include "support/gltf_draft.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::AllOf;
+using testing::Draft;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::writeFile;
+
+void expectNear(Vec3 a, Vec3 b, double tolerance = 1e-6)
+{
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+    EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+Vec3 worldOf(const ObjectMotion& motion, double time, Vec3 point)
+{
+    const ObjectPose pose = motion.at(time);
+    return pose.place + pose.toWorld(point);
+}
+
+class FlowObjectFile : public ::testing::Test {
+protected:
+    [[nodiscard]] FlowObject read(const std::string& name, const std::string& bytes,
+                                  const FlowObjectOptions& options = {}) const
+    {
+        writeFile(scratch_.path() / name, bytes);
+        FlowObject object = readFlowObject(scratch_.path() / name, options);
+        EXPECT_EQ(object.normals.size(), object.positions.size());
+        EXPECT_TRUE(object.uvs.empty() || object.uvs.size() == object.positions.size());
+        EXPECT_TRUE(object.materials.empty() || object.materials.size() == object.triangles.size());
+        object.motion.validate();
+        return object;
+    }
+
+    void expectRefused(const std::string& name, const std::string& bytes, const std::string& words,
+                       const FlowObjectOptions& options = {}) const
+    {
+        writeFile(scratch_.path() / name, bytes);
+        try {
+            (void)readFlowObject(scratch_.path() / name, options);
+            ADD_FAILURE() << "read; should say: " << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << error.what();
+            EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr(words), Not(HasSubstr("\n"))));
+        }
+    }
+
+    [[nodiscard]] const std::filesystem::path& folder() const { return scratch_.path(); }
+
+private:
+    testing::ScratchDirectory scratch_;
+};
+
+const std::string kObj = R"(mtllib ignored.mtl
+v 0 0 0
+v 1000 0 0
+v 1000 2000 0
+v 0 2000 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+vn 0 0 1
+usemtl Wet Glass
+f 1/1/1 2/2/1 3/3/1 4/4/1
+usemtl rough
+f 1/2/1 2/1/1 4/4/1
+)";
+
+TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
+{
+    const FlowObject object = read("wall.obj", kObj);
+    EXPECT_THAT(object.triangles, ::testing::SizeIs(3));
+    EXPECT_THAT(object.material_names, ElementsAre("Wet Glass", "rough"));
+    EXPECT_THAT(object.materials, ElementsAre(0, 0, 1));
+    EXPECT_THAT(object.warnings, IsEmpty());
+    // Four corners, and two of them again with another uv. Millimetres, y up; v counts from below.
+    ASSERT_THAT(object.positions, ::testing::SizeIs(6));
+    EXPECT_EQ(object.positions[2], (Vec3{1.0, 0.0, 2.0}));
+    EXPECT_EQ(object.uvs[2], (Vec2{1.0, 0.0}));
+    EXPECT_EQ(object.uvs[1], (Vec2{1.0, 1.0}));
+    EXPECT_EQ(object.normals[0], (Vec3{0.0, -1.0, 0.0}));
+}
+
+TEST_F(FlowObjectFile, HasScaleSizeAndUpAxis)
+{
+    EXPECT_EQ(read("wall.obj", kObj, {.scale = 3.0}).positions[2], (Vec3{3.0, 0.0, 6.0}));
+    expectNear(read("wall.obj", kObj, {.size = 0.2}).positions[2], {0.1, 0.0, 0.2}, 1e-15);
+    EXPECT_EQ(read("wall.obj", kObj, {.up = UpAxis::Z}).positions[2], (Vec3{1.0, 2.0, 0.0}));
+    const std::string stl =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+        "endfacet\nendsolid a\n";
+    EXPECT_EQ(read("a.stl", stl).positions[2], (Vec3{0.0, 0.0, 1e-3}));
+    EXPECT_EQ(read("a.stl", stl, {.up = UpAxis::Z}).positions[2], (Vec3{0.0, 1e-3, 0.0}));
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n";
+    const FlowObject quad = read("a.ply", ply);
+    EXPECT_EQ(quad.positions[2], (Vec3{1.0, 1.0, 0.0}));
+    EXPECT_EQ(quad.uvs[2], (Vec2{1.0, 0.0}));
+    EXPECT_THAT(quad.triangles, ::testing::SizeIs(2));
+    EXPECT_EQ(read("a.ply", ply, {.up = UpAxis::Y}).positions[2], (Vec3{1.0, 0.0, 1.0}));
+    EXPECT_THROW((void)read("a.ply", ply, {.scale = 0.0}), Error);
+    EXPECT_THROW((void)read("a.ply", ply, {.size = -1.0}), Error);
+    EXPECT_THROW((void)read("a.ply", ply, {.scale = 1.0, .size = 1.0}), Error);
+}
+
+TEST_F(FlowObjectFile, DividesAConcaveFaceInside)
+{
+    // An arrow head whose third corner points inwards.
+    const FlowObject arrow = read("a.obj", "v 0 0 0\nv 200 0 0\nv 50 50 0\nv 0 200 0\nf 1 2 3 4\nf 2 3 4 1\n");
+    double area = 0.0;
+    for (const auto& [a, b, c] : arrow.triangles) {
+        const Vec3 facet = cross(arrow.positions[b] - arrow.positions[a], arrow.positions[c] - arrow.positions[a]);
+        EXPECT_LT(facet.y, 0.0);
+        area += 0.5 * length(facet);
+    }
+    EXPECT_NEAR(area, 2 * 0.5 * (0.2 * 0.05 + 0.2 * 0.05), 1e-15);
+}
+
+TEST_F(FlowObjectFile, RefusesWhatDropletsCannotRunOver)
+{
+    expectRefused("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle with an area");
+    expectRefused("a.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "is 0 m long");
+    expectRefused("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\n", "no triangles");
+    expectRefused("a.obj", "v 0 0 0\nv 1e-27 0 0\nv 0 1e-27 0\nf 1 2 3\n", "is 1e-30 m long, must be from 1e-06 m");
+    expectRefused("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n", "is 1e+27 m long");
+    expectRefused("a.obj", "v 1e308 0 0\nv -1e308 0 0\nv 0 1e308 0\nf 1 2 3\n", "long");
+    expectRefused("a.obj", "v 1e308 0 0\nv -1.7e308 0 0\nv 0 1e308 0\nf 1 2 3\n", "cannot become 1 m", {.size = 1.0});
+    expectRefused("a.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "is 0 m long, which cannot become 1 m",
+                  {.size = 1.0});
+    expectRefused("a.obj", "v 1e12 0 0\nv 1.000000000001e12 0 0\nv 1e12 1 0\nf 1 2 3\n", "away from its origin");
+    expectRefused("a.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "\"nan\"");
+    expectRefused("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                  "property float z\nend_header\n0 0 0\n",
+                  "no triangles");
+    EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1e-27 0 0\nv 0 1e-27 0\nf 1 2 3\n", {.size = 1.0}).positions[1].x, 1.0);
+    try {
+        (void)readFlowObject("thing.xyz");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------------- glTF
+
+/// A triangle of 1 m: accessors 0 and, with uv, 1.
+Draft triangle()
+{
+    Draft draft;
+    draft.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    draft.addFloats({0, 0, 1, 0, 0, 0.25F}, "VEC2");
+    return draft;
+}
+
+std::string animationOf(const std::string& channels, const std::string& samplers)
+{
+    return R"("animations":[{"channels":[)" + channels + R"(],"samplers":[)" + samplers + "]}]";
+}
+
+std::string channelOf(int sampler, int node, const std::string& path)
+{
+    return R"({"sampler":)" + std::to_string(sampler) + R"(,"target":{"node":)" + std::to_string(node) +
+           R"(,"path":")" + path + "\"}}";
+}
+
+std::string samplerOf(std::size_t times, std::size_t values, const std::string& interpolation = "LINEAR")
+{
+    return R"({"input":)" + std::to_string(times) + R"(,"output":)" + std::to_string(values) + R"(,"interpolation":")" +
+           interpolation + "\"}";
+}
+
+const std::string kMesh = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"scenes":[{"nodes":[0]}],)";
+
+TEST_F(FlowObjectFile, GltfHasUvAndMaterialsOfItsPrimitives)
+{
+    const FlowObject object =
+        read("a.glb", triangle().file(R"("materials":[{"name":"glass"},{}],"meshes":[{"primitives":[)"
+                                      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":1},)"
+                                      R"({"attributes":{"POSITION":0},"material":0},{"attributes":{"POSITION":0}}]}],)"
+                                      R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}])"));
+    EXPECT_THAT(object.material_names, ElementsAre("glass", "", ""));
+    EXPECT_THAT(object.materials, ElementsAre(1, 0, 2));
+    EXPECT_EQ(object.uvs[2], (Vec2{0.0, 0.25}));
+    EXPECT_EQ(object.positions[2], (Vec3{0.0, 0.0, 1.0}));
+    EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without uv")));
+    EXPECT_TRUE(object.motion.rests());
+}
+
+TEST_F(FlowObjectFile, GltfAnimationOfTheNodeBecomesMotion)
+{
+    // The node stands at (2, 0, 0) and turns about its own y axis, z in the library, by a quarter each second. Its
+    // parent enlarges twofold and turns by half about x.
+    Draft draft = triangle();
+    const auto root = static_cast<float>(std::numbers::sqrt2 / 2.0);
+    const std::size_t times = draft.addFloats({0, 1, 2}, "SCALAR");
+    const std::size_t turns = draft.addFloats({0, 0, 0, 1, 0, root, 0, root, 0, 1, 0, 0}, "VEC4");
+    const FlowObject object = read(
+        "a.glb", draft.file(kMesh +
+                            R"("nodes":[{"children":[1],"scale":[2,2,2],"rotation":[1,0,0,0],"translation":[0,0,10]},)"
+                            R"({"mesh":0,"translation":[2,0,0]}],)" +
+                            animationOf(channelOf(0, 1, "rotation"), samplerOf(times, turns))));
+    EXPECT_THAT(object.warnings, IsEmpty());
+    EXPECT_FALSE(object.motion.rests());
+    // At rest the file's (2, 0, 0) is at (4, 0, 10), and (3, 0, 0) at (6, 0, 10).
+    expectNear(object.positions[1], {6.0, -10.0, 0.0});
+    expectNear(object.motion.pivot, {4.0, -10.0, 0.0});
+    for (const double time : {-1.0, 0.0, 0.5, 1.25, 2.0, 7.0}) {
+        const double angle = 0.5 * std::numbers::pi * std::clamp(time, 0.0, 2.0);
+        // About −y of the file, since the parent turns the axis over.
+        expectNear(worldOf(object.motion, time, object.positions[1]),
+                   {4.0 + 2.0 * std::cos(angle), -10.0 - 2.0 * std::sin(angle), 0.0});
+        expectNear(worldOf(object.motion, time, object.positions[0]), object.positions[0]);
+    }
+    // A scale moves keys and object alike.
+    const FlowObject small = readFlowObject(folder() / "a.glb", {.scale = 0.1});
+    expectNear(worldOf(small.motion, 1.25, small.positions[1]),
+               0.1 * worldOf(object.motion, 1.25, object.positions[1]));
+}
+
+TEST_F(FlowObjectFile, GltfStepsJumpAndCurvesAreSampled)
+{
+    Draft draft = triangle();
+    const std::size_t times = draft.addFloats({1, 2, 3}, "SCALAR");
+    const std::size_t places = draft.addFloats({0, 0, 0, 0, 5, 0, 0, 7, 0}, "VEC3");
+    const std::string nodes = R"("nodes":[{"mesh":0}],)";
+    const FlowObject step =
+        read("a.glb",
+             draft.file(kMesh + nodes + animationOf(channelOf(0, 0, "translation"), samplerOf(times, places, "STEP"))));
+    expectNear(step.motion.at(1.999).place, {});
+    expectNear(step.motion.at(2.0).place, {0.0, 0.0, 5.0});
+    expectNear(step.motion.at(2.999).place, {0.0, 0.0, 5.0});
+    expectNear(step.motion.at(3.0).place, {0.0, 0.0, 7.0});
+    // Tangents of 0: the curve is 3 t² − 2 t³.
+    const std::size_t two = draft.addFloats({0, 2}, "SCALAR");
+    const std::size_t curve = draft.addFloats({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3");
+    const FlowObject smooth = read(
+        "a.glb",
+        draft.file(kMesh + nodes + animationOf(channelOf(0, 0, "translation"), samplerOf(two, curve, "CUBICSPLINE"))));
+    for (const double time : {0.0, 0.3, 1.0, 1.5, 2.0}) {
+        const double t = 0.5 * time;
+        EXPECT_NEAR(smooth.motion.at(time).place.x, t * t * (3.0 - 2.0 * t), 3e-3) << time;
+    }
+    EXPECT_NEAR(smooth.motion.at(0.5).place.x, 0.15625, 1e-7);
+}
+
+TEST_F(FlowObjectFile, GltfMotionOfAPartIsIgnoredWithAWarning)
+{
+    Draft draft = triangle();
+    const std::size_t times = draft.addFloats({0, 1}, "SCALAR");
+    const std::size_t places = draft.addFloats({0, 0, 0, 0, 5, 0}, "VEC3");
+    const std::size_t bad_times = draft.addFloats({1, 1}, "SCALAR");
+    const std::size_t turns = draft.addFloats({0, 0, 0, 1, 0, 1, 0, 0}, "VEC4");
+    const std::string move = samplerOf(times, places);
+    const auto ignored = [&](const std::string& nodes, const std::string& channels, const std::string& samplers) {
+        return read("a.glb", draft.file(kMesh + R"("nodes":[)" + nodes + "]," + animationOf(channels, samplers)));
+    };
+    const std::string two = R"({"children":[1,2]},{"mesh":0},{"mesh":0})";
+    for (const FlowObject& object :
+         {ignored(two, channelOf(0, 1, "translation"), move), ignored(two, channelOf(0, 7, "translation"), move),
+          ignored(two, channelOf(0, 0, "scale"), move),
+          ignored(two, R"({"sampler":0,"target":{"path":"pointer"}})", move),
+          ignored(R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})", channelOf(0, 0, "translation"), move),
+          ignored(R"({"children":[1],"scale":[1,2,1]},{"mesh":0})", channelOf(0, 1, "rotation"),
+                  samplerOf(times, turns))}) {
+        EXPECT_TRUE(object.motion.rests());
+        EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("animation")));
+    }
+    // The parent moves all; the part in it is ignored.
+    const FlowObject whole = ignored(two, channelOf(0, 0, "translation") + "," + channelOf(0, 1, "translation"), move);
+    expectNear(whole.motion.at(0.5).place, {0.0, 0.0, 2.5});
+    EXPECT_THAT(whole.warnings, ElementsAre(HasSubstr("animation")));
+    const std::string one = R"("nodes":[{"mesh":0}],)";
+    expectRefused("a.glb",
+                  draft.file(kMesh + one + animationOf(channelOf(0, 0, "translation"), samplerOf(bad_times, places))),
+                  "do not ascend");
+    expectRefused("a.glb",
+                  draft.file(kMesh + one + animationOf(channelOf(0, 0, "translation"), samplerOf(times, turns))),
+                  "should hold VEC3");
+    expectRefused("a.glb", draft.file(kMesh + one + animationOf(channelOf(0, 0, "translation"), samplerOf(99, places))),
+                  "accessors[99]");
+}
+
+}  // namespace
+}  // namespace droplet
