@@ -83,8 +83,7 @@ void declare(CommandLine& line)
              "Spread of the volumes: standard deviation of their logarithm, 0 to 3 [0]");
     line.add(kSources, "--from", "X,Y,Z",
              "Direction that rain comes from; --drops then wet only what it can reach [for --rain 0,1,0]");
-    line.add(kSources, "--mask", "FILE",
-             "Picture over the object's texture coordinates: --drops start where it is light");
+    line.add(kSources, "--mask", "FILE", "Mask over the object's texture coordinates: --drops start on it");
     line.add(kSources, "--start", "FILE",
              "Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move, "
              "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s");
@@ -100,6 +99,13 @@ void declare(CommandLine& line)
     line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor");
     line.add(kMotion, "--roughness", "LENGTH",
              "Height of the surface's bumps; those of a droplet's height hold it [0mm]");
+    line.add(kMotion, "--roughness-map", "FILE",
+             "Picture over the object's texture coordinates: black is smooth, white has bumps of --roughness");
+    line.add(kMotion, "--friction-map", "FILE",
+             "Picture over the object's texture coordinates: black is without viscous friction, white has all of it");
+    line.addList(kMotion, "--ground", "NAME:VALUES",
+                 "Properties of a material of the object: roughness, and factors on friction and hysteresis, such as "
+                 "Glass:roughness=0.1mm,friction=2,hysteresis=0.5");
     line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]");
     line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
     line.add(kMotion, "--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
@@ -300,6 +306,32 @@ void readSources(const CommandLine& line, FlowOptions& options)
     }
 }
 
+/// Reads a material's properties, NAME:roughness=L,friction=F,hysteresis=F.
+void readMaterial(const Given& given, FlowOptions& options)
+{
+    constexpr const char* kAllowed = "a name and values such as Glass:roughness=0.1mm,friction=2,hysteresis=0.5";
+    const std::size_t colon = given.text.rfind(':');
+    if (colon == std::string::npos || colon == 0) {
+        refuse(given, kAllowed);
+    }
+    droplet::MaterialGround ground;
+    for (const Given& part : partsOf({given.text.substr(colon + 1), given.subject})) {
+        const std::size_t equals = part.text.find('=');
+        const std::string key = part.text.substr(0, equals);
+        const Given value{equals == std::string::npos ? "" : part.text.substr(equals + 1), given.subject};
+        if (key == "roughness") {
+            ground.roughness = plainOr(value, kBump);
+        } else if (key == "friction") {
+            ground.friction = number(value, {0.0, 1e6, "a factor from 0 to 1e6"});
+        } else if (key == "hysteresis") {
+            ground.hysteresis = number(value, {0.0, 1e6, "a factor from 0 to 1e6"});
+        } else {
+            refuse(given, kAllowed);
+        }
+    }
+    options.materials[given.text.substr(0, colon)] = ground;
+}
+
 void readMotion(const CommandLine& line, FlowOptions& options)
 {
     droplet::FlowParameters& parameters = options.parameters;
@@ -316,6 +348,14 @@ void readMotion(const CommandLine& line, FlowOptions& options)
     }
     if (const auto roughness = line.value("--roughness")) {
         parameters.roughness = plainOr(*roughness, kBump);
+    }
+    options.roughness_map = text(line, "--roughness-map");
+    options.friction_map = text(line, "--friction-map");
+    if (options.roughness_map && !line.value("--roughness")) {
+        refuse("--roughness-map needs --roughness, the height of the bumps where the picture is white");
+    }
+    for (const Given& material : line.values("--ground")) {
+        readMaterial(material, options);
     }
     if (const auto adhesion = line.value("--adhesion")) {
         parameters.adhesion = inUnit(*adhesion, "Pa", {0.0, 1e12, "a number from 0 to 1e12, in Pa"});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,6 +10,7 @@
 
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow_parameters.h"
+#include "droplet/flow_io/flow_ground.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/io/output.h"
 #include "droplet/surface/material.h"
@@ -47,6 +49,7 @@ struct FlowOptions {
     std::optional<std::string> start;
     std::optional<std::string> roughness_map;
     std::optional<std::string> friction_map;
+    std::map<std::string, droplet::MaterialGround> materials;
     droplet::BodyShape shape = droplet::BodyShape::Capillary;
     std::optional<droplet::Material> material;
     PreviewOptions view;  ///< camera and size of pictures

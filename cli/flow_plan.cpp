@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "droplet/flow/scatter.h"
+#include "droplet/flow_io/flow_ground.h"
 #include "droplet/flow_io/read_flow_start.h"
 #include "droplet/flow_io/read_object_motion.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/image/height_map.h"
 #include "option_values.h"
 
 namespace cli {
@@ -43,10 +47,35 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
         scatter.volumes = options.volumes;
         scatter.from = options.from;
         scatter.seed = plan.parameters.seed;
+        std::optional<droplet::Mask> mask;
+        if (options.mask) {
+            mask = droplet::readMask(*options.mask);
+            scatter.coverage =
+                forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.scene.surface()); });
+        }
         const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.scene, scatter); });
         starts.insert(starts.end(), scattered.begin(), scattered.end());
     }
     return starts;
+}
+
+droplet::FlowGround groundOf(const FlowOptions& options, const FlowPlan& plan)
+{
+    if (!options.roughness_map && !options.friction_map && options.materials.empty()) {
+        return {};
+    }
+    droplet::FlowGroundOptions ground;
+    ground.roughness = options.parameters.roughness;
+    ground.max_roughness = options.parameters.roughness;
+    if (options.roughness_map) {
+        ground.roughness_picture = droplet::readHeightMap(*options.roughness_map);
+    }
+    if (options.friction_map) {
+        ground.friction_picture = droplet::readHeightMap(*options.friction_map);
+    }
+    ground.materials = options.materials;
+    return forOption("--roughness-map, --friction-map, --ground",
+                     [&] { return droplet::flowGround(plan.object, plan.scene.surface(), ground); });
 }
 
 }  // namespace
@@ -64,6 +93,7 @@ FlowPlan planOf(const FlowOptions& options)
     } else if (options.motion) {
         plan.parameters.motion = droplet::readObjectMotion(*options.motion);
     }
+    plan.parameters.ground = groundOf(options, plan);
     plan.starts = startsOf(options, plan);
     const double duration = options.duration.value_or(kDefaultDuration);
     plan.frames =
