@@ -25,6 +25,7 @@ struct FlowPictureOptions {
 class FlowView {
 public:
     /// Makes a view.
+    /// @param object  that the droplets run over
     /// @param bodies  shapes of the droplets; must outlive the view
     FlowView(const FlowObject& object, const DropletBodies& bodies);
 
@@ -32,6 +33,7 @@ public:
     ///
     /// Guarantees: the same bytes for the same arguments, with any number of threads.
     /// @param samples  droplets in the object's frame
+    /// @param options  size, camera, look, gravity
     /// @throws Error   InvalidArgument if an option is out of its range
     [[nodiscard]] Picture draw(std::span<const FlowSample> samples, const FlowPictureOptions& options) const;
 
