@@ -35,7 +35,7 @@ constexpr auto kSolvedSteps = static_cast<double>(kSolvedRings);
 using SolvedRays = std::array<std::array<double, kSolvedRings>, kBodySlices>;  // from the middle, without the rim
 
 /// Bond numbers of the linear model; negative ones are fractions of the limit.
-constexpr std::array kHanging{-1.0, -0.7, -0.4, -0.15};
+constexpr std::array kHanging{-1.0, -0.8, -0.55, -0.3, -0.12};
 constexpr std::array kStanding{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
 
 constexpr std::size_t kLevel = kHanging.size();  // the entry without gravity
@@ -312,7 +312,7 @@ CapillaryBody::CapillaryBody(const ForceModel& model)
     wedge_speed_ = model.wetting.viscosity_factor > 0.0 ? model.liquid.surface_tension / model.wetting.viscosity_factor
                                                         : std::numeric_limits<double>::infinity();
     slope_share_ = 8.0 * capVolume(1.0, angle) / (std::numbers::pi * squared(std::sin(angle)));
-    const double hanging = 3.0 * squared(std::cos(0.5 * angle));  // a cap is then about 1.5 times as high
+    const double hanging = 6.0 * squared(std::cos(0.5 * angle));  // droplets are then nearly as large as can hang
     std::transform(kHanging.begin(), kHanging.end(), bonds_.begin(), [&](double share) { return share * hanging; });
     std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kLevel);
 
