@@ -18,7 +18,6 @@ namespace cli {
 namespace {
 
 using droplet::Dimension;
-using droplet::kDegree;
 using droplet::Vec3;
 
 constexpr Range kVolume{Dimension::Volume, 1e-13, 1e-3, "from 0.1nL to 1L"};
@@ -430,16 +429,16 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     if (const auto material = line.value("--material")) {
         options.material = forOption("--material", [&] { return droplet::materialNamed(material->text); });
     }
-    const auto requireExtension = [&](const char* option, const std::set<std::string>& allowed, const char* words) {
+    const auto ending_in = [&](const char* option, const std::set<std::string>& allowed, const char* words) {
         const auto given = line.value(option);
         if (given && !allowed.contains(std::filesystem::path(given->text).extension().string())) {
             refuse(*given, words);
         }
         return text(line, option);
     };
-    options.streaks = requireExtension("--streaks", {".glb", ".gltf", ".obj", ".ply", ".stl"},
-                                       "a file that ends in .glb, .gltf, .obj, .ply or .stl");
-    options.droplets = requireExtension("--droplets", {".csv", ".json"}, "a file that ends in .csv or .json");
+    options.streaks = ending_in("--streaks", {".glb", ".gltf", ".obj", ".ply", ".stl"},
+                                "a file that ends in .glb, .gltf, .obj, .ply or .stl");
+    options.droplets = ending_in("--droplets", {".csv", ".json"}, "a file that ends in .csv or .json");
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");
     if (options.resume && !options.files) {

@@ -254,7 +254,7 @@ void FlowRun::run()
 
 void FlowRun::advance(double until)
 {
-    const auto moveTo = [&](double time) {
+    const auto move_to = [&](double time) {
         state_ = droplet::advanceFlow(std::move(state_), plan_.scene, plan_.parameters, time);
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.scene.surface());
@@ -262,12 +262,12 @@ void FlowRun::advance(double until)
     };
     double second = std::floor(state_.time) + 1.0;
     while (second <= until) {
-        moveTo(second);
+        move_to(second);
         report_.balance.push_back(flowBalanceRow(state_));
         second += 1.0;
     }
     if (until > state_.time) {
-        moveTo(until);
+        move_to(until);
     }
 }
 

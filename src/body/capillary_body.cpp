@@ -35,7 +35,7 @@ constexpr auto kSolvedSteps = static_cast<double>(kSolvedRings);
 using SolvedRays = std::array<std::array<double, kSolvedRings>, kBodySlices>;  // from the middle, without the rim
 
 /// Bond numbers of the linear model; negative ones are fractions of the limit.
-constexpr std::array kHanging{-1.0, -0.7, -0.4, -0.15};
+constexpr std::array kHanging{-1.0, -0.8, -0.55, -0.3, -0.12};
 constexpr std::array kStanding{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
 
 constexpr std::size_t kLevel = kHanging.size();  // the entry without gravity
@@ -156,7 +156,7 @@ Solved solveAll(const PlanarMesh& mesh, double bond)
     solver->prepare(op);
     Solved result;
     result.level = perPressure(*solver);
-    const auto perSlope = [&](Vec2 direction) {
+    const auto per_slope = [&](Vec2 direction) {
         const ConstrainedSolution tilted = solver->solve({.right = pullAlong(mesh, direction)});
         SolvedRays rays = raysOf(tilted.values, 1.0);
         for (std::size_t j = 0; j < kBodySlices; ++j) {
@@ -166,8 +166,8 @@ Solved solveAll(const PlanarMesh& mesh, double bond)
         }
         return rays;
     };
-    result.along = perSlope({1.0, 0.0});
-    result.aside = perSlope({0.0, 1.0});
+    result.along = per_slope({1.0, 0.0});
+    result.aside = per_slope({0.0, 1.0});
     return result;
 }
 
@@ -246,21 +246,21 @@ std::array<double, kBodyRings> evenRadii(std::array<double, kSolvedRings> q, dou
         value /= at_rim;
     }
     constexpr std::size_t kSamples = 200;
-    const auto placeOf = [&](double radius) {
+    const auto place_of = [&](double radius) {
         const double w = (1.0 - radius * radius) * valueAt(q, radius);
         const double inverse = 1.0 / (1.0 + tangent * tangent * (1.0 - w));
         return Vec2{radius * (1.0 + tangent * tangent) * inverse, tangent * w * inverse};
     };
     // Samples are even on a cap, too.
-    const auto radiusOf = [&](std::size_t sample) {
+    const auto radius_of = [&](std::size_t sample) {
         return std::tan(std::atan(tangent) * static_cast<double>(sample) / kSamples) / tangent;
     };
     std::array<double, kSamples + 1> arcs{};
     std::array<double, kSamples + 1> turns{};
-    Vec2 last = placeOf(0.0);
+    Vec2 last = place_of(0.0);
     double last_slope = 0.0;
     for (std::size_t i = 1; i <= kSamples; ++i) {
-        const Vec2 next = placeOf(radiusOf(i));
+        const Vec2 next = place_of(radius_of(i));
         const double slope = std::atan2(last.y - next.y, next.x - last.x);
         arcs[i] = arcs[i - 1] + length(next - last);
         turns[i] = turns[i - 1] + std::abs(slope - last_slope);
@@ -274,7 +274,7 @@ std::array<double, kBodyRings> evenRadii(std::array<double, kSolvedRings> q, dou
     std::array<double, kBodyRings> radii{1.0};
     for (std::size_t k = 1; k < kBodyRings; ++k) {
         const auto [i, share] = locate(way, 1.0 - static_cast<double>(k) / static_cast<double>(kBodyRings));
-        radii[k] = radiusOf(i) + share * (radiusOf(i + 1) - radiusOf(i));
+        radii[k] = radius_of(i) + share * (radius_of(i + 1) - radius_of(i));
     }
     return radii;
 }
@@ -312,7 +312,7 @@ CapillaryBody::CapillaryBody(const ForceModel& model)
     wedge_speed_ = model.wetting.viscosity_factor > 0.0 ? model.liquid.surface_tension / model.wetting.viscosity_factor
                                                         : std::numeric_limits<double>::infinity();
     slope_share_ = 8.0 * capVolume(1.0, angle) / (std::numbers::pi * squared(std::sin(angle)));
-    const double hanging = 3.0 * squared(std::cos(0.5 * angle));  // a cap is then about 1.5 times as high
+    const double hanging = 6.0 * squared(std::cos(0.5 * angle));  // droplets are then nearly as large as can hang
     std::transform(kHanging.begin(), kHanging.end(), bonds_.begin(), [&](double share) { return share * hanging; });
     std::copy(kStanding.begin(), kStanding.end(), bonds_.begin() + kLevel);
 
@@ -371,19 +371,19 @@ void CapillaryBody::calibrate(double angle)
     for (const bool hangs : {false, true}) {
         const std::vector<AxialDroplet> droplets = axialDroplets(angle, hangs);
         const double sign = hangs ? -1.0 : 1.0;
-        const auto slimnessOf = [&](const AxialDroplet& one) { return one.height / std::cbrt(one.volume) / true_cap; };
-        const auto bondOf = [&](const AxialDroplet& one) {
+        const auto slimness_of = [&](const AxialDroplet& one) { return one.height / std::cbrt(one.volume) / true_cap; };
+        const auto bond_of = [&](const AxialDroplet& one) {
             return sign * std::pow(one.volume / cap_volume, 2.0 / 3.0);
         };
         for (std::size_t b = hangs ? 0 : kLevel + 1; b < (hangs ? kLevel : kBonds); ++b) {
             const double wanted = slimness(b) / cap;
             std::size_t k = 0;
-            while (k + 2 < droplets.size() && (slimnessOf(droplets[k + 1]) - wanted) * sign > 0.0) {
+            while (k + 2 < droplets.size() && (slimness_of(droplets[k + 1]) - wanted) * sign > 0.0) {
                 ++k;
             }
-            const double first = slimnessOf(droplets[k]);
-            const double share = (wanted - first) / (slimnessOf(droplets[k + 1]) - first);
-            bonds[b] = bondOf(droplets[k]) + share * (bondOf(droplets[k + 1]) - bondOf(droplets[k]));
+            const double first = slimness_of(droplets[k]);
+            const double share = (wanted - first) / (slimness_of(droplets[k + 1]) - first);
+            bonds[b] = bond_of(droplets[k]) + share * (bond_of(droplets[k + 1]) - bond_of(droplets[k]));
         }
     }
     for (Row& row : rows_) {
@@ -400,7 +400,7 @@ void CapillaryBody::scale(Row& row) const
         row.height = std::max(row.height, p.y);
     }
     // Without gravity, w is 1 at its largest; with gravity, the mean slope at the rim is the same.
-    const auto meanSlope = [&](const Field& q) {
+    const auto mean_slope = [&](const Field& q) {
         double sum = 0.0;
         double total = 0.0;
         for (std::size_t j = 0; j < kBodySlices; ++j) {
@@ -415,10 +415,10 @@ void CapillaryBody::scale(Row& row) const
     for (std::size_t v = 0; v < kBodyVertices; ++v) {
         most = std::max(most, paraboloid(radii_[kLevel], v) * level[v]);
     }
-    const double slope = meanSlope(level) / most;
+    const double slope = mean_slope(level) / most;
     for (std::size_t b = 0; b < kBonds; ++b) {
         Entry& entry = row.entries[b];
-        const double factor = slope / meanSlope(entry.level);
+        const double factor = slope / mean_slope(entry.level);
         for (double& q : entry.level) {
             q *= factor;
         }

@@ -27,7 +27,7 @@ public:
 
 private:
     static constexpr std::size_t kElongations = 7;
-    static constexpr std::size_t kBonds = 14;
+    static constexpr std::size_t kBonds = 15;
     using Field = std::array<double, kBodyVertices>;
 
     /// Solved droplet, in units of the radius of a disc with the footprint's area. Its heights w are (1 − ρ²) q.

@@ -550,14 +550,14 @@ private:
     void leave()
     {
         const double away = kAway * scene_.diameter();
-        const auto isAway = [&](Vec3 p) {
+        const auto is_away = [&](Vec3 p) {
             return p.x < c_.low.x - away || p.x > c_.high.x + away || p.y < c_.low.y - away || p.y > c_.high.y + away ||
                    p.z < c_.low.z - away || p.z > c_.high.z + away;
         };
         std::size_t kept = 0;
         for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
             const FlowDroplet& d = s_.droplets[i];
-            if (d.volume > 0.0 && d.contact == FlowContact::Air && isAway(d.leg.placeAt(end()))) {
+            if (d.volume > 0.0 && d.contact == FlowContact::Air && is_away(d.leg.placeAt(end()))) {
                 s_.left.add(d.volume);
                 ++s_.counts.left;
             } else if (d.volume > 0.0) {

@@ -178,6 +178,7 @@ Surface StreakRibbons::surface(double time) const
             }
             const double whole = knots.back().along;
             std::vector<double> stations;
+            stations.reserve(knots.size() + 2 * std::size(kRoundEnd));
             for (const Station& knot : knots) {
                 stations.push_back(knot.along);
             }

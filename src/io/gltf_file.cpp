@@ -200,9 +200,9 @@ void checkValues(Json& root)
 /// Member of an object in a list, or of an object; null if there is none.
 const Json& memberOf(const Json& parent, const char* key)
 {
-    static const Json kNone;
+    static const Json none;
     const auto found = parent.find(key);  // end() of anything but an object
-    return found == parent.end() ? kNone : *found;
+    return found == parent.end() ? none : *found;
 }
 
 std::string textOf(const Json& value, const char* otherwise)

@@ -33,6 +33,7 @@ struct BodyConditions {
 class DropletBodies {
 public:
     /// Prepares a model: the capillary one solves its table here.
+    /// @param shape  model of the shape
     /// @param model  liquid and contact angle
     /// @throws Error InvalidArgument
     explicit DropletBodies(BodyShape shape, const ForceModel& model = {});
@@ -48,8 +49,9 @@ public:
     /// Triangles of the liquid's surface, wound outward; the base is open.
     [[nodiscard]] const std::vector<Triangle>& triangles() const;
     /// Makes one droplet.
-    /// @param positions  receives all vertices [m]; the volume over z = 0 is `volume` to 1e-9
-    /// @param normals    receives one per vertex, unit, outward
+    /// @param conditions  what shapes it
+    /// @param positions   receives all vertices [m]; the volume over z = 0 is `volume` to 1e-9
+    /// @param normals     receives one per vertex, unit, outward
     void make(const BodyConditions& conditions, std::span<Vec3> positions, std::span<Vec3> normals) const;
 
 private:

@@ -99,8 +99,10 @@ struct FlowState {
 
 /// Droplets at time 0.
 ///
-/// @param starts  droplets that are there from the beginning
-/// @throws Error  InvalidArgument if a parameter is out of its range, or a droplet is larger than the object
+/// @param scene       surface
+/// @param parameters  of the simulation
+/// @param starts      droplets that are there from the beginning
+/// @throws Error      InvalidArgument if a parameter is out of its range, or a droplet is larger than the object
 FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, const std::vector<FlowStart>& starts);
 
 /// Advances the state to a time.
@@ -111,15 +113,17 @@ FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, co
 /// Guarantees: calls for any series of times that ends at `until` give the same bytes (but for `tracks`), with any
 /// number of threads; liquid is conserved (balanceOf); droplets are in the order of their ids.
 /// @param state       made with the same scene and parameters
+/// @param scene       surface
+/// @param parameters  of the simulation
 /// @param until       [s], ≥ state.time
 /// @throws Error      InvalidArgument
 FlowState advanceFlow(FlowState state, const FlowScene& scene, const FlowParameters& parameters, double until);
 
 /// A droplet at one time.
 struct FlowSample {
-    std::uint64_t id = 0;  ///< of the droplet
-    FlowContact contact = FlowContact::Air;
-    std::optional<std::uint32_t> face;  ///< number in FlowSurface::faces; empty in the air
+    std::uint64_t id = 0;                    ///< of the droplet
+    FlowContact contact = FlowContact::Air;  ///< what it touches
+    std::optional<std::uint32_t> face;       ///< number in FlowSurface::faces; empty in the air
     Vec3 place;           ///< its point on the surface, or its centre in the air, in the object's frame [m]
     Vec3 velocity;        ///< in the object's frame [m/s]
     Vec3 normal;          ///< of the surface, unit; in the air, of the face that it left
@@ -127,6 +131,8 @@ struct FlowSample {
 };
 
 /// All droplets at the state's time, in the order of their ids.
+/// @param state       as advanceFlow() left it
+/// @param scene       surface
 /// @param parameters  of the simulation
 std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters);
 

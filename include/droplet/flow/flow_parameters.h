@@ -71,25 +71,25 @@ struct FlowGround {
 
 /// Parameters of droplets that run over a surface.
 struct FlowParameters {
-    FlowModel model = FlowModel::Capillary;
+    FlowModel model = FlowModel::Capillary;        ///< what holds droplets
     ForceModel forces;                             ///< liquid, air, wetting; its gravity is not used
     Vec3 gravity = {0.0, 0.0, -kStandardGravity};  ///< in the world [m/s²]
     Vec3 wind;                                     ///< in the world; pushes droplets along the surface [m/s]
     ObjectMotion motion;                           ///< of the object in the world; by default it rests
     std::optional<double> friction;                ///< |k_f| [kg/s], ≥ 0; empty: viscous drag of the force model
-    std::optional<double> adhesion;  ///< D [Pa], ≥ 0; empty: what surface tension holds, 2 σ sin θ / r
-    double roughness = 0.0;          ///< height of the bumps where `ground` has none [m], ≥ 0
-    FlowGround ground;               ///< of single faces
-    bool merges = true;              ///< droplets that touch become one
-    Streaks streaks;                 ///< film behind droplets, which breaks up into beads
-    bool wets = true;                ///< streaks smooth the surface: droplets run more easily where others ran
-    std::optional<double> drying;    ///< time after which a streak and its beads are dry [s], > 0; empty: never
-    std::vector<FlowEmitter> emitters;
-    std::optional<FlowRain> rain;
-    std::optional<FlowCondensation> condensation;
-    double small_volume = 1e-13;  ///< droplets from drying and beads of less vanish [m³], > 0
-    double step = 1.0 / 120.0;    ///< droplets merge, arrive and dry at multiples of this time [s], > 0
-    std::uint64_t seed = 1;
+    std::optional<double> adhesion;     ///< D [Pa], ≥ 0; empty: what surface tension holds, 2 σ sin θ / r
+    double roughness = 0.0;             ///< height of the bumps where `ground` has none [m], ≥ 0
+    FlowGround ground;                  ///< of single faces
+    bool merges = true;                 ///< droplets that touch become one
+    Streaks streaks;                    ///< film behind droplets, which breaks up into beads
+    bool wets = true;                   ///< streaks smooth the surface: droplets run more easily where others ran
+    std::optional<double> drying;       ///< time after which a streak and its beads are dry [s], > 0; empty: never
+    std::vector<FlowEmitter> emitters;  ///< sources at places
+    std::optional<FlowRain> rain;       ///< rain on the whole object
+    std::optional<FlowCondensation> condensation;  ///< dew
+    double small_volume = 1e-13;                   ///< droplets from drying and beads of less vanish [m³], > 0
+    double step = 1.0 / 120.0;  ///< droplets merge, arrive and dry at multiples of this time [s], > 0
+    std::uint64_t seed = 1;     ///< of all random numbers
 
     /// Checks all fields.
     /// @param faces   of the surface

@@ -43,6 +43,7 @@ public:
     /// Nearest point of the surface.
     [[nodiscard]] Point nearest(Vec3 place) const;
     /// First point that a ray meets, from either side.
+    /// @param origin     begin of the ray [m]
     /// @param direction  not 0
     [[nodiscard]] std::optional<Point> firstAlong(Vec3 origin, Vec3 direction) const;
     /// Whether a place is inside a closed part of the surface.

@@ -31,7 +31,7 @@ struct ObjectMotion {
     /// Pose at a time.
     struct Key {
         double time = 0.0;  ///< [s]
-        ObjectPose pose;
+        ObjectPose pose;    ///< at that time
     };
 
     Vec3 spin;              ///< angular velocity in the world [rad/s]
@@ -44,6 +44,7 @@ struct ObjectMotion {
     [[nodiscard]] ObjectPose at(double time) const;
     /// Acceleration that a body at rest in the object's frame feels besides gravity, in that frame: the centrifugal
     /// one. Those of Euler and of the pivot are 0, since both velocities are constant [m/s²].
+    /// @param time      [s]
     /// @param place     in the object's frame [m]
     /// @param velocity  in the object's frame [m/s]; adds Coriolis' acceleration
     [[nodiscard]] Vec3 apparentAcceleration(double time, Vec3 place, Vec3 velocity) const;

@@ -21,6 +21,7 @@ struct DropletFrame {
 
 /// Frame of a droplet: ahead is its velocity along the surface, at rest the part of gravity along it, on level ground
 /// any fixed direction.
+/// @param sample   the droplet
 /// @param gravity  in the object's frame [m/s²]
 DropletFrame frameOf(const FlowSample& sample, Vec3 gravity);
 
@@ -29,6 +30,8 @@ BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
 
 /// Surfaces of all droplets in the object's frame, one after another, each with the vertices and triangles of `bodies`.
 /// They are open at the ground. uvs and contact angles are 0.
+/// @param samples  the droplets
+/// @param bodies   their shapes
 /// @param gravity  in the object's frame [m/s²]
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity);
 

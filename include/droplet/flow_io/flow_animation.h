@@ -41,7 +41,9 @@ struct FlowAnimationOptions {
 class FlowAnimation {
 public:
     /// Makes an animation without frames.
-    /// @param bodies  shapes of the droplets; must outlive the animation
+    /// @param object   that the droplets run over
+    /// @param bodies   shapes of the droplets; must outlive the animation
+    /// @param options  frame rate, look, gravity
     /// @throws Error  InvalidArgument if an option is out of its range
     FlowAnimation(FlowObject object, const DropletBodies& bodies, const FlowAnimationOptions& options = {});
     ~FlowAnimation();

@@ -38,12 +38,16 @@ struct FlowGroundOptions {
 ///
 /// A face has the mean of a picture over its triangle in uv. Properties that no option sets stay empty.
 /// @param object   the surface's mesh
+/// @param surface  its faces
+/// @param options  pictures and materials
 /// @throws Error   InvalidArgument: a picture, but no uv; a material that the object does not have, with the names of
 ///                 those that it has; a value out of its range
 FlowGround flowGround(const FlowObject& object, const FlowSurface& surface, const FlowGroundOptions& options);
 
 /// Mean of a picture over the triangle of every face in uv, with levels limited to 0 … 1.
+/// @param picture  over the object's uv
 /// @param object   the surface's mesh
+/// @param surface  its faces
 /// @throws Error   InvalidArgument if the object has no uv
 std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& object, const FlowSurface& surface);
 
@@ -51,6 +55,7 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
 /// and repeats beyond its unit square.
 /// @param mask     valid; like the others, it must outlive the result
 /// @param object   the surface's mesh
+/// @param surface  its faces
 /// @throws Error   InvalidArgument if the object has no uv
 std::function<double(const FlowScene::Point&)> coverageOver(const Mask& mask, const FlowObject& object,
                                                             const FlowSurface& surface);

@@ -33,6 +33,7 @@ public:
     FlowTable& operator=(FlowTable&&) noexcept;  ///< Moves the table.
 
     /// Writes the rows of one frame.
+    /// @param frame    number of the frame
     /// @param time     [s]
     /// @param samples  of that time
     /// @param surface  that the samples' faces belong to
