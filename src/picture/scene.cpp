@@ -107,11 +107,14 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
     };
-    enclose(surface.positions);
+    // Droplets that fall away from an object must not change its picture.
+    if (!options.stand_water) {
+        enclose(surface.positions);
+    }
     if (options.framed) {
         enclose({options.framed->low, options.framed->high});
     }
-    if (stand != nullptr && surface.positions.empty() && !options.framed) {
+    if (options.stand_water && !options.framed) {
         enclose(stand->positions);
     }
     const Vec3 liquid_low = low;
