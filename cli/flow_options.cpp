@@ -126,7 +126,8 @@ void declare(CommandLine& line)
     declareView(line);
     line.add("Picture", "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
     line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
-    line.add(kOut, "--streaks", "FILE", "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl");
+    line.add(kOut, "--streaks", "FILE",
+             "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too");
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
     constexpr const char* kRun = "Run";

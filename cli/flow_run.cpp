@@ -248,6 +248,9 @@ void FlowRun::run()
     report_.time = state_.time;
     if (options_.streaks) {
         streaks_ = ribbons_.surface(state_.time);
+        if (animation_) {
+            animation_->setStreaks(streaks_);
+        }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
 }
@@ -304,7 +307,8 @@ void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t 
 
 void FlowRun::writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const
 {
-    droplet::Surface surface = droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time));
+    droplet::Surface surface =
+        droplet::withBases(droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)), bodies_);
     SurfaceTarget target{options_.files->at(number), formatOf(options_.output), {}};
     target.options.material = material_;
     turnToFile(surface, target.format, options_.reading);

@@ -289,8 +289,9 @@ private:
             launch(place, velocity);
             return;
         }
-        // Inelastic at concave edges; at convex ones the speed stays.
-        const bool enters = rise > 0.0 && push_next < 0.0 && push_back <= 0.0
+        // Inelastic at concave edges; at convex ones the speed stays. Where both faces press against the edge, at a
+        // concave one or below an object, the hops become smaller without end.
+        const bool enters = push_next < 0.0 && push_back <= 0.0
                                 ? onward * onward > 2.0 * kLowestHop * f_.contact_width * -push_next
                                 : onward > 0.0 || push_next >= 0.0 || push_back < 0.0;
         if (enters) {
@@ -476,8 +477,9 @@ private:
             return false;
         }
         const std::size_t beyond = sideTo(faces_[to], from);
-        return dot(face.normal, faces_[to].inward[beyond]) > 0.0 && dot(pushOn(from), face.inward[side]) <= 0.0 &&
-               dot(pushOn(to), faces_[to].inward[beyond]) <= 0.0;
+        const double push_from = dot(pushOn(from), face.inward[side]);
+        const double push_to = dot(pushOn(to), faces_[to].inward[beyond]);
+        return push_from <= 0.0 && push_to <= 0.0 && push_from + push_to < 0.0;
     }
 
     void launch(Vec3 place, Vec3 velocity)
