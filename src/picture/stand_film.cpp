@@ -2,7 +2,6 @@
 #include "picture/stand_film.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

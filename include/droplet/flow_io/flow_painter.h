@@ -48,8 +48,10 @@ std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& 
 class FlowPainter {
 public:
     /// Prepares a dry object.
-    /// @param scene   of this object's triangles; must outlive the painter
-    /// @throws Error  InvalidArgument if an option is out of its range, or the object has no uvs for a texture
+    /// @param object   with uvs if it has a texture
+    /// @param scene    of this object's triangles; must outlive the painter
+    /// @param options  camera, light, film
+    /// @throws Error   InvalidArgument if an option is out of its range, or the object has no uvs for a texture
     FlowPainter(const FlowObject& object, const FlowScene& scene, const FlowPainterOptions& options = {});
     ~FlowPainter();
     FlowPainter(FlowPainter&&) noexcept;             ///< Moves the state.
@@ -61,6 +63,7 @@ public:
 
     /// Renders a picture, and wets the places below the droplets. Droplets are bent to follow the object. Those in the
     /// air, farther from the object than its size, are left out.
+    /// @param moment    time, pose and view
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples, in the object's frame
     Picture picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets);

@@ -56,9 +56,10 @@ struct WetFloatMaps {
 class WetMapper {
 public:
     /// Prepares the texels of a dry object.
-    /// @param object  with uvs; outside the unit square they repeat
-    /// @param scene   of this object's triangles; must outlive the maps
-    /// @throws Error  InvalidArgument if the object has no uvs or an option is out of its range; InvalidInput if its
+    /// @param object   with uvs; outside the unit square they repeat
+    /// @param scene    of this object's triangles; must outlive the maps
+    /// @param options  size and scales
+    /// @throws Error   InvalidArgument if the object has no uvs or an option is out of its range; InvalidInput if its
     /// uvs
     ///                have no area
     WetMapper(const FlowObject& object, const FlowScene& scene, const WetMapOptions& options = {});

@@ -24,7 +24,7 @@ struct DropletBase {
 /// The film is given on a grid over every triangle with corners A, B and C: for i and j ≥ 0 with i + j ≤ n, at
 /// A + i/n (B − A) + j/n (C − A), in the order of j, then i.
 struct StandWater {
-    std::vector<DropletBase> bases;
+    std::vector<DropletBase> bases;        ///< of the droplets
     std::vector<std::uint16_t> divisions;  ///< n of every triangle of the stand; 0: dry. Or empty: all are dry
     std::vector<std::uint32_t> first;      ///< index in `wetness` of every triangle's first value
     std::vector<float> wetness;            ///< of the film: 0 dry … 1 wet
