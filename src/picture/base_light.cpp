@@ -212,11 +212,11 @@ Vec3f BaseLight::at(Vec3f place, Vec3f normal, Vec3f open) const
         const Spot& spot = spots_[k];
         const Vec3f offset = place - spot.place;
         const Vec2 local{static_cast<double>(dot(offset, spot.ahead)), static_cast<double>(dot(offset, spot.left))};
-        const auto away = static_cast<float>(std::max(std::abs(local.x), std::abs(local.y)));
+        const auto away = static_cast<float>(length(local));
         if (away > margin_ || std::abs(dot(offset, spot.normal)) > spot.size || dot(normal, spot.normal) < 0.0F) {
             continue;
         }
-        const float share = 1.0F - smoothstep(0.8F * margin_, margin_, away);
+        const float share = 1.0F - smoothstep(0.7F * margin_, margin_, away);
         change = change + share * (soft_.at(toFloats({local.x, local.y, 0.0})) - grey(1.0F)) * soft;
         for (const Lamp& lamp : lamps_) {
             const float cosine = dot(normal, lamp.toward);

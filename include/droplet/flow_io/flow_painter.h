@@ -37,6 +37,8 @@ struct FlowMoment {
 };
 
 /// Box in the world around an object in all poses of a motion from time 0 on; empty if it rests.
+/// @param object    at its place
+/// @param motion    of it
 /// @param duration  [s], ≥ 0
 std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& motion, double duration);
 
