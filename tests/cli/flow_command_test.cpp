@@ -145,8 +145,8 @@ TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
     for (const char* folder : {"a", "b"}) {
         std::filesystem::create_directory(path(folder));
     }
-    const std::vector<std::string> options{"--drops", "40",    "--rain", "100mm/h", "--film",
-                                           "5um",     "--fps", "10",     "--time"};
+    const std::vector<std::string> options{"--drops", "20",  "--size", "20cm", "--rain", "50mm/h",
+                                           "--film",  "5um", "--fps",  "10",   "--time"};
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> all = options;
         all.insert(all.end(), more.begin(), more.end());
