@@ -34,23 +34,22 @@ constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such a
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape flow", "let droplets run over a mesh", "[OPTIONS] OBJECT OUTPUT",
-        "Quantities carry a unit:\n"
-        "  lengths nm um mm cm m in; volumes nL uL mL L mm3 cm3 m3; rainfall mm/h in/h;\n"
-        "  durations ms s min h; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
-        "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
-        "Vectors x,y,z are in the frame of the object's file, +Y up, in metres or metres\n"
-        "per second unless they carry a unit.\n"
-        "\n"
-        "Examples:\n"
-        "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
-        "  droplet-shape flow car.stl 'rain-%04d.obj' --size 4.5m --rain 25mm/h --wind 0,0,-20m/s\n"
-        "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets paths.csv --json report.json\n"
-        "\n"
-        "Exit codes:\n"
-        "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for droplets;\n"
-        "  4 output cannot be written"};
+    static const CommandText text{"droplet-shape flow", "let droplets run over a mesh", "[OPTIONS] OBJECT OUTPUT",
+                                  "Quantities carry a unit:\n"
+                                  "  lengths nm um mm cm m in; volumes nL uL mL L mm3 cm3 m3; rainfall mm/h in/h;\n"
+                                  "  durations ms s min h; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
+                                  "  density kg/m3 g/cm3 g/mL; acceleration m/s2 mm/s2 g; viscosity mPa.s Pa.s\n"
+                                  "Vectors x,y,z are in the frame of the object's file, +Y up, in metres or metres\n"
+                                  "per second unless they carry a unit.\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
+                                  "  droplet-shape flow car.stl 'rain-%04d.obj' --size 4.5m --rain 25mm/h\n"
+                                  "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets out.csv\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable;\n"
+                                  "  4 output cannot be written"};
     return text;
 }
 
