@@ -116,7 +116,7 @@ FlowRun::FlowRun(const FlowOptions& options)
     } else if (options_.kind != FlowOutput::Meshes) {
         view_.emplace(plan_.object, bodies_);
     }
-    report_.input = *options_.object;
+    report_.input = nameOfObject(options_);
     report_.surface = plan_.scene.surface().report;
     droplet::Vec3 low = plan_.object.positions.front();
     droplet::Vec3 high = low;
