@@ -33,6 +33,12 @@ std::vector<NamedPath> outputsOf(const FlowOptions& options)
 
 }  // namespace
 
+std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map)
+{
+    std::string path = maps.at(number);
+    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
+}
+
 std::string flowCheckpointPath(const FlowOptions& options)
 {
     return std::filesystem::path(options.files->with("checkpoint")).replace_extension(".state").string();
@@ -53,6 +59,11 @@ void checkFlowFiles(const FlowOptions& options)
     for (const auto& [name, path] : outputsOf(options)) {
         if (*path) {
             outputs.push_back({name, **path});
+        }
+    }
+    for (const char* map : kFlowMaps) {
+        if (options.maps) {
+            outputs.push_back({"--maps", flowMapPath(*options.maps, 1, map)});
         }
     }
     checkFiles(inputs, outputs, options.output_options);

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
 #include "flow_options.h"
 
 namespace cli {
+
+/// Names of the maps of a frame.
+inline constexpr std::array kFlowMaps{"normal", "thickness", "age"};
+
+/// Path of a frame's map: its name before the extension.
+std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map);
 
 /// Path of the state of an interrupted run, beside its frames.
 std::string flowCheckpointPath(const FlowOptions& options);

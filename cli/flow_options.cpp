@@ -139,6 +139,10 @@ void declare(CommandLine& line)
     line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
     line.add(kOut, "--streaks", "FILE",
              "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too");
+    line.add(kOut, "--maps", "PATH",
+             "Textures of the water in the object's uv, such as maps/%05d.png or .exr: three files per frame, -normal, "
+             "-thickness and -age");
+    line.add(kOut, "--map-width", "N", "Width and height of the textures in pixels [1024]");
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
     constexpr const char* kRun = "Run";
@@ -491,6 +495,23 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     };
     options.streaks = ending_in("--streaks", {".glb", ".gltf", ".obj", ".ply", ".stl"},
                                 "a file that ends in .glb, .gltf, .obj, .ply or .stl");
+    if (const auto maps = line.value("--maps")) {
+        options.maps = NumberedPath::of(maps->text, "--maps");
+        const std::string ending = std::filesystem::path(maps->text).extension().string();
+        if (!options.maps || (ending != ".png" && ending != ".exr")) {
+            refuse(*maps, "a path such as maps/%05d.png or .exr");
+        }
+        options.are_maps_exr = ending == ".exr";
+    }
+    if (const auto width = line.value("--map-width")) {
+        if (!options.maps) {
+            refuse("--map-width needs --maps");
+        }
+        options.map_width = static_cast<int>(count(*width, 8192, "8192"));
+        if (options.map_width < 16) {
+            refuse(*width, "a whole number from 16 to 8192");
+        }
+    }
     options.droplets = ending_in("--droplets", {".csv", ".json"}, "a file that ends in .csv or .json");
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");

@@ -56,6 +56,9 @@ struct FlowOptions {
     PreviewOptions view;  ///< camera and size of pictures
     std::optional<std::string> codec;
     double quality = kVideoQuality;
+    std::optional<NumberedPath> maps;
+    bool are_maps_exr = false;  ///< otherwise PNG
+    int map_width = 1024;
     std::optional<std::string> streaks;
     std::optional<std::string> droplets;
     std::optional<std::string> json;

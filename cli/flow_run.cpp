@@ -2,6 +2,7 @@
 #include "flow_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -15,9 +16,10 @@
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/flow_io/flow_animation.h"
-#include "droplet/flow_io/flow_picture.h"
+#include "droplet/flow_io/flow_painter.h"
 #include "droplet/flow_io/flow_table.h"
 #include "droplet/flow_io/streak_ribbons.h"
+#include "droplet/flow_io/wet_maps.h"
 #include "droplet_report.h"
 #include "files.h"
 #include "flow_files.h"
@@ -50,6 +52,7 @@ private:
     void beginVideo();
     /// Draws a frame, and writes it unless it is the picture of the last one.
     void draw(const std::vector<droplet::FlowSample>& samples, std::size_t number);
+    void writeMaps(const std::vector<droplet::FlowSample>& samples, std::size_t number);
     /// Writes the droplets of a frame.
     void writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const;
     [[nodiscard]] droplet::Vec3 gravityAt(double time) const;
@@ -61,7 +64,8 @@ private:
     droplet::DropletBodies bodies_;
     droplet::Material material_;
     std::optional<droplet::FlowAnimation> animation_;
-    std::optional<droplet::FlowView> view_;
+    std::optional<droplet::FlowPainter> painter_;
+    std::optional<droplet::WetMapper> mapper_;
     std::unique_ptr<VideoWriter> video_;
     droplet::Picture picture_;  ///< of the last frame
     std::optional<droplet::FlowTable> table_;
@@ -114,7 +118,23 @@ FlowRun::FlowRun(const FlowOptions& options)
         animation.motion = plan_.parameters.motion;
         animation_.emplace(plan_.object, bodies_, animation);
     } else if (options_.kind != FlowOutput::Meshes) {
-        view_.emplace(plan_.object, bodies_);
+        droplet::FlowPainterOptions painter;
+        painter.render.width = options_.view.width;
+        painter.render.height = options_.view.height;
+        painter.render.view = options_.view.view;
+        painter.render.camera = options_.view.camera;
+        painter.render.look = droplet::lookOf(material_);
+        painter.render.framed = framedOver(plan_.object, plan_.parameters.motion,
+                                           static_cast<double>(plan_.frames - 1) / options_.frames_per_second);
+        painter.drying = plan_.parameters.drying;
+        painter_.emplace(plan_.object, plan_.scene, painter);
+    }
+    if (options_.maps) {
+        droplet::WetMapOptions maps;
+        maps.width = options_.map_width;
+        maps.height = options_.map_width;
+        maps.drying = plan_.parameters.drying;
+        mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.scene, maps); });
     }
     report_.input = nameOfObject(options_);
     report_.surface = plan_.scene.surface().report;
@@ -201,8 +221,8 @@ void FlowRun::resume()
         refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
                std::to_string(plan_.frames));
     }
-    // Tables and streaks need every frame to be simulated again, and so do missing files.
-    bool is_whole = !options_.droplets && !options_.streaks;
+    // Tables, streaks, maps and wet pictures need every frame to be simulated again, and so do missing files.
+    bool is_whole = !options_.droplets && !options_.streaks && !options_.maps && !painter_;
     for (std::size_t number = 1; is_whole && number <= checkpoint->frames; ++number) {
         std::error_code ignored;
         is_whole = std::filesystem::exists(options_.files->at(number), ignored);
@@ -229,8 +249,11 @@ void FlowRun::run()
         }
         if (options_.kind == FlowOutput::Meshes) {
             writeMesh(samples, done_ + 1);
-        } else if (view_ && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
+        } else if (painter_ && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
             draw(samples, done_ + 1);
+        }
+        if (mapper_) {
+            writeMaps(samples, done_ + 1);
         }
         if (options_.files && (done_ + 1) % second == 0) {
             writeCheckpoint(flowCheckpointPath(options_), {kCommand, fingerprint_, done_ + 1,
@@ -262,6 +285,12 @@ void FlowRun::advance(double until)
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.scene.surface());
         }
+        if (painter_) {
+            painter_->add(state_.tracks);
+        }
+        if (mapper_) {
+            mapper_->add(state_.tracks);
+        }
     };
     double second = std::floor(state_.time) + 1.0;
     while (second <= until) {
@@ -287,14 +316,8 @@ void FlowRun::beginVideo()
 
 void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t number)
 {
-    droplet::FlowPictureOptions options;
-    options.render.width = options_.view.width;
-    options.render.height = options_.view.height;
-    options.render.view = options_.view.view;
-    options.render.camera = options_.view.camera;
-    options.render.look = droplet::lookOf(material_);
-    options.gravity = gravityAt(state_.time);
-    picture_ = view_->draw(samples, options);
+    const droplet::FlowMoment moment{state_.time, plan_.parameters.motion.at(state_.time), 0.0};
+    picture_ = painter_->picture(moment, samples, droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)));
     if (video_) {
         video_->add(picture_);
     } else if (options_.files) {
@@ -302,6 +325,27 @@ void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t 
             options_.files->at(number),
             [&](std::ostream& out) { droplet::writePng(picture_, out, droplet::PngEffort::Fast); },
             options_.output_options);
+    }
+}
+
+void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::size_t number)
+{
+    const droplet::Surface surface = droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time));
+    const auto write = [&](std::size_t map, const auto& writer) {
+        droplet::writeAtomically(flowMapPath(*options_.maps, number, kFlowMaps[map]), writer, options_.output_options);
+    };
+    if (options_.are_maps_exr) {
+        const droplet::WetFloatMaps maps = mapper_->floatMaps(state_.time, samples, surface);
+        const std::array<const droplet::FloatPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age};
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            write(k, [&](std::ostream& out) { writeExr(*all[k], out); });
+        }
+        return;
+    }
+    const droplet::WetMaps maps = mapper_->maps(state_.time, samples, surface);
+    const std::array<const droplet::DeepPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        write(k, [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); });
     }
 }
 

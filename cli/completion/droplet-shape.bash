@@ -16,7 +16,7 @@ _droplet_shape()
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
-        flow) options='--preset --scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --streaks --droplets --json --view --camera --preview-size --codec --quality --resume --no-clobber --threads --quiet --config --help --version' ;;
+        flow) options='--preset --scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --streaks --maps --map-width --droplets --json --view --camera --preview-size --codec --quality --resume --no-clobber --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
         windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
@@ -133,6 +133,8 @@ _droplet_shape()
         *:--seed) return ;;
         *:--shape) choices='capillary springs capsule' ;;
         *:--streaks) files=1 ;;
+        *:--maps) files=1 ;;
+        *:--map-width) return ;;
         *:--droplets) files=1 ;;
         *:--codec) return ;;
         *:--quality) return ;;
@@ -173,8 +175,6 @@ _droplet_shape()
         *:--exposure) return ;;
         *:--highlight-boost) return ;;
         *:--shutter) return ;;
-        *:--maps) files=1 ;;
-        *:--map-width) return ;;
         *:--model-animation) choices='nodes texture' ;;
     esac
     if [[ -n $choices ]]; then

@@ -133,6 +133,8 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from flow windshield' -l se
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l shape -x -a 'capillary springs capsule' -d 'Shape of the droplets: capillary has least energy, springs is the paper\'s, capsule a cut capsule'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l material -x -d 'Look of the droplets: water, ink, mercury, honey or plain'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l streaks -r -F -d 'Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l maps -r -F -d 'Textures of the water in the object\'s uv, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness and -age'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l map-width -x -d 'Width and height of the textures in pixels'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l droplets -r -F -d 'Write a table of all droplets in every frame: .csv or .json'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l json -r -F -d 'Write a report, with the liquid\'s balance every second; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow windshield' -l codec -x -d 'Encoder of ffmpeg'

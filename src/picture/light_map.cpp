@@ -190,6 +190,20 @@ void blurMap(LightMap& map, float deviation)
 
 }  // namespace
 
+Medium mediumOf(const Look& look, double mean_height, double scale)
+{
+    Medium medium;
+    medium.clear = look.transmission > 0.0;
+    medium.ior = static_cast<float>(look.ior);
+    if (look.tinted && mean_height > 0.0) {
+        const auto per_length = [&](double share) {
+            return static_cast<float>(-std::log(std::max(share, 1e-6)) / mean_height * scale);
+        };
+        medium.absorption = {per_length(look.colour.x), per_length(look.colour.y), per_length(look.colour.z)};
+    }
+    return medium;
+}
+
 Vec3f LightMap::at(Vec3f place) const
 {
     const float x = (place.x - low.x) / cell - 0.5F;

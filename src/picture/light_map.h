@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "droplet/surface/material.h"
 #include "picture/optics.h"
 #include "picture/scene.h"
 #include "picture/studio.h"
@@ -16,6 +17,11 @@ struct Medium {
     float ior = 1.0F;
     Vec3f absorption;  ///< coefficient, per length
 };
+
+/// Medium of a look.
+/// @param mean_height  path that the look's colour belongs to [m]
+/// @param scale        unit of length [m]
+Medium mediumOf(const Look& look, double mean_height, double scale);
 
 /// Share of light left after a path through the liquid (Beer and Lambert).
 inline Vec3f passed(const Medium& medium, float distance)

@@ -15,12 +15,14 @@
 
 #include "droplet/error.h"
 #include "number_text.h"
+#include "picture/base_light.h"
 #include "picture/camera.h"
 #include "picture/ground.h"
 #include "picture/legend.h"
 #include "picture/light_map.h"
 #include "picture/optics.h"
 #include "picture/scene.h"
+#include "picture/stand_film.h"
 #include "picture/studio.h"
 #include "require.h"
 
@@ -58,20 +60,6 @@ Vec3f filmic(Vec3f a)
     return {curve(a.x), curve(a.y), curve(a.z)};
 }
 
-Medium mediumOf(const Look& look, double mean_height, double scale)
-{
-    Medium medium;
-    medium.clear = look.transmission > 0.0;
-    medium.ior = static_cast<float>(look.ior);
-    if (look.tinted && mean_height > 0.0) {
-        const auto per_length = [&](double share) {
-            return static_cast<float>(-std::log(std::max(share, 1e-6)) / mean_height * scale);
-        };
-        medium.absorption = {per_length(look.colour.x), per_length(look.colour.y), per_length(look.colour.z)};
-    }
-    return medium;
-}
-
 /// What a ray sees: everything; everything on black ground; or only white ground through the liquid.
 enum class Part { All, Own, Through };
 
@@ -84,7 +72,7 @@ public:
           studio_(options.lighting, options.stand && options.shows_whole_stand, turn_,
                   options.environment ? &*options.environment : nullptr),
           medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
-          camera_(options.stand && options.shows_whole_stand ? scene_.shown() : scene_.droplets(), options,
+          camera_(framedPoints(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -101,7 +89,13 @@ public:
                                   std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
                                              kMinLightCells, kMaxLightCells));
         }
-        if (!scene_.onPlane() && options.stand && !studio_.uniform()) {
+        if (options.stand_water) {
+            film_.emplace(*options.stand_water, *options.stand);
+        }
+        if (options.stand_water && !studio_.uniform()) {
+            base_light_.emplace(scene_, options.look, surface.mean_height, options.stand_water->bases,
+                                studio_.lights());
+        } else if (!scene_.onPlane() && options.stand && !studio_.uniform()) {
             key_gain_ =
                 lightGainOnStand(scene_, medium_, studio_.lights().front(),
                                  std::clamp(static_cast<int>(kStandCells * std::max(options.width, options.height)),
@@ -133,6 +127,14 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<Vec3f> framedPoints() const
+    {
+        if (options_.stand_water) {
+            return options_.framed ? scene_.droplets() : scene_.stand();
+        }
+        return options_.stand && options_.shows_whole_stand ? scene_.shown() : scene_.droplets();
+    }
+
     struct Way {
         float weight;    // weight of the ray in the pixel
         bool inside;     // inside the liquid
@@ -274,7 +276,21 @@ private:
         if (scene_.onPlane() && !options_.paint) {
             seen = faded(seen, meeting.place);
         }
-        return seen;
+        return film_ && !wet && medium_.clear ? underFilm(ray, meeting, way, seen, matter) : seen;
+    }
+
+    // Ground below a film of water, which darkens and mirrors.
+    [[nodiscard]] Vec3f underFilm(const RayF& ray, const Meeting& meeting, const Way& way, Vec3f dry,
+                                  Vec3f matter) const
+    {
+        const StandFilm::Here film = film_->at(meeting);
+        if (film.wetness <= 0.0F) {
+            return dry;
+        }
+        const Vec3f normal = facing(ray.direction, film.normal);
+        const float mirrors = film.wetness * atInterface(ray.direction, normal, 1.0F / medium_.ior).reflected;
+        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_), film.wetness);
+        return (1.0F - mirrors) * wet + mirrors * onward(meeting, mirrored(ray.direction, normal), way, mirrors, false);
     }
 
     // Ground of a cut-out: white where it is seen directly, grey where it is reflected.
@@ -299,6 +315,9 @@ private:
     [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
     {
         const Vec3f light = studio_.diffuse(meeting.normal);
+        if (base_light_) {
+            return base_light_->at(meeting.place, meeting.normal, light);
+        }
         if (!key_gain_) {
             return light;
         }
@@ -347,9 +366,11 @@ private:
     Camera camera_;
     std::optional<GroundPicture> picture_;
     std::optional<Table> table_;
-    std::optional<LightMap> light_;     // light on the plane
-    std::optional<LightMap> key_gain_;  // share of the key light on a stand
-    Vec3f key_;                         // direction toward the key light
+    std::optional<LightMap> light_;        // light on the plane
+    std::optional<LightMap> key_gain_;     // share of the key light on a stand
+    std::optional<BaseLight> base_light_;  // light on a stand below many droplets
+    std::optional<StandFilm> film_;
+    Vec3f key_;  // direction toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;
     float span_ = 1.0F;
@@ -505,6 +526,12 @@ void RenderOptions::validate() const
     if (stand) {
         stand->validate();
     }
+    if (stand_water) {
+        if (!stand || !shows_whole_stand) {
+            refuse("stand_water needs a stand that is an object");
+        }
+        stand_water->validate(stand->triangles.size());
+    }
     if (framed) {
         const Vec3 size = framed->high - framed->low;
         if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0 && length(size) > 0.0 && std::isfinite(length(size)))) {
@@ -518,7 +545,7 @@ namespace {
 void requireDrawable(const Surface& surface, const RenderOptions& options)
 {
     options.validate();
-    const bool dry = options.framed && surface.triangles.empty();
+    const bool dry = (options.framed || options.stand_water) && surface.triangles.empty();
     if (!dry) {
         surface.validate();
     }

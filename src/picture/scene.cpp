@@ -107,9 +107,15 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
     };
-    enclose(surface.positions);
+    // Droplets that fall away from an object must not change its picture.
+    if (!options.stand_water) {
+        enclose(surface.positions);
+    }
     if (options.framed) {
         enclose({options.framed->low, options.framed->high});
+    }
+    if (options.stand_water && !options.framed) {
+        enclose(stand->positions);
     }
     const Vec3 liquid_low = low;
     const Vec3 liquid_high = high;
@@ -185,6 +191,11 @@ std::vector<Vec3f> Scene::droplets() const
     return framed_.empty()
                ? std::vector<Vec3f>(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_))
                : framed_;
+}
+
+std::vector<Vec3f> Scene::stand() const
+{
+    return {shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_), shown_.end()};
 }
 
 Vec2 Scene::uvOnPlane(Vec3f place) const

@@ -62,6 +62,8 @@ public:
     [[nodiscard]] Vec3f high() const { return high_; }
     /// Points that a picture should show: the surface's vertices, then the stand's.
     [[nodiscard]] const std::vector<Vec3f>& shown() const { return shown_; }
+    /// The stand's vertices.
+    [[nodiscard]] std::vector<Vec3f> stand() const;
     /// The surface's vertices, or the corners of RenderOptions::framed.
     [[nodiscard]] std::vector<Vec3f> droplets() const;
     [[nodiscard]] const Triangle& triangle(const Meeting& meeting) const { return triangles_[meeting.triangle]; }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <numbers>
 #include <vector>
 
@@ -54,8 +55,8 @@ double stackVolume(const SpringNetwork& network, const std::vector<Vec3>& points
 std::vector<SpringNetwork> networks()
 {
     std::vector<SpringNetwork> all;
-    for (const std::size_t slices : {3, 4, 7, 8}) {
-        for (const std::size_t levels : {1, 2, 3, 5}) {
+    for (const std::size_t slices : std::initializer_list<std::size_t>{3, 4, 7, 8}) {
+        for (const std::size_t levels : std::initializer_list<std::size_t>{1, 2, 3, 5}) {
             for (const Vec3 force : {Vec3{}, Vec3{0.02, 0.0, 0.0}, Vec3{-0.01, 0.015, -0.01}}) {
                 SpringNetwork network;
                 network.slices = slices;
@@ -179,7 +180,7 @@ TEST(SpringBody, ThreeForcesOfThePaper)
     EXPECT_NEAR(pressed.back().y, 0.0, 1e-12);
     EXPECT_LT(left.back().y, -0.02);
     // Slices 1 and 2 are mirror images of each other.
-    for (const std::size_t i : {0, 1}) {
+    for (const std::size_t i : std::initializer_list<std::size_t>{0, 1}) {
         for (std::size_t j = 0; j < 3; ++j) {
             const Vec3 a = left[i * 3 + j];
             const Vec3 b = right[i * 3 + (3 - j) % 3];

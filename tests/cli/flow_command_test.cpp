@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "droplet/io/read_surface.h"
+#include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -120,13 +121,32 @@ TEST_F(FlowCommand, WritesAllThatItSays)
     }
 }
 
+TEST_F(FlowCommand, DrawsPicturesAndMaps)
+{
+    ASSERT_EQ(flow("last.png", {"--drops", "5", "--time", "0.1s", "--preview-size", "96x64"}).exit_code, 0);
+    const Picture last = readPicture(path("last.png"));
+    EXPECT_EQ(last.width, 96);
+    EXPECT_EQ(last.height, 64);
+    testing::writeFile(path("uv.obj"), "v 0 0 0\nv 100 0 0\nv 100 0 -100\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    ASSERT_EQ(flow("f%d.png",
+                   {"--drops", "5", "--time", "0.1s", "--fps", "20", "--preview-size", "96x64", "--maps",
+                    path("m%d.png"), "--map-width", "64"},
+                   "uv.obj")
+                  .exit_code,
+              0);
+    for (const char* name : {"f1.png", "f2.png", "m1-normal.png", "m2-thickness.png", "m2-age.png"}) {
+        EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
+    }
+    expectRefused({"--drops", "3", "--maps", path("m%d.png")}, 2, "--maps");
+}
+
 TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
 {
     for (const char* folder : {"a", "b"}) {
         std::filesystem::create_directory(path(folder));
     }
-    const std::vector<std::string> options{"--drops", "40",    "--rain", "100mm/h", "--film",
-                                           "5um",     "--fps", "10",     "--time"};
+    const std::vector<std::string> options{"--drops", "20",  "--size", "20cm", "--rain", "50mm/h",
+                                           "--film",  "5um", "--fps",  "10",   "--time"};
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> all = options;
         all.insert(all.end(), more.begin(), more.end());

@@ -7,6 +7,7 @@
 #include "droplet/picture/environment.h"
 #include "droplet/picture/paint.h"
 #include "droplet/picture/picture.h"
+#include "droplet/picture/stand_water.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
@@ -58,8 +59,11 @@ struct RenderOptions {
                                                   ///< scaled to the same brightness of level ground
     Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
-    std::optional<TexturedMesh> stand = {};  ///< ground instead of the plane z = 0, uv as the droplet's
-    bool shows_whole_stand = true;           ///< true: the stand is an object, shown whole; false: ground
+    std::optional<TexturedMesh> stand = {};      ///< ground instead of the plane z = 0, uv as the droplet's
+    bool shows_whole_stand = true;               ///< true: the stand is an object, shown whole; false: ground
+    std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an
+                                                 ///< object, instead of one map of light over its uv. The picture then
+                                                 ///< frames the stand, or `framed`, and not the droplets
     std::optional<ViewBox> framed = {};  ///< box for the camera, the ruling and the light, so that pictures of several
                                          ///< surfaces are comparable; contains the surface. Empty: the surface's box
     std::optional<Paint> paint = {};     ///< opaque colours instead of the material
@@ -78,7 +82,8 @@ struct RenderOptions {
 ///
 /// Guarantees: the same bytes for the same surface and options, with any number of threads. Floating-point modes of the
 /// caller's threads are as before.
-/// @param surface  valid; closed or open; with `framed` it may have no triangles: then only the ground is drawn
+/// @param surface  valid; closed or open; with `framed` or `stand_water` it may have no triangles: then only the ground
+///                 is drawn
 /// @param options  size, camera, light and ground
 /// @throws Error   InvalidArgument
 Picture render(const Surface& surface, const RenderOptions& options = {});

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "droplet/flow/flow.h"
+#include "droplet/flow/flow_scene.h"
+#include "droplet/flow/object_motion.h"
+#include "droplet/flow_io/flow_object.h"
+#include "droplet/picture/picture.h"
+#include "droplet/picture/render.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Options of FlowPainter.
+struct FlowPainterOptions {
+    /// Size, view, samples, look and light. A picture on the ground (`ground`) is the object's texture, and needs uvs.
+    /// `framed` is a box in the world that the pictures show, framedOver() for an object that moves; empty: the object
+    /// fills the picture. `stand`, `stand_water` and `extent` are replaced.
+    RenderOptions render = {};
+    double film = 20e-6;                ///< thickness of a fresh streak [m], ≥ 0
+    std::optional<double> drying = {};  ///< time in which a streak dries [s], > 0; empty: never
+
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
+    void validate() const;
+};
+
+/// What a picture shows besides droplets.
+struct FlowMoment {
+    double time = 0.0;     ///< [s]; not before the last track
+    ObjectPose pose = {};  ///< of the object in the world
+    double azimuth = 0.0;  ///< turn of the whole scene, added to that of the options, for a turntable [rad]
+};
+
+/// Box in the world around an object in all poses of a motion from time 0 on; empty if it rests.
+/// @param object    at its place
+/// @param motion    of it
+/// @param duration  [s], ≥ 0
+std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& motion, double duration);
+
+/// Renders droplets on an object, frame by frame: droplets refract, gather light below them and cast shadows; where
+/// they ran, the object is darker and glossier until it dries. For every frame: advanceFlow(), add(), then picture().
+/// All frames have one camera.
+///
+/// Guarantees: the same calls give the same bytes with any number of threads.
+class FlowPainter {
+public:
+    /// Prepares a dry object.
+    /// @param object   with uvs if it has a texture
+    /// @param scene    of this object's triangles; must outlive the painter
+    /// @param options  camera, light, film
+    /// @throws Error   InvalidArgument if an option is out of its range, or the object has no uvs for a texture
+    FlowPainter(const FlowObject& object, const FlowScene& scene, const FlowPainterOptions& options = {});
+    ~FlowPainter();
+    FlowPainter(FlowPainter&&) noexcept;             ///< Moves the state.
+    FlowPainter& operator=(FlowPainter&&) noexcept;  ///< Moves the state.
+
+    /// Wets the paths of one advanceFlow().
+    /// @param tracks  FlowState::tracks
+    void add(std::span<const FlowTrack> tracks);
+
+    /// Renders a picture, and wets the places below the droplets. Droplets are bent to follow the object. Those in the
+    /// air, farther from the object than its size, are left out.
+    /// @param moment    time, pose and view
+    /// @param samples   droplets at that time
+    /// @param droplets  dropletSurfaces() of these samples, in the object's frame
+    Picture picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets);
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace droplet

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "droplet/flow/flow.h"
+#include "droplet/flow/flow_scene.h"
+#include "droplet/flow_io/flow_object.h"
+#include "droplet/picture/picture.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Options of WetMapper.
+struct WetMapOptions {
+    int width = 1024;                   ///< [px], 16 … 8192
+    int height = 1024;                  ///< [px], 16 … 8192
+    double film = 20e-6;                ///< thickness of a fresh streak [m], ≥ 0
+    std::optional<double> drying = {};  ///< time in which a streak becomes thinner, to nothing [s], > 0; empty: never
+    double full_thickness = 5e-3;       ///< thickness of the highest level [m], > 0; more is clipped
+    double full_age = 10.0;             ///< age of the highest level [s], > 0; more is clipped
+
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
+    void validate() const;
+};
+
+/// Water on an object as textures, by its uv, 16 bits per channel, without a colour space. A few texels beyond the
+/// edges of the uv's islands repeat the islands, so that filters do not bleed.
+struct WetMaps {
+    /// Outward unit normal of the water in the object's tangent frame: red x, to larger u; green y, up in the texture;
+    /// blue z, out of the object; each (n + 1)/2 of 65535. Where no droplet is, (32768, 32768, 65535). +Y up, as in
+    /// OpenGL.
+    DeepPicture normal;
+    /// Grey: thickness of the water of droplets and streaks over full_thickness; 0: dry. Droplets have their volume at
+    /// any resolution, except for clipped water.
+    DeepPicture thickness;
+    /// Grey: time since the place was last wet, over full_age; 0: a droplet is there; 65535: longer ago, or never.
+    DeepPicture age;
+};
+
+/// The maps of WetMaps in floating point.
+struct WetFloatMaps {
+    FloatPicture normal;     ///< from −1 to 1; (0, 0, 1) where no droplet is
+    FloatPicture thickness;  ///< [m]; not clipped
+    FloatPicture age;        ///< [s], at most full_age, also where it was never wet
+};
+
+/// Makes maps of the water on an object, frame by frame. For every frame: advanceFlow(), add(), then maps() or
+/// floatMaps().
+///
+/// Guarantees: the same arguments give the same bytes with any number of threads. Where triangles share texels, these
+/// have the water of all.
+class WetMapper {
+public:
+    /// Prepares the texels of a dry object.
+    /// @param object   with uvs; outside the unit square they repeat
+    /// @param scene    of this object's triangles; must outlive the maps
+    /// @param options  size and scales
+    /// @throws Error   InvalidArgument if the object has no uvs or an option is out of its range; InvalidInput if its
+    /// uvs
+    ///                have no area
+    WetMapper(const FlowObject& object, const FlowScene& scene, const WetMapOptions& options = {});
+    ~WetMapper();
+    WetMapper(WetMapper&&) noexcept;             ///< Moves the maps.
+    WetMapper& operator=(WetMapper&&) noexcept;  ///< Moves the maps.
+
+    /// Wets the paths of one advanceFlow(), as wide as the droplets.
+    /// @param tracks  FlowState::tracks
+    void add(std::span<const FlowTrack> tracks);
+
+    /// Wets the places below droplets, and draws maps.
+    /// @param time      [s]; not before the last track
+    /// @param samples   droplets at that time
+    /// @param droplets  dropletSurfaces() of these samples
+    WetMaps maps(double time, std::span<const FlowSample> samples, const Surface& droplets);
+
+    /// The same in floating point; full_thickness has no effect.
+    WetFloatMaps floatMaps(double time, std::span<const FlowSample> samples, const Surface& droplets);
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace droplet

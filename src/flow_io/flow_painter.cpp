@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/flow_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/settled_droplets.h"
+#include "flow_io/wet_spots.h"
+#include "require.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kSoftEdge = 0.4;      // of a streak, over its half width
+constexpr double kFilmForLight = 3.0;  // thickness of the film whose edges are seen, over the film's: it reads as wet
+constexpr double kMostDivisions = 2048;
+
+ViewBox boxOf(const std::vector<Vec3>& points)
+{
+    ViewBox box{points.front(), points.front()};
+    for (const Vec3 p : points) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+    return box;
+}
+
+}  // namespace
+
+void FlowPainterOptions::validate() const
+{
+    require(film >= 0.0 && std::isfinite(film), "film", film, "finite and at least 0 m");
+    require(!drying || (*drying > 0.0 && std::isfinite(*drying)), "drying", drying.value_or(0.0), "positive");
+    RenderOptions checked = render;
+    checked.stand.reset();
+    checked.stand_water.reset();
+    checked.extent = {1.0, 1.0};
+    checked.validate();
+}
+
+std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& motion, double duration)
+{
+    if (motion.rests()) {
+        return {};
+    }
+    constexpr int kPoses = 96;
+    std::vector<Vec3> corners;
+    for (int k = 0; k <= kPoses; ++k) {
+        const ObjectPose pose = motion.at(duration * k / kPoses);
+        std::vector<Vec3> moved;
+        for (const Vec3 p : object.positions) {
+            moved.push_back(pose.place + pose.toWorld(p));
+        }
+        const ViewBox box = boxOf(moved);
+        corners.insert(corners.end(), {box.low, box.high});
+    }
+    return boxOf(corners);
+}
+
+struct FlowPainter::Content {
+    Content(const FlowObject& object, const FlowScene& of, const FlowPainterOptions& given)
+        : scene(of), options(given), faces(of.surface()), box(boxOf(object.positions))
+    {
+        RenderOptions& render = options.render;
+        render.extent = {1.0, 1.0};
+        render.shows_whole_stand = true;
+        stand.positions = object.positions;
+        stand.normals = object.normals;
+        stand.triangles = object.triangles;
+        stand.uvs = object.uvs.empty() ? std::vector<Vec2>(object.positions.size()) : object.uvs;
+        water.film = kFilmForLight * options.film;
+        water.divisions.resize(stand.triangles.size());
+        water.first.resize(stand.triangles.size());
+        spots.middle = 0.5 * (box.low + box.high);
+        // About one place for a pixel.
+        spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
+        for (const FlowSurface::Face& face : scene.surface().faces) {
+            addPlaces(face.source);
+        }
+        spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
+        water.wetness.resize(spots.places.size());
+        wet.emplace(spots.places.size(), options.drying);
+    }
+
+    void addPlaces(std::uint32_t triangle)
+    {
+        const Vec3 a = stand.positions[stand.triangles[triangle][0]];
+        const Vec3 p = stand.positions[stand.triangles[triangle][1]] - a;
+        const Vec3 q = stand.positions[stand.triangles[triangle][2]] - a;
+        const double longest = std::max({length(p), length(q), length(q - p)});
+        const auto n = static_cast<std::uint32_t>(std::clamp(std::ceil(longest / spots.spacing), 1.0, kMostDivisions));
+        water.divisions[triangle] = static_cast<std::uint16_t>(n);
+        water.first[triangle] = static_cast<std::uint32_t>(spots.places.size());
+        spots.first.push_back(water.first[triangle]);
+        for (std::uint32_t j = 0; j <= n; ++j) {
+            for (std::uint32_t i = 0; i + j <= n; ++i) {
+                spots.add(a + static_cast<double>(i) / n * p + static_cast<double>(j) / n * q);
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<bool> shownOf(std::span<const FlowSample> samples) const
+    {
+        const Vec3 margin = length(box.high - box.low) * Vec3{1.0, 1.0, 1.0};
+        const Vec3 low = box.low - margin;
+        const Vec3 high = box.high + margin;
+        std::vector<bool> shown;
+        for (const FlowSample& sample : samples) {
+            const Vec3 p = sample.place;
+            shown.push_back(p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z);
+        }
+        return shown;
+    }
+
+    void wetBelow(std::span<const FlowSample> samples, const std::vector<DropletBase>& bases, double time)
+    {
+        std::vector<FlowTrack> tracks;
+        std::size_t next = 0;
+        for (const FlowSample& sample : samples) {
+            if (sample.contact == FlowContact::Air || next >= bases.size()) {
+                continue;
+            }
+            const DropletBase& base = bases[next++];
+            if (sample.face) {
+                tracks.push_back({sample.id, *sample.face, sample.place, sample.place, 2.0 * base.half_width, time});
+            }
+        }
+        wetTracks(spots, tracks, kSoftEdge, faces, *wet);
+    }
+
+    const FlowScene& scene;
+    FlowPainterOptions options;
+    FacesAround faces;
+    ViewBox box;         // around the object
+    TexturedMesh stand;  // the object
+    WetSpots spots;
+    StandWater water;
+    std::optional<WetPlaces> wet;
+};
+
+FlowPainter::FlowPainter(const FlowObject& object, const FlowScene& scene, const FlowPainterOptions& options)
+{
+    options.validate();
+    if (options.render.ground && object.uvs.empty()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "a texture needs an object with texture coordinates (uv), but this one has none");
+    }
+    content_ = std::make_unique<Content>(object, scene, options);
+}
+FlowPainter::~FlowPainter() = default;
+FlowPainter::FlowPainter(FlowPainter&&) noexcept = default;
+FlowPainter& FlowPainter::operator=(FlowPainter&&) noexcept = default;
+
+void FlowPainter::add(std::span<const FlowTrack> tracks)
+{
+    wetTracks(content_->spots, tracks, kSoftEdge, content_->faces, *content_->wet);
+}
+
+Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
+{
+    Content& c = *content_;
+    SettledDroplets water = settled(c.scene, samples, droplets, c.shownOf(samples));
+    c.wetBelow(samples, water.bases, moment.time);
+    RenderOptions render = c.options.render;
+    render.azimuth += moment.azimuth;
+    render.stand = c.stand;
+    render.stand_water = c.water;
+    render.stand_water->bases = std::move(water.bases);
+    for (std::size_t spot = 0; spot < render.stand_water->wetness.size(); ++spot) {
+        render.stand_water->wetness[spot] = static_cast<float>(c.wet->left(spot, moment.time));
+    }
+    const auto move = [&](std::vector<Vec3>& places, std::vector<Vec3>& directions) {
+        for (Vec3& p : places) {
+            p = moment.pose.place + moment.pose.toWorld(p);
+        }
+        for (Vec3& d : directions) {
+            d = moment.pose.toWorld(d);
+        }
+    };
+    move(render.stand->positions, render.stand->normals);
+    move(water.surface.positions, water.surface.normals);
+    for (DropletBase& base : render.stand_water->bases) {
+        base.place = moment.pose.place + moment.pose.toWorld(base.place);
+        base.ahead = moment.pose.toWorld(base.ahead);
+        base.normal = moment.pose.toWorld(base.normal);
+    }
+    return droplet::render(water.surface, render);
+}
+
+}  // namespace droplet

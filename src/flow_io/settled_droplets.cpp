@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_io/settled_droplets.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "droplet/flow_io/droplet_surfaces.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kSkirt = 0.08;     // depth of the extended rim, over the droplet's mean radius
+constexpr double kMostRise = 0.25;  // of the ground over the droplet's plane that it is bent to, over that radius
+constexpr double kMostFall = 1.0;   // and below it
+
+using Edge = std::array<std::uint32_t, 2>;
+
+/// Edges of an open mesh's rim, in the direction of their triangles.
+std::vector<Edge> rimOf(std::span<const Triangle> triangles)
+{
+    std::map<Edge, int> sides;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            ++sides[{t[k], t[(k + 1) % 3]}];
+        }
+    }
+    std::vector<Edge> rim;
+    for (const auto& [edge, count] : sides) {
+        if (!sides.contains({edge[1], edge[0]})) {
+            rim.push_back(edge);
+        }
+    }
+    return rim;
+}
+
+/// Height of the ground over a droplet's plane, by a ray along its normal; 0 if there is no ground near.
+double groundBelow(const FlowScene& scene, const DropletFrame& frame, Vec3 local, double size)
+{
+    const double from = 1.5 * size;
+    const Vec3 origin = frame.place + local.x * frame.ahead + local.y * frame.left + from * frame.normal;
+    const std::optional<FlowScene::Point> hit = scene.firstAlong(origin, -1.0 * frame.normal);
+    if (!hit || dot(scene.surface().faces[hit->face].normal, frame.normal) <= 0.0) {
+        return 0.0;
+    }
+    const double height = dot(hit->place - frame.place, frame.normal);
+    return height < -kMostFall * size ? 0.0 : std::min(height, kMostRise * size);
+}
+
+/// One droplet, as part of a surface.
+struct Part {
+    std::span<Vec3> positions;
+    std::span<const std::uint32_t> rim;  ///< vertices
+};
+
+DropletBase settle(const FlowScene& scene, const DropletFrame& frame, const Part& part)
+{
+    std::vector<Vec3> local;
+    for (const Vec3 p : part.positions) {
+        const Vec3 d = p - frame.place;
+        local.push_back({dot(d, frame.ahead), dot(d, frame.left), dot(d, frame.normal)});
+    }
+    Vec2 low{1e300, 1e300};
+    Vec2 high{-1e300, -1e300};
+    for (const std::uint32_t v : part.rim) {
+        low = {std::min(low.x, local[v].x), std::min(low.y, local[v].y)};
+        high = {std::max(high.x, local[v].x), std::max(high.y, local[v].y)};
+    }
+    DropletBase base;
+    const Vec2 middle = 0.5 * (low + high);
+    base.place = frame.place + middle.x * frame.ahead + middle.y * frame.left;
+    base.ahead = frame.ahead;
+    base.normal = frame.normal;
+    base.half_length = 0.5 * (high.x - low.x);
+    base.half_width = 0.5 * (high.y - low.y);
+    const double size = std::sqrt(base.half_length * base.half_width);
+    for (std::size_t v = 0; v < local.size(); ++v) {
+        base.height = std::max(base.height, local[v].z);
+        part.positions[v] = part.positions[v] + groundBelow(scene, frame, local[v], size) * frame.normal;
+    }
+    return base;
+}
+
+}  // namespace
+
+SettledDroplets settled(const FlowScene& scene, std::span<const FlowSample> samples, const Surface& droplets,
+                        const std::vector<bool>& is_shown)
+{
+    SettledDroplets made;
+    std::vector<std::size_t> shown;
+    for (std::size_t d = 0; d < samples.size(); ++d) {
+        if (is_shown[d]) {
+            shown.push_back(d);
+        }
+    }
+    made.surface.mean_height = droplets.mean_height;
+    if (shown.empty()) {
+        return made;
+    }
+    const std::size_t vertices = droplets.positions.size() / samples.size();
+    const std::size_t triangles = droplets.triangles.size() / samples.size();
+    const std::vector<Edge> rim = rimOf(std::span(droplets.triangles).first(triangles));
+    std::vector<std::uint32_t> rim_vertices;
+    std::vector<std::uint32_t> lowered(vertices);  // copies of them below the rim
+    for (const Edge& edge : rim) {
+        lowered[edge[0]] = static_cast<std::uint32_t>(vertices + rim_vertices.size());
+        rim_vertices.push_back(edge[0]);
+    }
+    const std::size_t all = vertices + rim_vertices.size();
+    Surface& surface = made.surface;
+    surface.positions.resize(all * shown.size());
+    surface.normals.resize(surface.positions.size());
+    surface.uvs.resize(surface.positions.size());
+    surface.weld.resize(surface.positions.size());
+    std::iota(surface.weld.begin(), surface.weld.end(), std::uint32_t{0});
+    std::vector<DropletBase> bases(shown.size());
+    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+        const FlowSample& sample = samples[shown[i]];
+        const std::size_t from = shown[i] * vertices;
+        const std::span<Vec3> positions = std::span(surface.positions).subspan(i * all, all);
+        const std::span<Vec3> normals = std::span(surface.normals).subspan(i * all, all);
+        std::copy_n(droplets.positions.begin() + static_cast<std::ptrdiff_t>(from), vertices, positions.begin());
+        std::copy_n(droplets.normals.begin() + static_cast<std::ptrdiff_t>(from), vertices, normals.begin());
+        double depth = 0.0;
+        const DropletFrame frame = frameOf(sample, {});
+        if (sample.contact != FlowContact::Air) {
+            bases[i] = settle(scene, frame, {positions.first(vertices), rim_vertices});
+            depth = kSkirt * std::sqrt(bases[i].half_length * bases[i].half_width);
+        }
+        for (std::size_t k = 0; k < rim_vertices.size(); ++k) {
+            positions[vertices + k] = positions[rim_vertices[k]] - depth * frame.normal;
+            normals[vertices + k] = normals[rim_vertices[k]];
+        }
+    });
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto first = static_cast<std::uint32_t>(i * all);
+        const auto from = static_cast<std::uint32_t>(shown[i] * vertices);
+        for (const auto& [a, b, c] : std::span(droplets.triangles).subspan(shown[i] * triangles, triangles)) {
+            surface.triangles.push_back({first + a - from, first + b - from, first + c - from});
+        }
+        if (samples[shown[i]].contact == FlowContact::Air) {
+            continue;
+        }
+        made.bases.push_back(bases[i]);
+        for (const Edge& edge : rim) {
+            const std::uint32_t a = first + edge[0];
+            const std::uint32_t b = first + edge[1];
+            const std::uint32_t c = first + lowered[edge[0]];
+            const std::uint32_t d = first + lowered[edge[1]];
+            surface.triangles.push_back({b, a, c});
+            surface.triangles.push_back({b, c, d});
+        }
+    }
+    return made;
+}
+
+}  // namespace droplet

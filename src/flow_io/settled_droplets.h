@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "droplet/flow/flow.h"
+#include "droplet/flow/flow_scene.h"
+#include "droplet/picture/stand_water.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Droplets that touch an object all around.
+struct SettledDroplets {
+    Surface surface;                 ///< in the object's frame; may have no triangles
+    std::vector<DropletBase> bases;  ///< of those that are not in the air
+};
+
+/// Bends droplets so that they follow the object below them, and extends their rims a little into it, so that no light
+/// leaks in between. Bending shifts columns of liquid along the droplet's normal, so the volume stays the same.
+/// @param samples   droplets
+/// @param droplets  dropletSurfaces() of them
+/// @param is_shown  for each; others are left out
+SettledDroplets settled(const FlowScene& scene, std::span<const FlowSample> samples, const Surface& droplets,
+                        const std::vector<bool>& is_shown);
+
+}  // namespace droplet
