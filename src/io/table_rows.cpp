@@ -3,7 +3,6 @@
 
 #include <ostream>
 
-
 namespace droplet {
 
 TableRows::TableRows(std::ostream& out, TableFormat format, const char* schema, std::span<const char* const> columns)

@@ -135,16 +135,16 @@ void BaseLight::makeTextures(const Look& look, double mean_height, const std::ve
     const Scene scene(droplet, {});
     const Medium medium = mediumOf(look, mean_height, radius * scene.scale());
     // Places in radii instead of the scene's units.
-    const auto inRadii = [&](LightMap map) {
+    const auto in_radii = [&](LightMap map) {
         const auto scale = static_cast<float>(scene.scale());
         map.cell *= scale;
         map.low = scale * map.low;
         return map;
     };
     for (int k = 0; k < kAngles; ++k) {
-        by_angle_.push_back(inRadii(lightGain(scene, medium, lampAt(k * kStep), kCells, kGrain)));
+        by_angle_.push_back(in_radii(lightGain(scene, medium, lampAt(k * kStep), kCells, kGrain)));
     }
-    soft_ = inRadii(lightGain(scene, medium, everywhere(), kCells / 2, kGrain));
+    soft_ = in_radii(lightGain(scene, medium, everywhere(), kCells / 2, kGrain));
     margin_ = -soft_.low.x;
 }
 

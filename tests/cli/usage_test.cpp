@@ -54,7 +54,8 @@ TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
 
 TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 {
-    for (const std::string command : {"", "animate", "batch", "compare", "flow", "glyphs", "wind-tunnel", "windshield"}) {
+    for (const std::string command :
+         {"", "animate", "batch", "compare", "flow", "glyphs", "wind-tunnel", "windshield"}) {
         std::istringstream help(
             run(command.empty() ? std::vector<std::string>{"--help"} : std::vector<std::string>{command, "--help"})
                 .output);

@@ -6,11 +6,11 @@
 
 #include "droplet/units.h"
 #include "droplet/wind/forces.h"
+#include "droplet/wind/rain.h"
 #include "droplet/wind/streaks.h"
 #include "droplet/wind/tunnel.h"
 #include "droplet/windshield/drive_cycle.h"
 #include "droplet/windshield/glass.h"
-#include "droplet/wind/rain.h"
 #include "droplet/windshield/wipers.h"
 
 namespace droplet {
