@@ -4,8 +4,8 @@
 //   bench_flow [--quick]
 //
 // 1. Droplets that traverse a slope of 2 to 500 000 triangles (Fournier, Habibi and Poulin 1998, table 1).
-// 2. 1000 to 100 000 droplets that merge, at the same number per area (table 2).
-// 3. 10 000 droplets on a body of 100 000 triangles: motion and shapes.
+// 2. Frames of 1000 to 100 000 droplets that merge, on 100 000 triangles, at the same number per area (table 2): motion
+//    and shapes.
 #include "droplet/flow/flow.h"
 
 #include <tbb/global_control.h>
@@ -23,7 +23,6 @@
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/scatter.h"
 #include "droplet/flow_io/droplet_surfaces.h"
-#include "droplet/flow_io/preset_object.h"
 #include "droplet/units.h"
 
 namespace {
@@ -69,6 +68,22 @@ FlowScene slope(double side, std::uint32_t cells)
     return FlowScene(flowSurface(positions, triangles));
 }
 
+/// Slope of the line with the least squares of errors.
+double slopeOf(const std::vector<Vec2>& points)
+{
+    Vec2 mean;
+    for (const Vec2 p : points) {
+        mean = mean + (1.0 / static_cast<double>(points.size())) * p;
+    }
+    double along = 0.0;
+    double across = 0.0;
+    for (const Vec2 p : points) {
+        along += (p.x - mean.x) * (p.y - mean.y);
+        across += (p.x - mean.x) * (p.x - mean.x);
+    }
+    return along / across;
+}
+
 /// Droplets run at up to about 6 cm/s.
 FlowParameters running()
 {
@@ -111,98 +126,52 @@ void timeTraversal()
     }
 }
 
-void timeGrowth(bool is_quick)
+void timeFrames(bool is_quick)
 {
-    constexpr int kSettling = 5;
-    constexpr int kSteps = 31;
-    std::puts("\n| droplets | slope | threads | time per step | time per droplet |");
-    std::puts("| ---: | ---: | ---: | ---: | ---: |");
+    constexpr double kRate = 24.0;
+    constexpr int kSettling = 2;
+    constexpr int kFrames = 15;
+    constexpr double kPerSquareMetre = 5000.0;
+    constexpr double kOverlapping = 1.15;  // droplets that touch at the start merge at once
+    const DropletBodies bodies(BodyShape::Capillary);
+    std::puts("\n| droplets | slope | threads | motion per frame | per droplet | frames/s | shapes per frame |");
+    std::puts("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         std::vector<Vec2> logs;
         for (const std::size_t count : {1'000U, 3'000U, 10'000U, 30'000U, 100'000U}) {
-            if (is_quick && count > 10'000U) {
+            if (is_quick && count > 3'000U) {
                 break;
             }
-            const double side = std::sqrt(static_cast<double>(count) / 5000.0);  // 5000 per square metre
+            const double side = std::sqrt(static_cast<double>(count) / kPerSquareMetre);
             const FlowScene scene = slope(side, 224);
             const FlowParameters parameters = running();
             ScatterOptions scatter;
-            scatter.count = count;
+            scatter.count = static_cast<std::size_t>(kOverlapping * static_cast<double>(count));
             scatter.volumes = {10e-9, 0.5};
             FlowState state = startFlow(scene, parameters, scatterDroplets(scene, scatter));
-            std::vector<double> steps;
+            std::vector<double> motion;
+            std::vector<double> shapes;
             double droplets = 0.0;
-            for (int k = 0; k < kSettling + kSteps; ++k) {
+            for (int frame = 1; frame <= kSettling + kFrames; ++frame) {
                 const double begin = now();
-                state = advanceFlow(std::move(state), scene, parameters, (k + 1) * parameters.step);
-                if (k >= kSettling) {
-                    steps.push_back(now() - begin);
-                    droplets += static_cast<double>(state.droplets.size()) / kSteps;
+                state = advanceFlow(std::move(state), scene, parameters, frame / kRate);
+                const std::vector<FlowSample> samples = sampleFlow(state, scene, parameters);
+                const double between = now();
+                const Surface surface = dropletSurfaces(samples, bodies, parameters.gravity);
+                if (frame > kSettling) {
+                    shapes.push_back(now() - between);
+                    motion.push_back(between - begin);
+                    droplets += static_cast<double>(samples.size()) / kFrames;
                 }
             }
-            const double time = median(steps);
+            const double time = median(motion);
             logs.push_back({std::log(droplets), std::log(time)});
-            std::printf("| %.0f | %.1f m² | %zu | %.3f ms | %.0f ns |\n", droplets, side * side, threads, 1e3 * time,
-                        1e9 * time / droplets);
+            std::printf("| %.0f | %.1f m² | %zu | %.2f ms | %.2f µs | %.0f | %.2f ms |\n", droplets, side * side,
+                        threads, 1e3 * time, 1e6 * time / droplets, 1.0 / time, 1e3 * median(shapes));
             std::fflush(stdout);
         }
-        Vec2 mean;
-        for (const Vec2 p : logs) {
-            mean = mean + (1.0 / static_cast<double>(logs.size())) * p;
-        }
-        double across = 0.0;
-        double along = 0.0;
-        for (const Vec2 p : logs) {
-            along += (p.x - mean.x) * (p.y - mean.y);
-            across += (p.x - mean.x) * (p.x - mean.x);
-        }
-        std::printf("| exponent | | %zu | %.2f | |\n", threads, along / across);
-    }
-}
-
-void timeFrames(bool is_quick)
-{
-    constexpr double kRate = 24.0;
-    constexpr int kFrames = 31;
-    const FlowObject object = presetObject(PresetObject::Bottle, 4.5);
-    const FlowScene scene(flowSurface(object.positions, object.triangles));
-    const DropletBodies bodies(BodyShape::Capillary);
-    std::printf("\n| %zu triangles, droplets | running | threads | motion per frame | frames/s | shapes per frame |\n",
-                scene.surface().faces.size());
-    std::puts("| ---: | ---: | ---: | ---: | ---: | ---: |");
-    for (const std::size_t threads : {1U, 2U}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        FlowParameters parameters = running();
-        parameters.friction = 2e-6;
-        ScatterOptions scatter;
-        scatter.count = is_quick ? 1000 : 10'000;
-        scatter.volumes = {0.1e-9, 0.3};
-        FlowState state = startFlow(scene, parameters, scatterDroplets(scene, scatter));
-        std::vector<double> motion;
-        std::vector<double> shapes;
-        double droplets = 0.0;
-        double moving = 0.0;
-        for (int frame = 1; frame <= kFrames; ++frame) {
-            const double begin = now();
-            state = advanceFlow(std::move(state), scene, parameters, frame / kRate);
-            const std::vector<FlowSample> samples = sampleFlow(state, scene, parameters);
-            const double between = now();
-            const Surface surface = dropletSurfaces(samples, bodies, parameters.gravity);
-            shapes.push_back(now() - between);
-            motion.push_back(between - begin);
-            droplets += static_cast<double>(samples.size()) / kFrames;
-            moving += static_cast<double>(std::count_if(samples.begin(), samples.end(),
-                                                        [](const FlowSample& s) {
-                                                            return s.contact == FlowContact::Face ||
-                                                                   s.contact == FlowContact::Edge;
-                                                        })) /
-                      kFrames;
-        }
-        const double time = median(motion);
-        std::printf("| %.0f | %.0f | %zu | %.2f ms | %.0f | %.2f ms |\n", droplets, moving, threads, 1e3 * time,
-                    1.0 / time, 1e3 * median(shapes));
-        std::fflush(stdout);
+        std::printf("| exponent | | %zu | %.2f | | | |\n", threads, slopeOf(logs));
     }
 }
 
@@ -217,7 +186,6 @@ int main(int argc, char** argv)
     }
     try {
         timeTraversal();
-        timeGrowth(is_quick);
         timeFrames(is_quick);
         return 0;
     } catch (const std::exception& error) {

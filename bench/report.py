@@ -368,8 +368,8 @@ Frames of 1280 × 720 pixels with 1000 large droplets and 200 000 small ones, wi
 
 ## Droplets on meshes
 
-Droplets that run down a slope from edge to edge, one thread; steps of droplets that merge, with 5000 per square metre; frames
-of 1/24 s on a bottle. Motion includes merging and streaks; shapes are the meshes of all droplets.
+Droplets that run down a slope from edge to edge; frames of 1/24 s with droplets that merge, 5000 per square metre, on 100 000
+triangles. Motion includes merging and streaks; shapes are the meshes of all droplets.
 
 {flow}
 """
