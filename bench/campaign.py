@@ -248,4 +248,6 @@ def run(root, build, native, quick):
     results["windshield"] = tables(build / "bench" / "bench_windshield", f"--hour={60 if quick else 600}")
     log("the driver's view")
     results["view"] = tables(build / "bench" / "bench_view")
+    log("droplets on meshes")
+    results["flow"] = tables(build / "bench" / "bench_flow", *(["--quick"] if quick else []))
     return results

@@ -365,6 +365,13 @@ missing, relative to all rain.
 Frames of 1280 × 720 pixels with 1000 large droplets and 200 000 small ones, without encoding.
 
 {view}
+
+## Droplets on meshes
+
+Droplets that run down a slope from edge to edge; frames of 1/24 s with droplets that merge, 5000 per square metre, on 100 000
+triangles. Motion includes merging and streaks; shapes are the meshes of all droplets.
+
+{flow}
 """
 
 PROFILE_BEGINS = "<!-- begin: written by scripts/bench -->\n"
@@ -386,7 +393,7 @@ def write(data, folder):
                        difference=small(max(both["difference"] for both in data["freefem"].values())),
                        other=other_stages(results), pixels=pixel_growth(results),
                        threads=threads_and_instructions(results), tunnel=data["tunnel"],
-                       windshield=data["windshield"], view=data["view"])
+                       windshield=data["windshield"], view=data["view"], flow=data["flow"])
     if table_of_grading := grading(results):
         text += "\n" + GRADING.format(grading=table_of_grading)
     (folder / "RESULTS.md").write_text(text)

@@ -32,6 +32,15 @@ constexpr Range kPlace{Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
 constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"};
 constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such as 30deg/s"};
 
+std::string presetNames()
+{
+    std::string names;
+    for (const droplet::FlowPreset& preset : droplet::flowPresets()) {
+        names += (names.empty() ? "" : "|") + preset.name;
+    }
+    return names;
+}
+
 const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape flow", "let droplets run over a mesh", "[OPTIONS] OBJECT OUTPUT",
@@ -45,11 +54,12 @@ const CommandText& commandText()
                                   "Examples:\n"
                                   "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
                                   "  droplet-shape flow car.stl 'rain-%04d.obj' --size 4.5m --rain 25mm/h\n"
+                                  "  droplet-shape flow --preset bottle bottle.glb\n"
                                   "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets out.csv\n"
                                   "\n"
                                   "Exit codes:\n"
-                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable;\n"
-                                  "  4 output cannot be written"};
+                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for\n"
+                                  "  droplets; 4 output cannot be written"};
     return text;
 }
 
@@ -61,6 +71,8 @@ void declare(CommandLine& line)
                      "out/%04d.obj, .glb, .ply or .stl; pictures, out/%04d.png; a .png of the last frame; or a video, "
                      ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kObject = "Object";
+    line.add(kObject, "--preset", presetNames().c_str(),
+             "Named scene with its own object and droplets, instead of OBJECT; other options change it");
     line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]");
     line.add(kObject, "--size", "LENGTH", "Longest side of the object; scales it");
     line.exclude({"--scale", "--size"});
@@ -229,7 +241,9 @@ double inUnit(const Given& given, std::string_view unit, const NumberRange& rang
 
 void readObject(const CommandLine& line, FlowOptions& options)
 {
-    options.object = line.argument("OBJECT");
+    if (!options.preset) {
+        options.object = line.argument("OBJECT");
+    }
     if (const auto scale = line.value("--scale")) {
         options.reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
     }
@@ -302,10 +316,10 @@ void readSources(const CommandLine& line, FlowOptions& options)
     if (options.from && options.drops == 0 && !parameters.rain) {
         refuse("--from needs --drops or --rain");
     }
-    options.has_source = options.drops > 0 || options.start || !parameters.emitters.empty() || parameters.rain ||
-                         parameters.condensation;
+    options.has_source = options.preset || options.drops > 0 || options.start || !parameters.emitters.empty() ||
+                         parameters.rain || parameters.condensation;
     if (!options.has_source) {
-        refuse("no droplets are asked for; give --drops, --start, --emitter, --rain or --condensation");
+        refuse("no droplets are asked for; give --preset, --drops, --start, --emitter, --rain or --condensation");
     }
 }
 
@@ -338,6 +352,9 @@ void readMaterial(const Given& given, FlowOptions& options)
 void readMotion(const CommandLine& line, FlowOptions& options)
 {
     droplet::FlowParameters& parameters = options.parameters;
+    if (options.preset) {
+        parameters = options.preset->parameters;
+    }
     parameters.forces = readForces(line, parameters.forces);
     if (const auto model = line.value("--model")) {
         parameters.model = choice<droplet::FlowModel>(
@@ -368,8 +385,8 @@ void readMotion(const CommandLine& line, FlowOptions& options)
     if (const auto wind = line.value("--wind")) {
         parameters.wind = vector(*wind, kSpeed);
     }
-    parameters.merges = !line.flag("--no-merge");
-    parameters.wets = !line.flag("--no-wetting");
+    parameters.merges = parameters.merges && !line.flag("--no-merge");
+    parameters.wets = parameters.wets && !line.flag("--no-wetting");
     readQuantity(line, "--film", kFilm, parameters.streaks.film);
     readQuantity(line, "--bead-spacing", kSpacing, parameters.streaks.spacing);
     if (const auto drying = line.value("--drying")) {
@@ -384,9 +401,39 @@ void readMotion(const CommandLine& line, FlowOptions& options)
     }
 }
 
+/// OUTPUT; with a preset it is the only argument.
+std::string outputOf(const CommandLine& line, const FlowOptions& options)
+{
+    if (!options.preset) {
+        return line.argument("OUTPUT");
+    }
+    if (!line.values("OUTPUT").empty()) {
+        refuse("--preset has its own object; give OUTPUT alone, not '" + line.argument("OBJECT") + "'");
+    }
+    if (line.values("OBJECT").empty()) {
+        return line.argument("OUTPUT");
+    }
+    return line.argument("OBJECT");
+}
+
+/// Refuses options that a preset leaves without effect.
+void readPreset(const CommandLine& line, FlowOptions& options)
+{
+    const auto preset = line.value("--preset");
+    if (!preset) {
+        return;
+    }
+    options.preset = forOption("--preset", [&] { return droplet::flowPresetNamed(preset->text); });
+    for (const char* option : {"--scale", "--size", "--up", "--no-animation"}) {
+        if (line.value(option) || line.flag(option)) {
+            refuse(std::string(option) + " needs OBJECT, not --preset");
+        }
+    }
+}
+
 void readOutputs(const CommandLine& line, FlowOptions& options)
 {
-    options.output = line.argument("OUTPUT");
+    options.output = outputOf(line, options);
     const Given output{options.output, "OUTPUT"};
     options.files = NumberedPath::of(options.output, "OUTPUT");
     const std::string extension = std::filesystem::path(options.output).extension().string();
@@ -411,6 +458,12 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         if (line.value(option) && !is_picture) {
             refuse(std::string(option) + " needs pictures or a video as OUTPUT, not '" + options.output + "'");
         }
+    }
+    if (options.preset) {
+        options.view.camera = options.preset->camera;
+    }
+    if (line.value("--view")) {
+        options.view.camera.reset();
     }
     readView(line, options.view);
     options.codec = text(line, "--codec");
@@ -478,6 +531,7 @@ std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* ar
         return *text;
     }
     FlowOptions options;
+    readPreset(line, options);
     readMotion(line, options);
     readObject(line, options);
     readSources(line, options);

@@ -12,6 +12,7 @@
 #include "droplet/flow/flow_parameters.h"
 #include "droplet/flow_io/flow_ground.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/flow_io/flow_presets.h"
 #include "droplet/io/output.h"
 #include "droplet/surface/material.h"
 #include "numbered_path.h"
@@ -36,7 +37,7 @@ struct FlowOptions {
     std::string output;                 ///< path
     FlowOutput kind = FlowOutput::Animation;
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
-    std::optional<std::string> preset;
+    std::optional<droplet::FlowPreset> preset;
     droplet::FlowObjectOptions reading;
     bool keeps_animation = true;         ///< the object moves as its file says
     std::optional<std::string> motion;   ///< path of keys

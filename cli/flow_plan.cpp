@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -38,8 +39,12 @@ void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& 
 std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowPlan& plan)
 {
     std::vector<droplet::FlowStart> starts;
+    if (options.preset) {
+        starts = options.preset->starts;
+    }
     if (options.start) {
-        starts = droplet::readFlowStart(*options.start);
+        const auto read = droplet::readFlowStart(*options.start);
+        starts.insert(starts.end(), read.begin(), read.end());
     }
     if (options.drops > 0) {
         droplet::ScatterOptions scatter;
@@ -61,7 +66,11 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
 
 droplet::FlowGround groundOf(const FlowOptions& options, const FlowPlan& plan)
 {
-    if (!options.roughness_map && !options.friction_map && options.materials.empty()) {
+    std::map<std::string, droplet::MaterialGround> materials = options.materials;
+    if (options.preset) {
+        materials.insert(options.preset->materials.begin(), options.preset->materials.end());
+    }
+    if (!options.roughness_map && !options.friction_map && materials.empty()) {
         return {};
     }
     droplet::FlowGroundOptions ground;
@@ -73,21 +82,28 @@ droplet::FlowGround groundOf(const FlowOptions& options, const FlowPlan& plan)
     if (options.friction_map) {
         ground.friction_picture = droplet::readHeightMap(*options.friction_map);
     }
-    ground.materials = options.materials;
+    ground.materials = std::move(materials);
     return forOption("--roughness-map, --friction-map, --ground",
                      [&] { return droplet::flowGround(plan.object, plan.scene.surface(), ground); });
 }
 
 }  // namespace
 
+std::string nameOfObject(const FlowOptions& options)
+{
+    return options.preset ? "preset " + options.preset->name : *options.object;
+}
+
 FlowPlan planOf(const FlowOptions& options)
 {
-    droplet::FlowObject object = droplet::readFlowObject(*options.object, options.reading);
+    const std::string name = nameOfObject(options);
+    droplet::FlowObject object = options.preset ? droplet::presetObject(options.preset->object)
+                                                : droplet::readFlowObject(*options.object, options.reading);
     droplet::FlowSurface surface =
-        forOption(*options.object, [&] { return droplet::flowSurface(object.positions, object.triangles); });
+        forOption(name, [&] { return droplet::flowSurface(object.positions, object.triangles); });
     FlowPlan plan{std::move(object), droplet::FlowScene(std::move(surface)), options.parameters, {}, 1, {}};
     plan.warnings = plan.object.warnings;
-    warnOfDefects(plan.scene.surface().report, *options.object, plan.warnings);
+    warnOfDefects(plan.scene.surface().report, name, plan.warnings);
     if (options.keeps_animation) {
         plan.parameters.motion = plan.object.motion;
     } else if (options.motion) {
@@ -95,7 +111,7 @@ FlowPlan planOf(const FlowOptions& options)
     }
     plan.parameters.ground = groundOf(options, plan);
     plan.starts = startsOf(options, plan);
-    const double duration = options.duration.value_or(kDefaultDuration);
+    const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
     plan.frames =
         std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
     return plan;

@@ -21,6 +21,9 @@ struct FlowPlan {
     std::vector<std::string> warnings;
 };
 
+/// Path of the object, or name of the preset that has it.
+std::string nameOfObject(const FlowOptions& options);
+
 /// Reads the options' files and makes the plan.
 /// @throws droplet::Error InvalidArgument, InvalidInput
 FlowPlan planOf(const FlowOptions& options);

@@ -136,7 +136,7 @@ FlowRun::FlowRun(const FlowOptions& options)
         maps.drying = plan_.parameters.drying;
         mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.scene, maps); });
     }
-    report_.input = *options_.object;
+    report_.input = nameOfObject(options_);
     report_.surface = plan_.scene.surface().report;
     droplet::Vec3 low = plan_.object.positions.front();
     droplet::Vec3 high = low;

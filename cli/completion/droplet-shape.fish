@@ -85,6 +85,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from compare' -l normal-tol
 complete -c droplet-shape -n '__fish_seen_subcommand_from compare' -l picture -r -F -d 'Draw A as PNG, coloured by its distance outside or inside B; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from compare flow wind-tunnel windshield' -l quiet -s q -d 'Print only errors'
 complete -c droplet-shape -n '__fish_seen_subcommand_from compare' -l config -r -F -d 'Read options from a TOML file with lines such as tolerance = "0.01mm"; the command line takes precedence'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l preset -x -a 'masses viscosities adhesions roughnesses tear forces bottle leaf car' -d 'Named scene with its own object and droplets, instead of OBJECT; other options change it'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l scale -x -d 'Factor on the lengths of the file'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l size -x -d 'Longest side of the object; scales it'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l up -x -a 'y z' -d 'Axis that points up in an .obj, .ply or .stl'

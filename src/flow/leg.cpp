@@ -94,7 +94,7 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
     // Times e^{decay t} the velocity is monotone: there is at most one extremum.
     double begin = from;
     std::optional<double> lowest;
-    const double speed = velocityAt(from);
+    const double speed = from == 0.0 ? velocity : velocityAt(from);  // the same number, sooner
     if (speed > 0.0 || (speed == 0.0 && push >= 0.0)) {
         if (push >= 0.0) {
             return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
     if (!(begin < to)) {
         return std::nullopt;
     }
-    double low = placeAt(begin);
+    double low = begin == 0.0 ? place : placeAt(begin);
     if (low <= 0.0) {
         return !lowest || begin < *lowest ? std::optional(begin) : std::nullopt;
     }
@@ -134,7 +134,7 @@ std::optional<double> Coordinate::fallsBelowZero(double from, double to) const
     }
     // Newton's method inside of a bracket, on a monotone piece.
     double time = begin;
-    double slope = velocityAt(time);
+    double slope = begin == from ? speed : velocityAt(time);
     for (int i = 0; i < 100; ++i) {
         double next = slope < 0.0 ? time - low / slope : begin;
         if (!(next > begin && next < end)) {

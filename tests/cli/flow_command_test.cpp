@@ -170,6 +170,29 @@ TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
     }
 }
 
+TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)
+{
+    const auto preset = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"flow", "--preset"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    };
+    const CommandResult tear = preset({"tear", path("tear.glb"), "--json", path("tear.json"), "--droplets",
+                                       path("tear.csv"), "--fps", "10", "--quiet"});
+    ASSERT_EQ(tear.exit_code, 0) << tear.error;
+    const auto report = nlohmann::json::parse(readFile(path("tear.json")));
+    EXPECT_EQ(report["input"]["path"], "preset tear");
+    EXPECT_EQ(report["model"]["motion"], "paper");
+    EXPECT_EQ(report["counts"]["launches"], 1);
+    EXPECT_EQ(rows("tear.csv").front().size(), 11U);
+    EXPECT_EQ(preset({"bottle", path("b.glb"), "--time", "0.1s", "--quiet"}).exit_code, 0);
+    EXPECT_THAT(preset({"tears", path("x.glb")}).error, HasSubstr("masses, viscosities, adhesions"));
+    EXPECT_THAT(preset({"tear", path("slope.obj"), path("x.glb")}).error, HasSubstr("its own object"));
+    EXPECT_THAT(preset({"tear", path("x.glb"), "--size", "3cm"}).error, HasSubstr("--size needs OBJECT"));
+    EXPECT_THAT(preset({"tear"}).error, HasSubstr("OUTPUT"));
+    EXPECT_FALSE(std::filesystem::exists(path("x.glb")));
+}
+
 TEST_F(FlowCommand, RefusesWhatItCannotUse)
 {
     expectRefused({}, 2, "no droplets are asked for");
