@@ -17,6 +17,13 @@ struct Item {
     std::vector<std::byte> bytes;  ///< encoded picture; a greymap (P5) is read as with --channel luma
 };
 
+/// Bytes of a text.
+inline std::vector<std::byte> bytesOf(const std::string& text)
+{
+    const auto* const begin = reinterpret_cast<const std::byte*>(text.data());
+    return {begin, begin + text.size()};
+}
+
 struct Verdict;
 
 /// Items that are generated one by one, reproducibly.
@@ -68,5 +75,9 @@ Corpus hostileDrawings();
 Corpus brokenDrawings();
 Corpus brokenMeshes();
 Corpus brokenFonts();
+
+/// 200 meshes over which droplets run for half a second: soups, strips, folds, needles, copies, numbers that are none.
+/// All liquid must be accounted for, and no droplet may leave its face.
+Corpus strayMeshes();
 
 }  // namespace droplet::torture

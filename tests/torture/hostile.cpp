@@ -25,12 +25,6 @@
 namespace droplet::torture {
 namespace {
 
-std::vector<std::byte> bytesOf(const std::string& text)
-{
-    const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    return {first, first + text.size()};
-}
-
 /// File to break, and the positions of its crucial numbers.
 struct Seed {
     std::string name;

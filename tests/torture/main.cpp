@@ -180,7 +180,7 @@ std::size_t runAll(const Options& options)
     std::size_t failed = 0;
     bool found = false;
     for (const auto& make : {smoothGlyphs, hardGlyphs, icons, whiteNoise, randomWorlds, adversaries, patterns,
-                             encodedNoise, hostileDrawings, brokenDrawings, brokenMeshes, brokenFonts}) {
+                             encodedNoise, hostileDrawings, brokenDrawings, brokenMeshes, brokenFonts, strayMeshes}) {
         const Corpus corpus = make();
         if (options.corpus.empty() || corpus.name == options.corpus) {
             found = true;
