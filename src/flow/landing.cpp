@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A flight is a parabola: chords that stray from it by less than floats can tell find the face, the parabola itself the
-// time.
+// time. Only its parts near the surface are followed.
 #include "flow/landing.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "rays/embree_device.h"
@@ -17,8 +18,18 @@ namespace {
 
 // Chords stray from the parabola by at most this share of the surface's size.
 constexpr double kSagitta = 1e-6;
+// Flights are followed in the bounding cube of the surface and this much around it, over half the cube's side.
+constexpr double kMargin = 1e-3;
 // A flight that ends sooner has not left the surface [s].
 constexpr double kShortestFlight = 1e-9;
+
+/// Where a t² + b t + c is 0; infinite or not a number where there are fewer zeros.
+std::array<double, 2> zerosOf(const std::array<double, 3>& coefficients)
+{
+    const auto [a, b, c] = coefficients;
+    const double q = -0.5 * (b + std::copysign(std::sqrt(b * b - 4.0 * a * c), b));  // without cancellation
+    return {q / a, c / q};
+}
 
 }  // namespace
 
@@ -42,6 +53,36 @@ struct Landing::Scene {
         return length(place - nearestPoint(place, face.corners)) <= 2.0 * kSagitta * size
                    ? std::optional(flight.begin + *time)
                    : std::nullopt;
+    }
+
+    /// Half the side of the cube that flights are followed in [m].
+    [[nodiscard]] double reach() const { return (1.0 + kMargin) * size; }
+
+    [[nodiscard]] bool isNear(Vec3 place) const
+    {
+        const Vec3 p = place - middle;
+        return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= reach();
+    }
+
+    /// When a flight passes a plane of the cube's sides, in order, between its begin and its end.
+    [[nodiscard]] std::vector<double> passages(const Leg& flight, double from, double to) const
+    {
+        std::vector<double> times{from, to};
+        const auto add = [&](double place, double speed, double push) {
+            for (const double plane : {-reach(), reach()}) {
+                for (const double time : zerosOf({0.5 * push, speed, place - plane})) {
+                    if (flight.begin + time > from && flight.begin + time < to) {
+                        times.push_back(flight.begin + time);
+                    }
+                }
+            }
+        };
+        const Vec3 p = flight.place - middle;
+        add(p.x, flight.velocity.x, flight.push.x);
+        add(p.y, flight.velocity.y, flight.push.y);
+        add(p.z, flight.velocity.z, flight.push.z);
+        std::sort(times.begin(), times.end());
+        return times;
     }
 
     struct Context : RTCIntersectContext {
@@ -128,27 +169,24 @@ std::optional<Landing::Hit> Landing::next(const Leg& flight, double from, double
     const Scene& s = *scene_;
     const double pull = length(flight.push);
     const double chord = pull > 0.0 ? std::sqrt(8.0 * kSagitta * s.size / pull) : to - from;
-    double begin = from;
-    while (begin < to) {
-        const double end = std::min(begin + chord, to);
-        const Vec3 p = (1.0 / s.size) * (flight.placeAt(begin) - s.middle);
-        const Vec3 way = (1.0 / s.size) * (flight.placeAt(end) - s.middle) - p;
-        // Beyond the surface, on its way out for ever: both on the far side of a plane, and pulled farther.
-        const auto is_gone = [&](double place, double speed, double push) {
-            return std::abs(place) > 1.0 && place * speed >= 0.0 && place * push >= 0.0;
-        };
-        const Vec3 speed = flight.velocityAt(begin);
-        if (is_gone(p.x, speed.x, flight.push.x) || is_gone(p.y, speed.y, flight.push.y) ||
-            is_gone(p.z, speed.z, flight.push.z)) {
-            return std::nullopt;
+    const std::vector<double> passages = s.passages(flight, from, to);
+    for (std::size_t k = 1; k < passages.size(); ++k) {
+        if (!s.isNear(flight.placeAt(std::midpoint(passages[k - 1], passages[k])))) {
+            continue;
         }
-        if (const auto number = s.firstOn(p, way, 1.0F, &flight)) {
-            const FlowSurface::Face& face = (*s.faces)[*number];
-            Hit hit{*s.meets(flight, face), *number, {}};
-            hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
-            return hit;
+        double begin = passages[k - 1];
+        while (begin < passages[k]) {
+            const double end = std::min(std::max(begin + chord, std::nextafter(begin, to)), passages[k]);
+            const Vec3 p = (1.0 / s.size) * (flight.placeAt(begin) - s.middle);
+            const Vec3 way = (1.0 / s.size) * (flight.placeAt(end) - s.middle) - p;
+            if (const auto number = s.firstOn(p, way, 1.0F, &flight)) {
+                const FlowSurface::Face& face = (*s.faces)[*number];
+                Hit hit{*s.meets(flight, face), *number, {}};
+                hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
+                return hit;
+            }
+            begin = end;
         }
-        begin = end;
     }
     return std::nullopt;
 }
