@@ -162,6 +162,9 @@ private:
             if (!keeps_heading || dot(d_.heading, direction) < kStraight * size) {
                 d_.heading = (1.0 / size) * direction;
             }
+            const Vec3& normal = faces_[d_.face].normal;  // that of the last face may have been another
+            const Vec3 on = d_.heading - dot(d_.heading, normal) * normal;
+            d_.heading = (1.0 / length(on)) * on;
             friction = (grip.retention * f_.sliding) * d_.heading;
         }
         d_.leg = {time_, place, velocity, push - friction, grip.friction * f_.decay};
