@@ -20,7 +20,7 @@ namespace {
 constexpr double kSagitta = 1e-6;
 // Flights are followed in the bounding cube of the surface and this much around it, over half the cube's side.
 constexpr double kMargin = 1e-3;
-// A flight that ends sooner has not left the surface [s].
+// A flight that ends sooner has not left the surface [s], unless it goes on over another part of it.
 constexpr double kShortestFlight = 1e-9;
 
 /// Where a t² + b t + c is 0; infinite or not a number where there are fewer zeros.
@@ -40,18 +40,35 @@ struct Landing::Scene {
     Vec3 middle;
     double size = 0.0;  // half the longest side of the bounding box [m]
 
+    /// A flight, and the face that it left.
+    struct Flight {
+        const Leg& leg;
+        std::uint32_t left = 0;
+    };
+
     /// When the flight meets a face from outside, after it began; empty if it does not.
-    [[nodiscard]] std::optional<double> meets(const Leg& flight, const FlowSurface::Face& face) const
+    [[nodiscard]] std::optional<double> meets(const Flight& flight, std::uint32_t number) const
     {
-        const Coordinate above{dot(flight.place - face.corners[0], face.normal), dot(flight.velocity, face.normal),
-                               dot(flight.push, face.normal), 0.0};
+        const Leg& leg = flight.leg;
+        const FlowSurface::Face& face = (*faces)[number];
+        const Coordinate above{dot(leg.place - face.corners[0], face.normal), dot(leg.velocity, face.normal),
+                               dot(leg.push, face.normal), 0.0};
         const auto time = above.fallsBelowZero(0.0, std::numeric_limits<double>::infinity());
-        if (!time || *time < kShortestFlight) {
+        const bool goes_on = number != flight.left && dot(face.normal, (*faces)[flight.left].normal) > 0.0;
+        if (!time || (*time < kShortestFlight && !goes_on)) {
             return std::nullopt;
         }
-        const Vec3 place = flight.placeAt(flight.begin + *time);
+        const Vec3 place = leg.placeAt(leg.begin + *time);
+        // A droplet that is beyond a side without a neighbour, or that it has just left, lands if it comes nearer.
+        const Vec3 velocity = leg.velocityAt(leg.begin + *time);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((number == flight.left || face.neighbour[k] == FlowSurface::kNone) &&
+                dot(place - face.corners[k], face.inward[k]) < 0.0 && dot(velocity, face.inward[k]) <= 0.0) {
+                return std::nullopt;
+            }
+        }
         return length(place - nearestPoint(place, face.corners)) <= 2.0 * kSagitta * size
-                   ? std::optional(flight.begin + *time)
+                   ? std::optional(leg.begin + *time)
                    : std::nullopt;
     }
 
@@ -87,11 +104,12 @@ struct Landing::Scene {
 
     struct Context : RTCIntersectContext {
         const Scene* scene = nullptr;
-        const Leg* flight = nullptr;
+        const Flight* flight = nullptr;
     };
 
     /// First face on a ray, in units of the scene; of a flight, first face that it meets.
-    [[nodiscard]] std::optional<std::uint32_t> firstOn(Vec3 origin, Vec3 direction, float end, const Leg* flight) const
+    [[nodiscard]] std::optional<std::uint32_t> firstOn(Vec3 origin, Vec3 direction, float end,
+                                                       const Flight* flight) const
     {
         RTCRayHit ray{};
         ray.ray.org_x = static_cast<float>(origin.x);
@@ -115,7 +133,7 @@ struct Landing::Scene {
     {
         const auto& context = *static_cast<const Context*>(arguments->context);
         const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);  // of one ray at a time
-        if (context.flight != nullptr && !context.scene->meets(*context.flight, (*context.scene->faces)[hit->primID])) {
+        if (context.flight != nullptr && !context.scene->meets(*context.flight, hit->primID)) {
             arguments->valid[0] = 0;
         }
     }
@@ -164,9 +182,10 @@ Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
 Landing::~Landing() = default;
 Landing::Landing(Landing&& other) noexcept = default;
 
-std::optional<Landing::Hit> Landing::next(const Leg& flight, double from, double to) const
+std::optional<Landing::Hit> Landing::next(const Leg& flight, std::uint32_t left, double from, double to) const
 {
     const Scene& s = *scene_;
+    const Scene::Flight whole{flight, left};
     const double pull = length(flight.push);
     const double chord = pull > 0.0 ? std::sqrt(8.0 * kSagitta * s.size / pull) : to - from;
     const std::vector<double> passages = s.passages(flight, from, to);
@@ -177,11 +196,14 @@ std::optional<Landing::Hit> Landing::next(const Leg& flight, double from, double
         double begin = passages[k - 1];
         while (begin < passages[k]) {
             const double end = std::min(std::max(begin + chord, std::nextafter(begin, to)), passages[k]);
-            const Vec3 p = (1.0 / s.size) * (flight.placeAt(begin) - s.middle);
+            Vec3 p = (1.0 / s.size) * (flight.placeAt(begin) - s.middle);
+            if (begin == flight.begin) {
+                p = p + (2.0 * kSagitta) * (*s.faces)[left].normal;  // above a part that continues the face
+            }
             const Vec3 way = (1.0 / s.size) * (flight.placeAt(end) - s.middle) - p;
-            if (const auto number = s.firstOn(p, way, 1.0F, &flight)) {
+            if (const auto number = s.firstOn(p, way, 1.0F, &whole)) {
                 const FlowSurface::Face& face = (*s.faces)[*number];
-                Hit hit{*s.meets(flight, face), *number, {}};
+                Hit hit{*s.meets(whole, *number), *number, {}};
                 hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
                 return hit;
             }

@@ -25,9 +25,10 @@ public:
 
     /// The first face that the flight meets from outside.
     /// @param flight  without friction: a parabola
+    /// @param left    face that the droplet left
     /// @param from    [s], ≥ flight.begin
     /// @param to      [s]
-    [[nodiscard]] std::optional<Hit> next(const Leg& flight, double from, double to) const;
+    [[nodiscard]] std::optional<Hit> next(const Leg& flight, std::uint32_t left, double from, double to) const;
 
     /// The first face that a ray meets, from either side. The hit's time is without meaning.
     /// @param direction  not 0

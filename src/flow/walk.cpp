@@ -24,8 +24,9 @@ constexpr double kCone = 0.017455;
 constexpr double kStraight = 0.99984;
 // A velocity less than this share of what it was, and gained since, is 0.
 constexpr double kStop = 1e-9;
-// So many events at one time are without end.
+// So many events within so short a time [s] are without end.
 constexpr int kMaxEventsAtOnce = 1000;
+constexpr double kOnce = 1e-6;
 
 class Walk {
 public:
@@ -52,12 +53,16 @@ public:
     WalkCounts until(double end)
     {
         int at_once = 0;
+        double begin = time_;
         while (time_ < end) {
-            const double before = time_;
             if (!advance(end)) {
                 break;
             }
-            at_once = time_ > before ? 0 : at_once + 1;
+            ++at_once;
+            if (time_ > begin + kOnce) {
+                at_once = 0;
+                begin = time_;
+            }
             if (at_once > kMaxEventsAtOnce) {
                 stop(d_.leg.placeAt(time_));
                 ++counts_.stuck;
@@ -497,7 +502,7 @@ private:
 
     bool advanceInAir(double end)
     {
-        const auto hit = landing_.next(d_.leg, time_, end);
+        const auto hit = landing_.next(d_.leg, d_.face, time_, end);
         if (!hit) {
             return false;
         }

@@ -288,6 +288,52 @@ TEST(Walk, FallsOffTheBoundaryAndLandsBelow)
     EXPECT_NEAR(droplet.leg.begin, t1 + t2, 1e-2);
 }
 
+TEST(Walk, GoesOnOverPartsThatTouch)
+{
+    // Strips of a slope, each cut in its own way, whose edges differ by the rounding of floats.
+    const double slope = 30.0 * kDegree;
+    Mesh mesh;
+    for (std::uint32_t k = 0; k < 6; ++k) {
+        const Mesh strip = gridOf(2 * k + 1, k % 3 + 1, [](double, double) { return 0.0; });
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const Vec3 p : strip.positions) {
+            const double y = (k + p.y) / 6.0 + (k % 2 == 0 ? 3e-8 : -3e-8) * std::sin(40.0 * p.x);
+            mesh.positions.push_back({p.x, y, std::tan(slope) * y + 3e-8 * std::cos(30.0 * p.x + k)});
+        }
+        for (const auto& [a, b, c] : strip.triangles) {
+            mesh.triangles.push_back({a + first, b + first, c + first});
+        }
+    }
+    const Ground run(mesh);
+    ASSERT_EQ(run.surface.report.parts, 6U);
+    const WalkForces f = forces(20.0);
+    // Falls over five gaps of up to 6e-8 m, without friction as long as they take.
+    const double gain = 5.0 * std::sqrt(2.0 * 6e-8 / 9.81) * 9.81 * std::sin(slope) / f.decay;
+    for (int i = 1; i < 40; ++i) {
+        FlowDroplet droplet = run.dropletAt(f, {i / 40.0, 0.97}, {0.05, 0.0, 0.0});
+        const Leg whole = droplet.leg;
+        walk({run.surface, run.landing}, f, droplet, 3.0);
+        EXPECT_EQ(droplet.contact, FlowContact::Face) << i;
+        EXPECT_LE(length(droplet.leg.placeAt(3.0) - whole.placeAt(3.0)), gain) << i;
+    }
+}
+
+TEST(Walk, StaysOnFacesThatBendLessThanItsHeading)
+{
+    const Ground run(gridOf(10, 40, [](double x, double y) { return 0.6 * y + 0.02 * y * y + 0.01 * x * x; }));
+    WalkForces f = forces(2.0);
+    f.sliding = 0.5;
+    f.retention = 0.5;
+    FlowDroplet droplet = run.dropletAt(f, {0.4, 0.95});
+    std::uint64_t crossings = 0;
+    for (int k = 1; k < 50; ++k) {
+        const double time = 0.01 * k;
+        crossings += walk({run.surface, run.landing}, f, droplet, time).crossings;
+        ASSERT_LE(run.distance(droplet, time), 1e-12);
+    }
+    EXPECT_GT(crossings, 10U);
+}
+
 TEST(Walk, RunsAlongAValley)
 {
     const auto gutter = [](double x, double y) { return std::abs(x - 0.5) + 0.3 * y; };
