@@ -38,6 +38,11 @@ TEST(FuzzReplay, Mask)
     replay("mask", fuzzMask);
 }
 
+TEST(FuzzReplay, Object)
+{
+    replay("object", fuzzObject);
+}
+
 TEST(FuzzReplay, Svg)
 {
     replay("svg", fuzzSvg);

@@ -18,4 +18,7 @@ void fuzzSvg(std::span<const std::byte> bytes);
 /// Takes the bytes as a small mask and makes a footprint mesh of it.
 void fuzzFootprint(std::span<const std::byte> bytes);
 
+/// Reads a mesh's file as an object for droplets to run over; refusals must be one line.
+void fuzzObject(std::span<const std::byte> bytes);
+
 }  // namespace droplet
