@@ -92,6 +92,9 @@ void declare(CommandLine& line)
     line.add(kDroplets, "--still-diameter", "D", "Raindrops smaller than this never move [1mm]");
     line.add(kDroplets, "--film", "LENGTH", "Thickness of the film that running droplets leave behind [0mm]");
     declareForces(line);
+    line.add(kDroplets, "--shape", "capillary|capsule",
+             "Shape of running droplets: capillary has least energy and a tail; capsule is the thesis' "
+             "[capillary, with --preset capsule]");
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "Time to show; with --drive-cycle the cycle's own [10s]");
     line.add(kTimes, "--warm-up", "DURATION", "Time of rain before the first frame [10s]");
@@ -282,7 +285,15 @@ void readView(const CommandLine& line, WindshieldOptions& options)
         options.view.highlight_boost = number(*boost, {0.0, 4.0, "a number from 0 to 4"});
     }
     options.view.shape.contact_angle = options.parameters.forces.wetting.contact_angle;
+    options.view.forces = options.parameters.forces;
+    options.view.body = line.value("--preset") ? droplet::BodyShape::Capsule : droplet::BodyShape::Capillary;
+    if (const auto shape = line.value("--shape")) {
+        options.view.body = choice<droplet::BodyShape>(
+            *shape, {{"capillary", droplet::BodyShape::Capillary}, {"capsule", droplet::BodyShape::Capsule}});
+    }
+    options.map.body = options.view.body;
     options.map.shape = options.view.shape;
+    options.map.forces = options.view.forces;
     options.layer = line.flag("--layer");
     if (const auto width = line.value("--map-width")) {
         options.map.width = static_cast<int>(count(*width, 8192, "8192"));

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "require.h"
+#include "view/body_relief.h"
 
 namespace droplet {
 namespace {
@@ -24,8 +26,18 @@ struct Drop {
     double volume = 0.0;
     RunningShape shape;
     bool may_run = false;
+    std::shared_ptr<const BodyRelief> relief = {};  ///< in place of the shape
 
-    [[nodiscard]] double reach() const { return shape.half_length + shape.silhouette(); }
+    /// Radius of a circle around the position, with the whole outline in it.
+    [[nodiscard]] double reach() const
+    {
+        return relief ? std::hypot(std::max(-relief->low.x, relief->high.x), std::max(-relief->low.y, relief->high.y))
+                      : shape.half_length + shape.silhouette();
+    }
+    [[nodiscard]] double halfWidth() const
+    {
+        return relief ? static_cast<double>(relief->half_width) : shape.silhouette();
+    }
 };
 
 /// Water at a place.
@@ -88,7 +100,7 @@ public:
     /// Number of sample places across a pixel, so that at least seven lie across the droplet.
     [[nodiscard]] double placesAcross(const Drop& drop) const
     {
-        return std::max(std::ceil(3.5 * std::max(pixel_, down_) / drop.shape.silhouette()), 2.0);
+        return std::max(std::ceil(3.5 * std::max(pixel_, down_) / drop.halfWidth()), 2.0);
     }
 
     /// Calls take(column, row, water) for all sample places on the droplet.
@@ -117,18 +129,32 @@ public:
                                 top_ - (static_cast<double>(j) + 0.5) * rows_apart - drop.position.y};
                 const double a = dot(drop.along, from);
                 const double b = cross(drop.along, from);
+                const auto take_water = [&](const Water& water) {
+                    take(static_cast<int>(i / static_cast<std::int64_t>(n)),
+                         static_cast<int>(j / static_cast<std::int64_t>(n)), water);
+                };
+                const Vec2 left_along{-drop.along.y, drop.along.x};
+                if (drop.relief) {
+                    const Vec2f place{static_cast<float>(a), static_cast<float>(b)};
+                    if (drop.relief->inside(place) > 0.0F) {
+                        const BodyRelief::Point point = drop.relief->at(place);
+                        take_water({static_cast<double>(point.height),
+                                    static_cast<double>(point.normal.x) * drop.along +
+                                        static_cast<double>(point.normal.y) * left_along,
+                                    static_cast<double>(point.normal.z)});
+                    }
+                    continue;
+                }
                 const double end = std::copysign(std::max(std::abs(a) - shape.half_length, 0.0), a);
                 const double far2 = end * end + b * b;
                 if (far2 >= wide * wide) {
                     continue;
                 }
                 const double up = std::sqrt(r2 - far2);
-                const Vec2 slope = end * drop.along + b * Vec2{-drop.along.y, drop.along.x};
+                const Vec2 slope = end * drop.along + b * left_along;
                 // Where the droplet overhangs its contact, there is air below it.
-                take(static_cast<int>(i / static_cast<std::int64_t>(n)),
-                     static_cast<int>(j / static_cast<std::int64_t>(n)),
-                     Water{std::min(up + shape.centre_height, 2.0 * up), (1.0 / shape.radius) * slope,
-                           up / shape.radius});
+                take_water(
+                    {std::min(up + shape.centre_height, 2.0 * up), (1.0 / shape.radius) * slope, up / shape.radius});
             }
         }
     }
@@ -150,17 +176,20 @@ private:
     double down_;  ///< height of a pixel [m]
 };
 
-std::vector<Drop> dropsOf(const WindshieldState& state, const ShapeOptions& options)
+std::vector<Drop> dropsOf(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
 {
+    const Reliefs reliefs(glass, options.body, options.forces);
     std::vector<Drop> drops;
     for (const StillDroplet& still : state.still.all()) {
         drops.push_back(
-            {still.position, {1.0, 0.0}, {}, still.volume, runningShape(still.volume, 0.0, options), false});
+            {still.position, {1.0, 0.0}, {}, still.volume, runningShape(still.volume, 0.0, options.shape), false});
     }
     for (const RunningDroplet& running : state.droplets) {
         const double speed = length(running.velocity);
+        const auto relief = reliefs.of(running);
         drops.push_back({running.position, speed > 0.0 ? (1.0 / speed) * running.velocity : Vec2{1.0, 0.0},
-                         running.velocity, running.volume, runningShape(running.volume, speed, options), true});
+                         running.velocity, running.volume, runningShape(running.volume, speed, options.shape), true,
+                         relief ? std::make_shared<const BodyRelief>(*relief) : nullptr});
     }
     return drops;
 }
@@ -236,7 +265,9 @@ Vec2 velocityOf(const Pixel& pixel)
 void GlassMapOptions::validate() const
 {
     requireWithin("width", width, 16, 8192);
+    checkBody(body);
     shape.validate();
+    forces.validate();
     require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
     require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");
 }
@@ -251,7 +282,7 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     maps.normal.levels.resize(3 * pixels);
     maps.thickness.levels.resize(pixels);
     maps.velocity.levels.resize(3 * pixels);
-    forRows(raster, dropsOf(state, options.shape), [&](int row, std::span<const Pixel> held) {
+    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const Pixel> held) {
         // The rounding error goes to the next wet pixel of the row; else thin water would vanish.
         double left_over = 0.0;
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
@@ -286,7 +317,7 @@ GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, 
     maps.normal.values.resize(3 * pixels);
     maps.thickness.values.resize(pixels);
     maps.velocity.values.resize(3 * pixels);
-    forRows(raster, dropsOf(state, options.shape), [&](int row, std::span<const Pixel> held) {
+    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const Pixel> held) {
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
         for (const Pixel& pixel : held) {
             const std::array<double, 3> normal = normalOf(pixel);

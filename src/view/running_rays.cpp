@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "view/body_relief.h"
 #include "view/water_optics.h"
 
 namespace droplet {
@@ -17,9 +19,10 @@ struct RunningRays::Traced {
     Vec2f along;       ///< unit direction of the motion
     GlassFrame frame;  ///< x along the motion
     Capsule capsule;
-    float wide = 0.0F;            ///< radius of the ends, seen from above [m]
-    std::uint8_t level = 0;       ///< level of the backdrop
-    std::uint8_t calm_level = 0;  ///< level of the backdrop with one ray per pixel
+    const BodyRelief* relief = nullptr;  ///< in place of the capsule
+    float wide = 0.0F;                   ///< half the width, seen from above [m]
+    std::uint8_t level = 0;              ///< level of the backdrop
+    std::uint8_t calm_level = 0;         ///< level of the backdrop with one ray per pixel
     int moment = 0;
     bool is_passing = false;  ///< true: one ray per pixel suffices, as there are many moments
     int left = 0;             ///< box of pixels that it may reach
@@ -64,10 +67,11 @@ void RunningRays::update(const std::vector<RunningDroplet>& droplets)
 RunningRays::Drawn RunningRays::drawnOf(const RunningDroplet& droplet) const
 {
     Drawn result{droplet, scene_.momentsOf(droplet.position, length(droplet.velocity)), {}};
+    const std::optional<BodyRelief> relief = scene_.reliefs.of(droplet);
     for (int moment = 0; moment < result.moments; ++moment) {
         RunningDroplet there = droplet;
         there.position = there.position + scene_.timeOf(moment, result.moments) * droplet.velocity;
-        Traced one = prepare(there);
+        Traced one = prepare(there, relief ? &*relief : nullptr);
         one.moment = moment;
         constexpr int kManyMoments = 4;
         one.is_passing = result.moments >= kManyMoments;
@@ -76,7 +80,7 @@ RunningRays::Drawn RunningRays::drawnOf(const RunningDroplet& droplet) const
     return result;
 }
 
-RunningRays::Traced RunningRays::prepare(const RunningDroplet& droplet) const
+RunningRays::Traced RunningRays::prepare(const RunningDroplet& droplet, const BodyRelief* relief) const
 {
     const ViewOptions& options = scene_.options;
     const float tangent = scene_.eye.tangent();
@@ -88,22 +92,32 @@ RunningRays::Traced RunningRays::prepare(const RunningDroplet& droplet) const
     const GlassPlace place = scene_.eye.seen(*on_glass);
     const double speed = length(droplet.velocity);
     const Vec2 along = speed > 0.0 ? (1.0 / speed) * droplet.velocity : Vec2{1.0, 0.0};
-    const RunningShape shape = runningShape(droplet.volume, speed, options.shape);
     const Vec3 right = along.x * place.across + along.y * place.up;
     const Vec3 left = along.x * place.up - along.y * place.across;
     one.position = {static_cast<float>(droplet.position.x), static_cast<float>(droplet.position.y)};
     one.along = {static_cast<float>(along.x), static_cast<float>(along.y)};
     one.frame = {toFloats(right), toFloats(left), toFloats(place.normal)};
-    one.capsule = {static_cast<float>(shape.half_length), static_cast<float>(shape.radius),
-                   static_cast<float>(shape.centre_height)};
-    one.wide = static_cast<float>(shape.silhouette());
-    const double reach = shape.half_length + shape.silhouette();
+    one.relief = relief;
+    Vec2f low;
+    Vec2f high;
+    if (relief != nullptr) {
+        one.wide = relief->half_width;
+        low = relief->low;
+        high = relief->high;
+    } else {
+        const RunningShape shape = runningShape(droplet.volume, speed, options.shape);
+        one.capsule = {static_cast<float>(shape.half_length), static_cast<float>(shape.radius),
+                       static_cast<float>(shape.centre_height)};
+        one.wide = static_cast<float>(shape.silhouette());
+        high = {one.capsule.half_length + one.wide, one.wide};
+        low = {-high.x, -high.y};
+    }
     float leftmost = 1e9F;
     float rightmost = -1e9F;
     float top = 1e9F;
     float bottom = -1e9F;
-    for (const double x : {-reach, reach}) {
-        for (const double y : {-shape.silhouette(), shape.silhouette()}) {
+    for (const double x : {low.x, high.x}) {
+        for (const double y : {low.y, high.y}) {
             const Vec3 corner = place.point + x * right + y * left;
             if (corner.y < 1e-3) {
                 return one;
@@ -158,8 +172,14 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
     const int n = options.samples;
     const float soft = one.is_passing ? tile.pixel : tile.pixel / static_cast<float>(n);
     // In its middle a droplet is smooth: one ray per pixel suffices.
-    const float calm = 0.6F * one.wide - tile.pixel;
-    const auto beyond_line = [&](float along) { return std::max(std::abs(along) - one.capsule.half_length, 0.0F); };
+    const float calm = 0.4F * one.wide + tile.pixel;
+    const auto inside_by = [&](float along, float aside) {
+        if (one.relief != nullptr) {
+            return one.relief->inside({along, aside});
+        }
+        const float end = std::max(std::abs(along) - one.capsule.half_length, 0.0F);
+        return one.wide - std::sqrt(end * end + aside * aside);
+    };
     for (int y = std::max(one.top, row * kTile); y <= std::min(one.bottom, row * kTile + kTile - 1); ++y) {
         for (int x = std::max(one.left, column * kTile); x <= std::min(one.right, column * kTile + kTile - 1); ++x) {
             const Vec2f middle = scene_.eye.place(x, y);
@@ -168,11 +188,9 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
             }
             const float dx = middle.x - one.position.x;
             const float dy = middle.y - one.position.y;
-            const float past = beyond_line(one.along.x * dx + one.along.y * dy);
-            const float aside = one.along.x * dy - one.along.y * dx;
-            const float far2 = past * past + aside * aside;
-            const float out = one.wide + 2.0F * tile.pixel;
-            if (far2 > out * out) {
+            const float inside_outline =
+                inside_by(one.along.x * dx + one.along.y * dy, one.along.x * dy - one.along.y * dx);
+            if (inside_outline < -2.0F * tile.pixel) {
                 continue;
             }
             const Vec3f inside = intoWater(toFrame(one.frame, scene_.eye.ray(x, y)), ior);
@@ -182,12 +200,13 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
                 const float ey = dy + u * tile.right.y + v * tile.down.y;
                 const float a = one.along.x * ex + one.along.y * ey;
                 const float b = one.along.x * ey - one.along.y * ex;
-                const float end = beyond_line(a);
-                const float cover = std::min((one.wide - std::sqrt(end * end + b * b)) / soft + 0.5F, 1.0F);
+                const float cover = std::min(inside_by(a, b) / soft + 0.5F, 1.0F);
                 if (cover <= 0.0F) {
                     return;
                 }
-                const Interface met = intoAir(inside, normalAtExit(one.capsule, {a, b, 0.0F}, inside), ior);
+                const Vec3f normal = one.relief != nullptr ? one.relief->normalAtExit({a, b}, inside)
+                                                           : normalAtExit(one.capsule, {a, b, 0.0F}, inside);
+                const Interface met = intoAir(inside, normal, ior);
                 Ray found;
                 found.pixel = pixelInTile(x, y);
                 found.cover = level8(cover);
@@ -199,7 +218,7 @@ void RunningRays::trace(const Traced& one, int column, int row, std::vector<Ray>
                 }
                 rays.push_back(found);
             };
-            if (one.is_passing || far2 < calm * std::abs(calm)) {
+            if (one.is_passing || inside_outline > calm) {
                 add(0.0F, 0.0F, true);
             } else {
                 for (int j = 0; j < n; ++j) {

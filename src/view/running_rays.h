@@ -55,7 +55,7 @@ private:
     };
 
     [[nodiscard]] Drawn drawnOf(const RunningDroplet& droplet) const;
-    [[nodiscard]] Traced prepare(const RunningDroplet& droplet) const;
+    [[nodiscard]] Traced prepare(const RunningDroplet& droplet, const BodyRelief* relief) const;
     void trace(const Traced& one, std::vector<Part>& parts) const;
     void trace(const Traced& one, int column, int row, std::vector<Ray>& rays) const;
 

@@ -15,6 +15,7 @@
 #include "droplet/error.h"
 #include "picture/panorama.h"
 #include "require.h"
+#include "view/body_relief.h"
 #include "view/defocus.h"
 #include "view/running_rays.h"
 #include "view/still_samples.h"
@@ -39,7 +40,9 @@ void ViewOptions::validate() const
         require(!place || std::isfinite(place->x + place->y + place->z), "eye, look_at", place ? place->x : 0.0,
                 "finite");
     }
+    checkBody(body);
     shape.validate();
+    forces.validate();
     require(ior >= 1.0 && ior <= 2.0, "ior", ior, "from 1 to 2");
     requireWithin("samples", samples, 1, 4);
     require(exposure >= -8.0 && exposure <= 8.0, "exposure", exposure, "from -8 to 8");

@@ -10,6 +10,7 @@
 #include "droplet/view/view.h"
 #include "picture/tone.h"
 #include "view/backdrop.h"
+#include "view/body_relief.h"
 #include "view/eye.h"
 #include "view/tiles.h"
 
@@ -29,7 +30,8 @@ struct ViewScene {
           eye(glass, options),
           tiles(eye, glass, options),
           backdrop(options.width, options.height, eye.halfWidth(),
-                   0.5F * eye.tangent() * static_cast<float>(options.height))
+                   0.5F * eye.tangent() * static_cast<float>(options.height)),
+          reliefs(glass, options.body, options.forces)
     {
     }
 
@@ -75,6 +77,7 @@ struct ViewScene {
     Eye eye;
     Tiles tiles;
     Backdrop backdrop;
+    Reliefs reliefs;  ///< shapes of running droplets
 };
 
 }  // namespace droplet

@@ -114,6 +114,19 @@ TEST_F(WindshieldCommand, FramesAreTheSameWithAnyNumberOfThreads)
     EXPECT_EQ(readPicture(path("last.png")), readPicture(path("a/6.png")));
 }
 
+TEST_F(WindshieldCommand, PresetsOfTheThesisDrawCapsules)
+{
+    const auto drawn = [&](const std::string& name, const std::vector<std::string>& more) {
+        EXPECT_EQ(simulate(path(name), more).exit_code, 0);
+        return readFile(path(name));
+    };
+    const std::string without = drawn("a.png", {"--speed", "54km/h"});
+    const std::string with = drawn("b.png", {"--speed", "54km/h", "--preset", "figure-3.12"});
+    EXPECT_NE(without, with);
+    EXPECT_EQ(drawn("c.png", {"--speed", "54km/h", "--shape", "capsule"}), with);
+    EXPECT_EQ(drawn("d.png", {"--speed", "54km/h", "--preset", "figure-3.12", "--shape", "capillary"}), without);
+}
+
 TEST_F(WindshieldCommand, WritesAllOutputs)
 {
     std::filesystem::create_directory(path("f"));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "droplet/body/droplet_body.h"
 #include "droplet/body/running_shape.h"
 #include "droplet/picture/picture.h"
+#include "droplet/wind/forces.h"
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/windshield.h"
 
@@ -10,10 +12,12 @@ namespace droplet {
 
 /// Options of glassMaps() and glassFloatMaps().
 struct GlassMapOptions {
-    int width = 2048;              ///< [px], 16 … 8192; the height follows from the glass, with nearly square pixels
-    ShapeOptions shape = {};       ///< shape of the droplets
-    double full_thickness = 5e-3;  ///< thickness of the highest level [m], > 0; more is clipped
-    double full_speed = 2.0;       ///< speed of the highest level [m/s], > 0; more is clipped
+    int width = 2048;  ///< [px], 16 … 8192; the height follows from the glass, with nearly square pixels
+    BodyShape body = BodyShape::Capsule;  ///< shape of running droplets: Capsule or Capillary
+    ShapeOptions shape = {};              ///< shape of droplets at rest, and of capsules
+    ForceModel forces = {};               ///< liquid, contact angle and friction, which shape capillary droplets
+    double full_thickness = 5e-3;         ///< thickness of the highest level [m], > 0; more is clipped
+    double full_speed = 2.0;              ///< speed of the highest level [m/s], > 0; more is clipped
 
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range

@@ -5,11 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "droplet/body/droplet_body.h"
 #include "droplet/body/running_shape.h"
 #include "droplet/picture/environment.h"
 #include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
+#include "droplet/wind/forces.h"
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/windshield.h"
 #include "droplet/windshield/wipers.h"
@@ -27,10 +29,12 @@ struct ViewOptions {
     std::optional<Vec3> eye = {};
     /// Point in the middle of the frame, relative to `aim`; in front of the eye [m]. Empty: straight ahead.
     std::optional<Vec3> look_at = {};
-    ShapeOptions shape = {};  ///< shape of the droplets
-    double ior = 1.333;       ///< index of refraction; water at 20 °C in yellow light (Lide, CRC Handbook); 1 … 2
-    int samples = 2;          ///< rays per pixel and droplet, across and down; 1 … 4
-    double exposure = 0.0;    ///< exposure of the whole frame [stops]: 1 doubles the light; −8 … 8
+    BodyShape body = BodyShape::Capsule;  ///< shape of running droplets: Capsule or Capillary
+    ShapeOptions shape = {};              ///< shape of droplets at rest, and of capsules
+    ForceModel forces = {};               ///< liquid, contact angle and friction, which shape capillary droplets
+    double ior = 1.333;     ///< index of refraction; water at 20 °C in yellow light (Lide, CRC Handbook); 1 … 2
+    int samples = 2;        ///< rays per pixel and droplet, across and down; 1 … 4
+    double exposure = 0.0;  ///< exposure of the whole frame [stops]: 1 doubles the light; −8 … 8
     /// Extra brightness of clipped lamps: the brightest pixels of the picture count as up to 1 + this times as bright,
     /// in their own hue; 0 … 4. Empty: 3 if few pixels are bright (night), less if more are, down to 0 (day).
     std::optional<double> highlight_boost = {};
@@ -82,9 +86,10 @@ Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 ///
 /// Rays of the eye pass the pane, which does not turn them, and the water on it, and are refracted where they leave it
 /// (Snell, Fresnel). Where a droplet of more than 90° overhangs its contact, the air below it is ignored. Running
-/// droplets are capsules (RunningShape) with exact intersections. Still droplets are one map of the glass with the
-/// normals of caps, in which only cells that changed are drawn again. Where running droplets have swept it, the glass
-/// is bare: the Lotus tracks. Rays that lead back inside, by total reflection, are as dark as a cabin.
+/// droplets are capsules (RunningShape) with exact intersections, or capillary bodies (DropletBodies). Still droplets
+/// are one map of the glass with the normals of caps, in which only cells that changed are drawn again. Where running
+/// droplets have swept it, the glass is bare: the Lotus tracks. Rays that lead back inside, by total reflection, are as
+/// dark as a cabin.
 ///
 /// The picture fills the frame: it is the view through dry glass. Refracted rays go far beyond it. Beyond its edge, at
 /// the tangent s₀, a direction with the tangent s shows the point of s₀²/s: the picture is mirrored at its edge, with
