@@ -127,7 +127,8 @@ struct FlowPainter::Content {
                 continue;
             }
             const DropletBase& base = bases[next++];
-            if (sample.face) {
+            // Dew that only stands leaves nothing when it runs together: what droplets wipe shows beside it.
+            if (sample.face && sample.contact != FlowContact::Still) {
                 tracks.push_back({sample.id, *sample.face, sample.place, sample.place, 2.0 * base.half_width, time});
             }
         }
@@ -191,6 +192,16 @@ Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSampl
         base.normal = moment.pose.toWorld(base.normal);
     }
     return droplet::render(water.surface, render);
+}
+
+std::string FlowPainter::bytes() const
+{
+    return content_->wet->bytes();
+}
+
+void FlowPainter::restore(std::string_view bytes, const std::string& name)
+{
+    content_->wet->restore(bytes, name);
 }
 
 }  // namespace droplet
