@@ -135,6 +135,9 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         maps.width = options_.map_width;
         maps.height = options_.map_width;
         maps.drying = plan_.parameters.drying;
+        if (plan_.parameters.streaks.film > 0.0) {
+            maps.film = plan_.parameters.streaks.film;
+        }
         mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.scene, maps); });
     }
     report_.input = nameOfObject(options_);

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -196,6 +198,19 @@ TEST_F(FlowCommand, ResumesPicturesAndMapsFromTheLastFrame)
     for (const char* name : {"/1.png", "/5.png", "/m5-normal.png", "/m5-thickness.png", "/m5-age.png"}) {
         EXPECT_EQ(readFile(path("b") + name), readFile(path("new/a") + name)) << name;
     }
+}
+
+TEST_F(FlowCommand, MapsHaveTheThicknessOfTheFilm)
+{
+    testing::writeFile(path("uv.obj"), "v 0 0 0\nv 100 80 0\nv 100 80 -100\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    const CommandResult run = flow("f%d.obj",
+                                   {"--drops", "9", "--hysteresis", "0.02", "--film", "0.4mm", "--time", "1s", "--fps",
+                                    "2", "--maps", path("m%d.png"), "--map-width", "64"},
+                                   "uv.obj");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Picture map = readPicture(path("m2-thickness.png"));
+    const std::uint8_t level = 20;  // 0.4 mm of 5 mm
+    EXPECT_GT(std::count(map.rgb.begin(), map.rgb.end(), level), 30);
 }
 
 TEST_F(FlowCommand, ShowsTheLastFrameInAPreviewOrATurntable)
