@@ -81,6 +81,12 @@ struct FlowPainter::Content {
         // About one place for a pixel.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
         for (const FlowSurface::Face& face : scene.surface().faces) {
+            // Its front is where the droplets are.
+            auto& [a, b, c] = stand.triangles[face.source];
+            const Vec3 front = cross(stand.positions[b] - stand.positions[a], stand.positions[c] - stand.positions[a]);
+            if (dot(front, face.normal) < 0.0) {
+                std::swap(b, c);
+            }
             addPlaces(face.source);
         }
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));

@@ -285,7 +285,8 @@ private:
                                   Vec3f matter) const
     {
         const StandFilm::Here film = film_->at(meeting);
-        if (film.wetness <= 0.0F) {
+        const bool is_front = dot(ray.direction, meeting.facet) < 0.0F;
+        if (film.wetness <= 0.0F || !is_front) {
             return dry;
         }
         // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
