@@ -38,7 +38,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using droplet::Error;
-using droplet::ErrorCode;
 
 /// Creates the folder of an output, and checks that the output can be written.
 void prepare(const std::string& output, const droplet::OutputOptions& options = {})
