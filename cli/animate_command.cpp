@@ -62,7 +62,7 @@ void check(const AnimateOptions& options, const Frames& frames)
             numbers = {1};
         }
         for (const std::size_t number : numbers) {
-            outputs.push_back({name, files ? files->at(number) : path});
+            outputs.push_back({name, files ? files->at(number) : path, files.has_value()});
             if (const auto material = materialFile(outputs.back().path, options.format); material) {
                 outputs.push_back({std::string(name) + "'s material", *material});
             }

@@ -22,6 +22,7 @@
 #include "batch_manifest.h"
 #include "batch_progress.h"
 #include "contact_sheet.h"
+#include "files.h"
 #include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/version.h"
@@ -37,16 +38,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using droplet::Error;
-using droplet::ErrorCode;
 
 /// Creates the folder of an output, and checks that the output can be written.
 void prepare(const std::string& output, const droplet::OutputOptions& options = {})
 {
-    const fs::path folder = fs::path(output).parent_path();
-    std::error_code failure;
-    if (!folder.empty() && !fs::is_directory(folder, failure) && !fs::create_directories(folder, failure) && failure) {
-        throw Error(ErrorCode::OutputFailed, "folder " + folder.string() + " cannot be created: " + failure.message());
-    }
+    makeFolderOf(output);
     droplet::checkWritable(output, options);
 }
 

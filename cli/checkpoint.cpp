@@ -70,6 +70,9 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
     put(bytes, checkpoint.frames);
     put(bytes, checkpoint.rows);
     put(bytes, checkpoint.state);
+    put(bytes, checkpoint.planned_frames);
+    put(bytes, checkpoint.wet_picture);
+    put(bytes, checkpoint.wet_maps);
     droplet::writeAtomically(
         path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
@@ -113,6 +116,9 @@ std::optional<Checkpoint> readCheckpoint(const std::string& path, const std::str
     checkpoint.frames = reader.number();
     checkpoint.rows = reader.text();
     checkpoint.state = reader.text();
+    checkpoint.planned_frames = reader.number();
+    checkpoint.wet_picture = reader.text();
+    checkpoint.wet_maps = reader.text();
     return checkpoint;
 }
 

@@ -19,6 +19,10 @@ struct Checkpoint {
     std::size_t frames = 0;   ///< number of finished frames
     std::string rows;         ///< bytes of the report's rows: bytesOfRows()
     std::string state;        ///< bytes of the simulation's state
+    // What `flow` needs besides.
+    std::size_t planned_frames = 0;  ///< number of frames of the whole run
+    std::string wet_picture = {};    ///< bytes of FlowPainter; empty without one
+    std::string wet_maps = {};       ///< bytes of WetMapper; empty without one
 };
 
 /// Bytes of a report's rows, for the same program to read.

@@ -462,11 +462,17 @@ RunOptions readRun(const CommandLine& line)
     options.verbosity = line.flag("--quiet")     ? Verbosity::Quiet
                         : line.flag("--verbose") ? Verbosity::Verbose
                                                  : Verbosity::Normal;
-    if (const auto progress = line.value("--progress")) {
-        options.progress = choice<ProgressMode>(
-            *progress, {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}});
-    }
+    options.progress = readProgress(line);
     return options;
+}
+
+ProgressMode readProgress(const CommandLine& line)
+{
+    const auto progress = line.value("--progress");
+    return progress ? choice<ProgressMode>(
+                          *progress,
+                          {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}})
+                    : ProgressMode::Auto;
 }
 
 }  // namespace cli

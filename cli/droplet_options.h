@@ -83,6 +83,10 @@ FootprintOptions readFootprint(const CommandLine& line);
 DropletSettings readDroplet(const CommandLine& line);
 RunOptions readRun(const CommandLine& line);
 
+/// Reads --progress.
+/// @throws droplet::Error InvalidArgument
+ProgressMode readProgress(const CommandLine& line);
+
 /// Adds warnings about options that have no effect on a format.
 /// @param is_shown  whether another output, such as a preview, shows the material
 void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown, DropletSettings& settings);

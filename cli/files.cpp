@@ -155,7 +155,20 @@ void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFil
         if (stream != inputs.end() && isStandardInput(output.path)) {
             refuseClash(output.name, stream->name, output.path);
         }
+        if (output.makes_folder) {
+            makeFolderOf(output.path);
+        }
         droplet::checkWritable(output.path, options);
+    }
+}
+
+void makeFolderOf(const std::string& path)
+{
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code failure;
+    if (!folder.empty() && !fs::is_directory(folder, failure) && !fs::create_directories(folder, failure) && failure) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed,
+                             "folder " + folder.string() + " cannot be created: " + failure.message());
     }
 }
 

@@ -23,12 +23,17 @@ bool isPicture(const std::string& path);
 
 /// File that an option or argument names.
 struct NamedFile {
-    std::string name;  ///< name of the option or argument, for messages
-    std::string path;  ///< or kStandardStream
+    std::string name;           ///< name of the option or argument, for messages
+    std::string path;           ///< or kStandardStream
+    bool makes_folder = false;  ///< whether the folder of this output is created: for a pattern of many files
 };
 
+/// Creates the folder of a file, if it does not exist.
+/// @throws droplet::Error OutputFailed
+void makeFolderOf(const std::string& path);
+
 /// Finds errors before any work is done: two outputs at one path, an output that would replace an input, an output that
-/// cannot be written.
+/// cannot be written. Creates folders of outputs that ask for it.
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                 const droplet::OutputOptions& options);

@@ -13,7 +13,8 @@
 #include "flow_files.h"
 #include "flow_options.h"
 #include "flow_run.h"
-#include "terminal.h"
+#include "progress_display.h"
+#include "shape_command.h"
 
 namespace cli {
 namespace {
@@ -33,9 +34,6 @@ void printSummary(const droplet::FlowReport& report)
                              litres(liquid.released), litres(liquid.running + liquid.still + liquid.streaks),
                              litres(liquid.airborne), litres(liquid.left), litres(liquid.dried))
               << report.output << "\n";
-    for (const std::string& warning : report.warnings) {
-        std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n";
-    }
     std::cerr << std::flush;
 }
 
@@ -54,9 +52,18 @@ int runFlow(int argc, const char* const* argv)
     if (options.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
     }
-    const droplet::FlowReport report = simulateFlow(options);
-    if (!options.quiet) {
+    const bool is_silent = options.quiet && options.progress == ProgressMode::Auto;
+    ProgressDisplay progress(is_silent ? ProgressMode::None : options.progress);
+    const droplet::FlowReport report = simulateFlow(options, progress);
+    progress.finish();
+    if (options.quiet) {
+        return 0;
+    }
+    if (options.progress != ProgressMode::Json) {
         printSummary(report);
+    }
+    for (const std::string& warning : report.warnings) {
+        printWarning(warning, options.progress);
     }
     return 0;
 }

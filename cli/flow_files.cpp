@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_files.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -52,7 +53,8 @@ void checkFlowFiles(const FlowOptions& options)
             inputs.push_back({name, **path});
         }
     }
-    std::vector<NamedFile> outputs{{"OUTPUT", options.files ? options.files->at(1) : options.output}};
+    std::vector<NamedFile> outputs{
+        {"OUTPUT", options.files ? options.files->at(1) : options.output, options.files.has_value()}};
     if (options.files) {
         outputs.push_back({"OUTPUT's checkpoint", flowCheckpointPath(options)});
     }
@@ -63,7 +65,12 @@ void checkFlowFiles(const FlowOptions& options)
     }
     for (const char* map : kFlowMaps) {
         if (options.maps) {
-            outputs.push_back({"--maps", flowMapPath(*options.maps, 1, map)});
+            outputs.push_back({"--maps", flowMapPath(*options.maps, 1, map), true});
+        }
+    }
+    if (options.has_preview) {
+        for (const NamedFile& file : previewPaths(options.view)) {
+            outputs.push_back(file);
         }
     }
     checkFiles(inputs, outputs, options.output_options);
@@ -89,6 +96,15 @@ void checkFlowFrames(const FlowOptions& options, std::size_t frames)
             droplet::checkWritable(options.files->at(number), options.output_options);
         }
     }
+}
+
+bool hasFlowFrame(const FlowOptions& options, std::size_t number)
+{
+    std::error_code ignored;
+    return std::filesystem::exists(options.files->at(number), ignored) &&
+           (!options.maps || std::all_of(kFlowMaps.begin(), kFlowMaps.end(), [&](const char* map) {
+               return std::filesystem::exists(flowMapPath(*options.maps, number, map), ignored);
+           }));
 }
 
 std::string flowFingerprint(const FlowOptions& options)

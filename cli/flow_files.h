@@ -25,6 +25,9 @@ void checkFlowFiles(const FlowOptions& options);
 /// The same for the files of all frames.
 void checkFlowFrames(const FlowOptions& options, std::size_t frames);
 
+/// Whether all files of a frame exist.
+bool hasFlowFrame(const FlowOptions& options, std::size_t number);
+
 /// Hash of the options and the files that decide what the frames show.
 std::string flowFingerprint(const FlowOptions& options);
 

@@ -10,6 +10,7 @@
 #include "common_options.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "files.h"
 #include "force_options.h"
 #include "option_values.h"
 #include "value_list.h"
@@ -134,7 +135,12 @@ void declare(CommandLine& line)
              "Shape of the droplets: capillary has least energy, springs is the paper's, capsule a cut capsule "
              "[capillary]");
     line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
+    line.add("Picture", "--preview", "FILE",
+             "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
     declareView(line);
+    declareTurntable(line,
+                     "Write N previews of a full turn, FILE-001.png and so on, or one video if --preview names a "
+                     ".mp4, .mkv, .mov or .webm; up to 360");
     line.add("Picture", "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
     line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
     line.add(kOut, "--streaks", "FILE",
@@ -148,6 +154,8 @@ void declare(CommandLine& line)
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    line.add(kRun, "--progress", "auto|none|json",
+             "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
     declareCommon(line, kRun, "time = \"5s\"");
     line.exclude({"--resume", "--no-clobber"});
 }
@@ -431,6 +439,34 @@ void readPreset(const CommandLine& line, FlowOptions& options)
     }
 }
 
+/// --preview and --turntable.
+void readFlowPreview(const CommandLine& line, FlowOptions& options, bool is_picture)
+{
+    readTurntable(line, options.view);
+    const auto preview = line.value("--preview");
+    if (!preview) {
+        if (options.view.turns) {
+            refuse("--turntable needs --preview");
+        }
+        return;
+    }
+    options.has_preview = true;
+    options.view.path = preview->text;
+    const bool is_video = isVideo(preview->text);
+    if (is_picture) {
+        refuse("--preview is for meshes, but OUTPUT '" + options.output + "' shows pictures already");
+    }
+    if (!is_video && !isStream(preview->text) && std::filesystem::path(preview->text).extension() != ".png") {
+        refuse(*preview, "a file that ends in .png, or -; with --turntable also a .mp4, .mkv, .mov or .webm");
+    }
+    if (is_video && !options.view.turns) {
+        refuse("--preview: the video '" + preview->text + "' needs --turntable, its number of frames");
+    }
+    if (isStream(preview->text) && options.view.turns) {
+        refuse("--turntable writes several files: --preview must name a file, not -");
+    }
+}
+
 void readOutputs(const CommandLine& line, FlowOptions& options)
 {
     options.output = outputOf(line, options);
@@ -454,9 +490,11 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
                ".gltf, .obj, .ply or .stl");
     }
     const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
+    readFlowPreview(line, options, is_picture);
     for (const char* option : {"--view", "--camera", "--preview-size"}) {
-        if (line.value(option) && !is_picture) {
-            refuse(std::string(option) + " needs pictures or a video as OUTPUT, not '" + options.output + "'");
+        if (line.value(option) && !is_picture && !options.has_preview) {
+            refuse(std::string(option) + " needs --preview, or pictures or a video as OUTPUT, not '" + options.output +
+                   "'");
         }
     }
     if (options.preset) {
@@ -467,15 +505,16 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     }
     readView(line, options.view);
     options.codec = text(line, "--codec");
+    const bool is_video = options.kind == FlowOutput::Video || (options.has_preview && isVideo(options.view.path));
     for (const char* option : {"--codec", "--quality"}) {
-        if (line.value(option) && options.kind != FlowOutput::Video) {
-            refuse(std::string(option) + " needs a video as OUTPUT, not '" + options.output + "'");
+        if (line.value(option) && !is_video) {
+            refuse(std::string(option) + " needs a video as OUTPUT or --preview, not '" + options.output + "'");
         }
     }
     if (const auto quality = line.value("--quality")) {
         options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
     }
-    if (options.kind == FlowOutput::Video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
+    if (is_video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
         refuse("--preview-size: a video's frame must have even sides");
     }
     if (const auto shape = line.value("--shape")) {
@@ -548,9 +587,10 @@ std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* ar
     options.threads = readThreads(line);
     options.output_options.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
+    options.progress = readProgress(line);
     // These options do not change what a frame shows.
-    const std::set<std::string> neutral{"--time",  "--resume", "--no-clobber", "--threads",
-                                        "--quiet", "--config", "--json",       "--droplets"};
+    const std::set<std::string> neutral{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
+                                        "--config", "--json",   "--droplets",   "--progress"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (neutral.count(name) == 0) {

@@ -15,6 +15,7 @@
 #include "droplet/flow_io/flow_presets.h"
 #include "droplet/io/output.h"
 #include "droplet/surface/material.h"
+#include "droplet_options.h"
 #include "numbered_path.h"
 #include "preview.h"
 #include "video_writer.h"
@@ -53,7 +54,8 @@ struct FlowOptions {
     std::map<std::string, droplet::MaterialGround> materials;
     droplet::BodyShape shape = droplet::BodyShape::Capillary;
     std::optional<droplet::Material> material;
-    PreviewOptions view;  ///< camera and size of pictures
+    PreviewOptions view;       ///< camera and size of pictures; file and turns of the preview
+    bool has_preview = false;  ///< of the last frame, beside meshes
     std::optional<std::string> codec;
     double quality = kVideoQuality;
     std::optional<NumberedPath> maps;
@@ -69,6 +71,7 @@ struct FlowOptions {
     std::optional<std::string> config;
     std::optional<std::size_t> threads;
     droplet::OutputOptions output_options;
+    ProgressMode progress = ProgressMode::Auto;
     bool quiet = false;
 };
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +26,6 @@
 #include "option_values.h"
 #include "stage_clock.h"
 #include "surface_files.h"
-#include "terminal.h"
 #include "video_writer.h"
 
 namespace cli {
@@ -37,7 +35,7 @@ constexpr const char* kCommand = "flow";
 
 class FlowRun {
 public:
-    explicit FlowRun(const FlowOptions& options);
+    FlowRun(const FlowOptions& options, ProgressDisplay& progress);
 
     droplet::FlowReport execute();
 
@@ -46,10 +44,18 @@ private:
     void resume();
     /// Simulates and writes all remaining frames.
     void run();
+    /// Saves the state after a frame.
+    void saveCheckpoint() const;
     /// Advances the state, with a row of the balance at every full second.
     void advance(double until);
-    /// Opens the video.
-    void beginVideo();
+    /// Whether a picture of every frame is drawn, or of the last one.
+    [[nodiscard]] bool isPicture() const;
+    void preparePainter();
+    /// A video's options, after they were tried.
+    [[nodiscard]] VideoWriterOptions videoAt(const std::string& path) const;
+    [[nodiscard]] droplet::Picture picture(const std::vector<droplet::FlowSample>& samples, double azimuth);
+    /// Files of the preview, which are drawn when they are written.
+    std::vector<OutputFile> previewOutputs();
     /// Draws a frame, and writes it unless it is the picture of the last one.
     void draw(const std::vector<droplet::FlowSample>& samples, std::size_t number);
     void writeMaps(const std::vector<droplet::FlowSample>& samples, std::size_t number);
@@ -59,6 +65,7 @@ private:
     void finish();
 
     const FlowOptions& options_;
+    ProgressDisplay& progress_;
     StageClock clock_;
     FlowPlan plan_;
     droplet::DropletBodies bodies_;
@@ -67,7 +74,8 @@ private:
     std::optional<droplet::FlowPainter> painter_;
     std::optional<droplet::WetMapper> mapper_;
     std::unique_ptr<VideoWriter> video_;
-    droplet::Picture picture_;  ///< of the last frame
+    droplet::Picture picture_;                ///< of the last frame
+    std::vector<droplet::FlowSample> shown_;  ///< droplets of the preview
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
     droplet::Surface streaks_;  ///< at the end
@@ -101,8 +109,9 @@ droplet::StreakRibbonOptions ribbonOptions(const droplet::FlowParameters& parame
     return options;
 }
 
-FlowRun::FlowRun(const FlowOptions& options)
+FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     : options_(options),
+      progress_(progress),
       plan_(planOf(options)),
       bodies_(options.shape, plan_.parameters.forces),
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
@@ -117,23 +126,18 @@ FlowRun::FlowRun(const FlowOptions& options)
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
         animation_.emplace(plan_.object, bodies_, animation);
-    } else if (options_.kind != FlowOutput::Meshes) {
-        droplet::FlowPainterOptions painter;
-        painter.render.width = options_.view.width;
-        painter.render.height = options_.view.height;
-        painter.render.view = options_.view.view;
-        painter.render.camera = options_.view.camera;
-        painter.render.look = droplet::lookOf(material_);
-        painter.render.framed = framedOver(plan_.object, plan_.parameters.motion,
-                                           static_cast<double>(plan_.frames - 1) / options_.frames_per_second);
-        painter.drying = plan_.parameters.drying;
-        painter_.emplace(plan_.object, plan_.scene, painter);
+    }
+    if (isPicture() || options_.has_preview) {
+        preparePainter();
     }
     if (options_.maps) {
         droplet::WetMapOptions maps;
         maps.width = options_.map_width;
         maps.height = options_.map_width;
         maps.drying = plan_.parameters.drying;
+        if (plan_.parameters.streaks.film > 0.0) {
+            maps.film = plan_.parameters.streaks.film;
+        }
         mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.scene, maps); });
     }
     report_.input = nameOfObject(options_);
@@ -154,6 +158,26 @@ FlowRun::FlowRun(const FlowOptions& options)
     report_.warnings = plan_.warnings;
 }
 
+bool FlowRun::isPicture() const
+{
+    return options_.kind != FlowOutput::Animation && options_.kind != FlowOutput::Meshes;
+}
+
+void FlowRun::preparePainter()
+{
+    droplet::FlowPainterOptions painter;
+    painter.render.width = options_.view.width;
+    painter.render.height = options_.view.height;
+    painter.render.view = options_.view.view;
+    painter.render.camera = options_.view.camera;
+    painter.render.fit_all_azimuths = options_.view.turns.has_value();
+    painter.render.look = droplet::lookOf(material_);
+    const double end = static_cast<double>(plan_.frames - 1) / options_.frames_per_second;
+    painter.render.framed = framedOver(plan_.object, plan_.parameters.motion, end);
+    painter.drying = plan_.parameters.drying;
+    painter_.emplace(plan_.object, plan_.scene, painter);
+}
+
 droplet::FlowReport FlowRun::execute()
 {
     if (options_.files) {
@@ -161,7 +185,11 @@ droplet::FlowReport FlowRun::execute()
         resume();
     }
     if (options_.kind == FlowOutput::Video) {
-        beginVideo();
+        video_ = std::make_unique<VideoWriter>(videoAt(options_.output));
+    }
+    std::vector<OutputFile> previews;
+    if (options_.has_preview) {
+        previews = previewOutputs();
     }
     std::vector<OutputFile> files;
     if (options_.droplets) {
@@ -182,6 +210,7 @@ droplet::FlowReport FlowRun::execute()
     } else if (video_) {
         files.push_back({options_.output, [&](std::ostream& out) { video_->finish(out); }});
     }
+    files.insert(files.end(), previews.begin(), previews.end());
     std::uint64_t bytes = 0;
     if (options_.streaks) {
         SurfaceTarget target{*options_.streaks, formatOf(*options_.streaks), {}};
@@ -221,14 +250,22 @@ void FlowRun::resume()
         refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
                std::to_string(plan_.frames));
     }
-    // Tables, streaks, maps and wet pictures need every frame to be simulated again, and so do missing files.
-    bool is_whole = !options_.droplets && !options_.streaks && !options_.maps && !painter_;
+    // Tables and streaks need every frame to be simulated again, and so do missing files. The camera sees all that an
+    // object that moves will reach in --time.
+    const bool has_same_camera =
+        !painter_ || plan_.parameters.motion.rests() || checkpoint->planned_frames == plan_.frames;
+    bool is_whole = !options_.droplets && !options_.streaks && has_same_camera;
     for (std::size_t number = 1; is_whole && number <= checkpoint->frames; ++number) {
-        std::error_code ignored;
-        is_whole = std::filesystem::exists(options_.files->at(number), ignored);
+        is_whole = hasFlowFrame(options_, number);
     }
     if (!is_whole) {
         return;
+    }
+    if (painter_) {
+        painter_->restore(checkpoint->wet_picture, path);
+    }
+    if (mapper_) {
+        mapper_->restore(checkpoint->wet_maps, path);
     }
     state_ = droplet::flowStateFromBytes(checkpoint->state, plan_.scene.surface().faces.size(), path);
     report_.balance = rowsFromBytes<droplet::FlowBalanceRow>(checkpoint->rows);
@@ -249,20 +286,19 @@ void FlowRun::run()
         }
         if (options_.kind == FlowOutput::Meshes) {
             writeMesh(samples, done_ + 1);
-        } else if (painter_ && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
+        } else if (isPicture() && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
             draw(samples, done_ + 1);
         }
         if (mapper_) {
             writeMaps(samples, done_ + 1);
         }
         if (options_.files && (done_ + 1) % second == 0) {
-            writeCheckpoint(flowCheckpointPath(options_), {kCommand, fingerprint_, done_ + 1,
-                                                           bytesOfRows(report_.balance), droplet::bytesOf(state_)});
+            saveCheckpoint();
         }
-        if (!options_.quiet && errorIsTerminal()) {
-            std::cerr << "\rframe " << done_ + 1 << " of " << plan_.frames << (done_ + 1 == plan_.frames ? "\n" : "")
-                      << std::flush;
-        }
+        progress_.reportFrame(done_ + 1, plan_.frames);
+    }
+    if (options_.has_preview) {
+        shown_ = droplet::sampleFlow(state_, plan_.scene, plan_.parameters);
     }
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         report_.balance.push_back(flowBalanceRow(state_));
@@ -276,6 +312,19 @@ void FlowRun::run()
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
+}
+
+void FlowRun::saveCheckpoint() const
+{
+    Checkpoint checkpoint{kCommand, fingerprint_, done_ + 1, bytesOfRows(report_.balance), droplet::bytesOf(state_)};
+    checkpoint.planned_frames = plan_.frames;
+    if (painter_) {
+        checkpoint.wet_picture = painter_->bytes();
+    }
+    if (mapper_) {
+        checkpoint.wet_maps = mapper_->bytes();
+    }
+    writeCheckpoint(flowCheckpointPath(options_), checkpoint);
 }
 
 void FlowRun::advance(double until)
@@ -303,21 +352,48 @@ void FlowRun::advance(double until)
     }
 }
 
-void FlowRun::beginVideo()
+VideoWriterOptions FlowRun::videoAt(const std::string& path) const
 {
-    const std::string codec = options_.codec.value_or(codecFor(options_.output));
-    checkCodec(codec, options_.output);
+    const std::string codec = options_.codec.value_or(codecFor(path));
+    checkCodec(codec, path);
     const VideoWriterOptions video{
-        options_.output, codec, options_.view.width, options_.view.height, options_.frames_per_second,
-        options_.quality};
+        path, codec, options_.view.width, options_.view.height, options_.frames_per_second, options_.quality};
     tryVideo(video);
-    video_ = std::make_unique<VideoWriter>(video);
+    return video;
+}
+
+droplet::Picture FlowRun::picture(const std::vector<droplet::FlowSample>& samples, double azimuth)
+{
+    const droplet::FlowMoment moment{state_.time, plan_.parameters.motion.at(state_.time), azimuth};
+    return painter_->picture(moment, samples, droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)));
+}
+
+std::vector<OutputFile> FlowRun::previewOutputs()
+{
+    const std::size_t turns = options_.view.turns.value_or(1);
+    if (isVideo(options_.view.path)) {
+        return {{options_.view.path, [this, turns, options = videoAt(options_.view.path)](std::ostream& out) {
+                     VideoWriter video(options);
+                     for (std::size_t k = 0; k < turns; ++k) {
+                         video.add(picture(shown_, turnOf(options_.view, k)));
+                         progress_.reportDrawn(k + 1, turns);
+                     }
+                     video.finish(out);
+                 }}};
+    }
+    std::vector<OutputFile> files;
+    for (const NamedFile& file : previewPaths(options_.view)) {
+        files.push_back({file.path, [this, turns, k = files.size()](std::ostream& out) {
+                             droplet::writePng(picture(shown_, turnOf(options_.view, k)), out);
+                             progress_.reportDrawn(k + 1, turns);
+                         }});
+    }
+    return files;
 }
 
 void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t number)
 {
-    const droplet::FlowMoment moment{state_.time, plan_.parameters.motion.at(state_.time), 0.0};
-    picture_ = painter_->picture(moment, samples, droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)));
+    picture_ = picture(samples, 0.0);
     if (video_) {
         video_->add(picture_);
     } else if (options_.files) {
@@ -374,9 +450,9 @@ void FlowRun::finish()
 
 }  // namespace
 
-droplet::FlowReport simulateFlow(const FlowOptions& options)
+droplet::FlowReport simulateFlow(const FlowOptions& options, ProgressDisplay& progress)
 {
-    return FlowRun(options).execute();
+    return FlowRun(options, progress).execute();
 }
 
 }  // namespace cli

@@ -11,6 +11,7 @@
 
 #include "droplet/picture/paint.h"
 #include "droplet_options.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -64,7 +65,7 @@ std::string numbered(const std::string& path, std::size_t number, std::size_t co
 
 std::vector<std::string> paths(const PreviewOptions& options)
 {
-    if (!options.turns) {
+    if (!options.turns || isVideo(options.path)) {
         return {options.path};
     }
     std::vector<std::string> found;
@@ -82,7 +83,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.view = options.view;
     render.camera = options.camera;
     if (options.turns) {
-        render.azimuth = 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(*options.turns);
+        render.azimuth = turnOf(options, index);
         render.fit_all_azimuths = true;
     }
     render.look = droplet::lookOf(subject.material);
@@ -119,7 +120,24 @@ void declarePreview(CommandLine& line)
     if (!line.knows("--colour")) {
         line.add("Picture", "--colour", "look|contours|contact-angle", "Old name of --preview-colour");
     }
-    line.add("Picture", "--turntable", "N", "Write N previews of a full turn, FILE-001.png and so on; up to 360");
+    declareTurntable(line, "Write N previews of a full turn, FILE-001.png and so on; up to 360");
+}
+
+void declareTurntable(CommandLine& line, const char* text)
+{
+    line.add("Picture", "--turntable", "N", text);
+}
+
+void readTurntable(const CommandLine& line, PreviewOptions& options)
+{
+    if (const auto turns = line.value("--turntable")) {
+        options.turns = count(*turns, kMaxTurns, "360");
+    }
+}
+
+double turnOf(const PreviewOptions& options, std::size_t index)
+{
+    return 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(options.turns.value_or(1));
 }
 
 void declareView(CommandLine& line)
@@ -174,9 +192,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
             *colour,
             {{"look", Colouring::Look}, {"contours", Colouring::Contours}, {"contact-angle", Colouring::ContactAngle}});
     }
-    if (const auto turns = line.value("--turntable")) {
-        options.turns = count(*turns, kMaxTurns, "360");
-    }
+    readTurntable(line, options);
     const auto preview = line.value("--preview");
     if (!preview) {
         for (const char* option :

@@ -57,13 +57,24 @@ void declareView(CommandLine& line);
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 void readView(const CommandLine& line, PreviewOptions& options);
 
+/// Declares --turntable.
+void declareTurntable(CommandLine& line, const char* text);
+
+/// Reads --turntable.
+/// @throws droplet::Error InvalidArgument
+void readTurntable(const CommandLine& line, PreviewOptions& options);
+
+/// Turn of a turntable's picture [rad].
+/// @param index           from 0
+double turnOf(const PreviewOptions& options, std::size_t index);
+
 /// Reads the options of declarePreview.
 /// @param warnings        receives warnings about options without effect
 /// @return                nothing without --preview
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings);
 
-/// Paths of all files that will be written.
+/// Paths of all files that will be written; a turntable in a video is one file.
 std::vector<NamedFile> previewPaths(const PreviewOptions& options);
 
 /// Output files of the pictures, which are drawn when they are written; `options` and `subject` must live until then.

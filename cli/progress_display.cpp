@@ -61,13 +61,24 @@ void ProgressDisplay::restart(std::string item)
     item_ = std::move(item);
 }
 
+void ProgressDisplay::reportFrame(std::size_t frame, std::size_t count)
+{
+    report("frame", frame, count);
+}
+
 void ProgressDisplay::reportDrawn(std::size_t drawn, std::size_t count)
 {
+    report("drawn", drawn, count);
+}
+
+void ProgressDisplay::report(const char* what, std::size_t done, std::size_t count)
+{
     const std::lock_guard lock(mutex_);
-    drawn_ = drawn;
-    to_draw_ = count;
+    counted_ = what;
+    done_ = done;
+    count_ = count;
     if (mode_ == ProgressMode::Json) {
-        std::cerr << fmt::format(R"({{"drawn":{},"of":{},"elapsed_s":{}}})", drawn, count, rounded(elapsed(), 3))
+        std::cerr << fmt::format(R"({{"{}":{},"of":{},"elapsed_s":{}}})", what, done, count, rounded(elapsed(), 3))
                   << std::endl;
     }
 }
@@ -83,11 +94,14 @@ void ProgressDisplay::finish()
 std::string ProgressDisplay::bar() const
 {
     constexpr std::size_t kCells = kCellsPerStage * kStages;
-    std::size_t full = kCellsPerStage * static_cast<std::size_t>(*stage_);
-    std::string what = item_.empty() ? name(*stage_) : item_ + ": " + name(*stage_);
-    if (to_draw_ > 0) {
-        full = kCells * drawn_ / to_draw_;
-        what = fmt::format("pictures: {} of {}", drawn_, to_draw_);
+    std::size_t full = 0;
+    std::string what;
+    if (count_ > 0) {
+        full = kCells * done_ / count_;
+        what = fmt::format("{}: {} of {}", counted_ == "drawn" ? "pictures" : "frames", done_, count_);
+    } else {
+        full = kCellsPerStage * static_cast<std::size_t>(*stage_);
+        what = item_.empty() ? name(*stage_) : item_ + ": " + name(*stage_);
     }
     return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + what + " " + rounded(elapsed(), 1) +
            " s";
@@ -105,7 +119,7 @@ void ProgressDisplay::drawUntilStopped()
     bool drawn = false;
     for (auto next = start_ + kBarDelay; !stopping_.wait_until(lock, next, [this] { return stopped_; });
          next = Clock::now() + kRefresh) {
-        if (stage_) {
+        if (stage_ || count_ > 0) {
             std::cerr << kEraseLine << bar() << std::flush;
             drawn = true;
         }

@@ -31,6 +31,9 @@ public:
     /// @param item  name in the bar, such as "frame 3 of 12"
     void restart(std::string item);
 
+    /// Shows how many frames are finished.
+    void reportFrame(std::size_t frame, std::size_t count);
+
     /// Shows how many pictures of all items are drawn.
     void reportDrawn(std::size_t drawn, std::size_t count);
 
@@ -40,6 +43,7 @@ public:
 private:
     [[nodiscard]] double elapsed() const { return secondsSince(start_); }
     [[nodiscard]] std::string bar() const;
+    void report(const char* what, std::size_t done, std::size_t count);
     void writeLine(droplet::Stage stage, bool done) const;
     void drawUntilStopped();
     void stop();
@@ -50,8 +54,9 @@ private:
     std::condition_variable stopping_;
     std::optional<droplet::Stage> stage_;
     std::string item_;
-    std::size_t drawn_ = 0;
-    std::size_t to_draw_ = 0;  ///< 0 before the first picture
+    std::string counted_;    ///< what is counted instead of stages
+    std::size_t done_ = 0;   ///< number of these
+    std::size_t count_ = 0;  ///< of all of them; 0 before the first
     bool stopped_ = false;
     std::thread drawer_;  ///< keeps the bar moving during long stages
 };

@@ -49,10 +49,11 @@ void checkWindshieldFiles(const WindshieldOptions& options)
     input("--drive-cycle", options.drive_cycle);
     input("--surface", options.surface);
     input("--config", options.config);
-    std::vector<NamedFile> outputs{{"OUTPUT", options.files ? options.files->at(1) : options.output}};
+    std::vector<NamedFile> outputs{
+        {"OUTPUT", options.files ? options.files->at(1) : options.output, options.files.has_value()}};
     if (options.maps) {
         for (const char* map : kMapNames) {
-            outputs.push_back({"--maps", mapPath(*options.maps, 1, map)});
+            outputs.push_back({"--maps", mapPath(*options.maps, 1, map), true});
         }
     }
     if (options.files) {

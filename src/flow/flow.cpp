@@ -262,8 +262,13 @@ private:
             const Vec3 origin =
                 c_.middle() + 2.0 * radius * from + (out * std::cos(turn)) * across + (out * std::sin(turn)) * beyond;
             const auto point = scene_.firstAlong(origin, -1.0 * from);
+            const double volume = std::numbers::pi / 6.0 * diameter * diameter * diameter;
             if (point && dot(c_.surface.faces[point->face].normal, from) > 0.0) {
-                start({point->place, std::numbers::pi / 6.0 * diameter * diameter * diameter, {}});
+                start({point->place, volume, {}});
+                ++s_.counts.raindrops;
+            } else if (point) {
+                ++s_.counts.behind;
+                s_.counts.behind_volume += volume;
             }
         }
     }

@@ -7,14 +7,15 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape flow 1\n";
+constexpr std::string_view kHead = "droplet-shape flow 2\n";
 
 template <class Archive, class State>
 void scalars(Archive& archive, State& s)
 {
     archive.all(s.time, s.steps, s.next_id, s.next_raindrop, s.next_nucleus, s.until_raindrop, s.until_nucleus,
                 s.released, s.left, s.dried, s.counts.released, s.counts.crossings, s.counts.launches,
-                s.counts.landings, s.counts.merged, s.counts.beads, s.counts.left, s.counts.dried, s.counts.stuck);
+                s.counts.landings, s.counts.merged, s.counts.beads, s.counts.left, s.counts.dried, s.counts.stuck,
+                s.counts.raindrops, s.counts.behind, s.counts.behind_volume);
 }
 
 }  // namespace

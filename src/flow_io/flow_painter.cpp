@@ -81,6 +81,12 @@ struct FlowPainter::Content {
         // About one place for a pixel.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
         for (const FlowSurface::Face& face : scene.surface().faces) {
+            // Its front is where the droplets are.
+            auto& [a, b, c] = stand.triangles[face.source];
+            const Vec3 front = cross(stand.positions[b] - stand.positions[a], stand.positions[c] - stand.positions[a]);
+            if (dot(front, face.normal) < 0.0) {
+                std::swap(b, c);
+            }
             addPlaces(face.source);
         }
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
@@ -127,7 +133,8 @@ struct FlowPainter::Content {
                 continue;
             }
             const DropletBase& base = bases[next++];
-            if (sample.face) {
+            // Dew that only stands leaves nothing when it runs together: what droplets wipe shows beside it.
+            if (sample.face && sample.contact != FlowContact::Still) {
                 tracks.push_back({sample.id, *sample.face, sample.place, sample.place, 2.0 * base.half_width, time});
             }
         }
@@ -191,6 +198,16 @@ Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSampl
         base.normal = moment.pose.toWorld(base.normal);
     }
     return droplet::render(water.surface, render);
+}
+
+std::string FlowPainter::bytes() const
+{
+    return content_->wet->bytes();
+}
+
+void FlowPainter::restore(std::string_view bytes, const std::string& name)
+{
+    content_->wet->restore(bytes, name);
 }
 
 }  // namespace droplet

@@ -139,6 +139,7 @@ FlowPreset bottle()
     p.forces.wetting.contact_angle = 80.0 * kDegree;
     p.forces.wetting.hysteresis = 0.25;
     p.condensation = FlowCondensation{50e-6, 2.5e-3};
+    p.drying = 1.5;  // dew covers the tracks again
     p.step = 1.0 / 60.0;
     preset.duration = 10.0;
     preset.camera = {-70.0 * kDegree, 8.0 * kDegree};

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "droplet/wind/rain.h"
 #include "io/axes.h"
 #include "io/report_sections.h"
 #include "io/rounded_time.h"
@@ -53,6 +55,14 @@ ReportJson forcesOf(const FlowParameters& parameters)
     return section;
 }
 
+/// Raindrops that are simulated, and those that are too small.
+std::pair<RainImpacts, RainImpacts> rainOf(const FlowRain& rain)
+{
+    const double between = std::max(rain.small_diameter, rain.raindrops.min);
+    const RaindropSizes sizes = raindropSizes(rain.rainfall);
+    return {{sizes, {between, rain.raindrops.max}, 0.0}, {sizes, {rain.raindrops.min, between}, 0.0}};
+}
+
 ReportJson sourcesOf(const FlowParameters& parameters)
 {
     ReportJson section{{"emitters", ReportJson::array()}, {"rain", nullptr}, {"condensation", nullptr}};
@@ -66,7 +76,12 @@ ReportJson sourcesOf(const FlowParameters& parameters)
         section["rain"] = {{"rainfall_m_per_s", rain.rainfall},
                            {"rainfall_mm_per_h", rain.rainfall / kMillimetrePerHour},
                            {"from", vectorOf(rain.from)},
-                           {"small_diameter_m", rain.small_diameter}};
+                           {"small_diameter_m", rain.small_diameter},
+                           {"small_share", nullptr}};
+        const auto [large, small] = rainOf(rain);
+        if (const double all = large.rainfall() + small.rainfall(); all > 0.0) {
+            section["rain"]["small_share"] = small.rainfall() / all;
+        }
     }
     if (parameters.condensation) {
         section["condensation"] = {{"rate_m_per_s", parameters.condensation->rate},
@@ -147,11 +162,24 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
         worst = std::max(worst, std::abs(row.balance.residual()));
     }
     json["largest_residual"] = worst;
-    json["counts"] = {{"released", report.counts.released}, {"crossings", report.counts.crossings},
-                      {"launches", report.counts.launches}, {"landings", report.counts.landings},
-                      {"merged", report.counts.merged},     {"beads", report.counts.beads},
-                      {"left", report.counts.left},         {"dried", report.counts.dried},
-                      {"stuck", report.counts.stuck}};
+    json["counts"] = {{"released", report.counts.released},
+                      {"crossings", report.counts.crossings},
+                      {"launches", report.counts.launches},
+                      {"landings", report.counts.landings},
+                      {"merged", report.counts.merged},
+                      {"beads", report.counts.beads},
+                      {"left", report.counts.left},
+                      {"dried", report.counts.dried},
+                      {"stuck", report.counts.stuck},
+                      {"raindrops", report.counts.raindrops},
+                      {"raindrops_behind", report.counts.behind},
+                      {"raindrops_behind_m3", report.counts.behind_volume}};
+    json["counts"]["raindrops_small"] = 0;
+    if (parameters.rain && report.counts.raindrops > 0) {
+        const auto [large, small] = rainOf(*parameters.rain);
+        json["counts"]["raindrops_small"] =
+            std::llround(static_cast<double>(report.counts.raindrops) * small.bound() / large.bound());
+    }
     addRunSection(json, {report.warnings, report.time_total, report.peak_memory});
     writeReportJson(out, json);
 }

@@ -313,4 +313,14 @@ WetFloatMaps WetMapper::floatMaps(double time, std::span<const FlowSample> sampl
     return maps;
 }
 
+std::string WetMapper::bytes() const
+{
+    return content_->wet->bytes();
+}
+
+void WetMapper::restore(std::string_view bytes, const std::string& name)
+{
+    content_->wet->restore(bytes, name);
+}
+
 }  // namespace droplet

@@ -5,13 +5,18 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "exact_bytes.h"
 
 namespace droplet {
 namespace {
+
+constexpr std::string_view kHead = "droplet-shape wet places 1\n";
 
 /// Distance of two segments (C. Ericson, "Real-Time Collision Detection", 2004, section 5.1.9) [m].
 double distanceBetween(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2)
@@ -199,6 +204,54 @@ void WetPlaces::wet(std::size_t spot, double time, double share)
     if (share > 0.0 && share >= left(spot, time)) {
         places_[spot] = {static_cast<float>(time), static_cast<float>(share)};
     }
+}
+
+std::string WetPlaces::bytes() const
+{
+    ExactWriter out(kHead);
+    out.put(std::uint64_t{places_.size()});
+    // Runs of wet places: most are dry.
+    for (std::size_t begin = 0; begin < places_.size();) {
+        std::size_t end = begin;
+        while (end < places_.size() && places_[end].share > 0.0F) {
+            ++end;
+        }
+        if (end > begin) {
+            out.all(std::uint64_t{begin}, std::uint64_t{end - begin});
+        }
+        for (; begin < end; ++begin) {
+            const Place& place = places_[begin];
+            out.put(std::uint64_t{std::bit_cast<std::uint32_t>(place.time)} << 32U |
+                    std::bit_cast<std::uint32_t>(place.share));
+        }
+        ++begin;
+    }
+    return out.release();
+}
+
+void WetPlaces::restore(std::string_view bytes, const std::string& name)
+{
+    ExactReader in(bytes, kHead, name);
+    std::uint64_t count = 0;
+    in.get(count);
+    in.require(count == places_.size());
+    std::vector<Place> places(places_.size());
+    std::size_t next = 0;
+    while (!in.ended()) {
+        std::uint64_t begin = 0;
+        in.get(begin);
+        const std::size_t length = in.count(8);
+        in.require(begin >= next && begin <= places.size() && length <= places.size() - begin);
+        for (next = begin; next < begin + length; ++next) {
+            std::uint64_t bits = 0;
+            in.get(bits);
+            Place& place = places[next];
+            place.time = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32U));
+            place.share = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+            in.require(place.time >= 0.0F && std::isfinite(place.time) && place.share > 0.0F && place.share <= 1.0F);
+        }
+    }
+    places_ = std::move(places);
 }
 
 double WetPlaces::left(std::size_t spot, double time) const

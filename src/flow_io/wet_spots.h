@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "droplet/flow/flow.h"
@@ -71,6 +73,13 @@ public:
     [[nodiscard]] double left(std::size_t spot, double time) const;
     /// Time since a place was wet; infinity if never [s].
     [[nodiscard]] double age(std::size_t spot, double time) const;
+
+    /// Exact bytes of all places.
+    [[nodiscard]] std::string bytes() const;
+    /// Places from their bytes.
+    /// @param name    of the source, for messages
+    /// @throws Error  InvalidInput if the bytes are damaged, or of another number of places
+    void restore(std::string_view bytes, const std::string& name);
 
 private:
     struct Place {

@@ -32,7 +32,8 @@ namespace {
 constexpr int kMaxPixels = 8192;
 constexpr int kMinSamples = 4;
 constexpr int kMaxSamples = 256;
-constexpr float kWhite = 0.85F;  // level of open white ground before the filmic curve
+constexpr float kCovering = 0.5F;  // part of a fresh film that covers the ground's bumps
+constexpr float kWhite = 0.85F;    // level of open white ground before the filmic curve
 constexpr float kPi = 3.14159265F;
 
 // Beyond these limits a ray ends in the room's light.
@@ -284,12 +285,15 @@ private:
                                   Vec3f matter) const
     {
         const StandFilm::Here film = film_->at(meeting);
-        if (film.wetness <= 0.0F) {
+        const bool is_front = dot(ray.direction, meeting.facet) < 0.0F;
+        if (film.wetness <= 0.0F || !is_front) {
             return dry;
         }
+        // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
+        const float covered = std::min(film.wetness / kCovering, 1.0F);
         const Vec3f normal = facing(ray.direction, film.normal);
-        const float mirrors = film.wetness * atInterface(ray.direction, normal, 1.0F / medium_.ior).reflected;
-        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_), film.wetness);
+        const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / medium_.ior).reflected;
+        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_), covered);
         return (1.0F - mirrors) * wet + mirrors * onward(meeting, mirrored(ray.direction, normal), way, mirrors, false);
     }
 

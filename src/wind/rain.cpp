@@ -117,6 +117,18 @@ double RainImpacts::density(double diameter, const Exposure& exposure) const
            std::max(0.0, terminalSpeed(diameter) * exposure.upward + speed * exposure.forward);
 }
 
+double RainImpacts::rainfall() const
+{
+    const double min = std::max(range.min, diameterAt(0.0));
+    if (!(sizes.slope > 0.0) || min >= range.max) {
+        return 0.0;
+    }
+    // The exponential term of the speed makes a steeper distribution.
+    const RaindropSizes slowed{sizes.intercept, sizes.slope + kFall};
+    return kFastest * sizes.waterContent() * sizes.waterShare(min, range.max) -
+           kSlowed * slowed.waterContent() * slowed.waterShare(min, range.max);
+}
+
 double RainImpacts::rate(double min, const Exposure& exposure) const
 {
     double from = std::max(min, range.min);

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -168,6 +170,73 @@ TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
         const std::string name = "/" + std::to_string(k) + ".ply";
         EXPECT_EQ(readFile(path("a" + name)), readFile(path("b" + name))) << k;
     }
+}
+
+TEST_F(FlowCommand, ResumesPicturesAndMapsFromTheLastFrame)
+{
+    testing::writeFile(path("uv.obj"), "v 0 0 0\nv 100 80 0\nv 100 80 -100\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    const auto wet = [&](const std::string& folder, const std::string& end, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"--drops",        "9",
+                                     "--hysteresis",   "0.02",
+                                     "--fps",          "2",
+                                     "--drying",       "3s",
+                                     "--maps",         path(folder + "/m%d.png"),
+                                     "--map-width",    "48",
+                                     "--preview-size", "64x48",
+                                     "--time",         end};
+        all.insert(all.end(), more.begin(), more.end());
+        return flow(folder + "/%d.png", all, "uv.obj");
+    };
+    ASSERT_EQ(wet("new/a", "2.5s", {}).exit_code, 0) << "the folder of a pattern is made";
+    std::filesystem::create_directories(path("b/5.png/x"));
+    ASSERT_EQ(wet("b", "2.5s", {}).exit_code, 4);
+    std::filesystem::remove_all(path("b/5.png"));
+    testing::writeFile(path("b/2.png"), "kept");
+    const CommandResult resumed = wet("b", "2.5s", {"--resume"});
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+    EXPECT_EQ(readFile(path("b/2.png")), "kept") << "frames that exist are not drawn again";
+    for (const char* name : {"/1.png", "/5.png", "/m5-normal.png", "/m5-thickness.png", "/m5-age.png"}) {
+        EXPECT_EQ(readFile(path("b") + name), readFile(path("new/a") + name)) << name;
+    }
+}
+
+TEST_F(FlowCommand, MapsHaveTheThicknessOfTheFilm)
+{
+    testing::writeFile(path("uv.obj"), "v 0 0 0\nv 100 80 0\nv 100 80 -100\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    const CommandResult run = flow("f%d.obj",
+                                   {"--drops", "9", "--hysteresis", "0.02", "--film", "0.4mm", "--time", "1s", "--fps",
+                                    "2", "--maps", path("m%d.png"), "--map-width", "64"},
+                                   "uv.obj");
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Picture map = readPicture(path("m2-thickness.png"));
+    const std::uint8_t level = 20;  // 0.4 mm of 5 mm
+    EXPECT_GT(std::count(map.rgb.begin(), map.rgb.end(), level), 30);
+}
+
+TEST_F(FlowCommand, ShowsTheLastFrameInAPreviewOrATurntable)
+{
+    const std::vector<std::string> scene{"--drops",        "5",     "--time",       "0.1s",
+                                         "--preview-size", "64x48", "--hysteresis", "0"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), scene.begin(), scene.end());
+        return more;
+    };
+    ASSERT_EQ(flow("last.png", scene).exit_code, 0);
+    ASSERT_EQ(flow("out.glb", with({"--preview", path("p.png")})).exit_code, 0);
+    EXPECT_EQ(readPicture(path("p.png")), readPicture(path("last.png")));
+    const CommandResult turned =
+        flow("out-%d.obj", with({"--preview", path("t.png"), "--turntable", "3", "--progress", "json"}));
+    ASSERT_EQ(turned.exit_code, 0) << turned.error;
+    EXPECT_NE(readPicture(path("t-001.png")), readPicture(path("t-002.png")));
+    EXPECT_NE(readPicture(path("t-002.png")), readPicture(path("t-003.png")));
+    const std::vector<std::string> lines = turned.errorLines();
+    ASSERT_EQ(lines.size(), 6U) << turned.error;
+    EXPECT_THAT(lines[2], StartsWith(R"({"frame":3,"of":3,"elapsed_s":)"));
+    EXPECT_THAT(lines[5], StartsWith(R"({"drawn":3,"of":3,"elapsed_s":)"));
+    expectRefused({"--drops", "3", "--preview", path("p.mp4")}, 2, "--turntable");
+    expectRefused({"--drops", "3", "--preview", path("p.jpg")}, 2, "--preview");
+    expectRefused({"--drops", "3", "--turntable", "4"}, 2, "--preview");
+    EXPECT_EQ(flow("x.png", with({"--preview", path("p.png")})).exit_code, 2);
 }
 
 TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)

@@ -245,6 +245,22 @@ TEST(Flow, RainIsWhatFallsOnTheObject)
     const RainImpacts impacts{raindropSizes(parameters.rain->rainfall), {parameters.rain->small_diameter, 8e-3}, 0.0};
     const double expected = impacts.bound() * 0.2 * 0.2 * 20.0;
     EXPECT_NEAR(static_cast<double>(state.counts.released), expected, 3.0 * std::sqrt(expected));
+    EXPECT_EQ(state.counts.raindrops, state.counts.released);
+    EXPECT_EQ(state.counts.behind, 0U);
+}
+
+TEST(Flow, CountsRainOnTheBackOfASheet)
+{
+    const FlowScene scene = slope(0.0, 4);
+    FlowParameters parameters;
+    parameters.rain = rainOf(20.0 * kMillimetrePerHour);
+    parameters.rain->from = {0.0, 0.0, -1.0};
+    const FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 2.0);
+    EXPECT_EQ(state.counts.released, 0U);
+    EXPECT_GT(state.counts.behind, 10U);
+    EXPECT_GT(state.counts.behind_volume, 0.0);
+    EXPECT_EQ(balanceOf(state).released, 0.0) << "the balance is of the liquid that is released";
+    EXPECT_EQ(flowStateFromBytes(bytesOf(state), scene.surface().faces.size(), "").counts, state.counts);
 }
 
 TEST(Flow, DewGrowsAndRunsAndWipes)

@@ -130,6 +130,25 @@ TEST_F(FlowPainters, StreaksDarkenAndDry)
     EXPECT_EQ(painter.picture({.time = 3.5}, {}, Surface()), dry);
 }
 
+TEST_F(FlowPainters, TheBackOfASheetIsDry)
+{
+    // It faces the camera.
+    object = FlowObject{};
+    object.positions = {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.05, 0.0, 0.1}, {-0.05, 0.0, 0.1}};
+    object.normals.assign(4, {0.0, -1.0, 0.0});
+    object.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const FlowScene sheet(flowSurface(object.positions, object.triangles));
+    options.render.view = View::Side;
+    const auto changes = [&](double azimuth) {
+        FlowPainter painter(object, sheet, options);
+        const Picture dry = painter.picture({.azimuth = azimuth}, {}, Surface());
+        painter.add(std::vector<FlowTrack>{{1, 0, {0.0, 0.0, 0.04}, {0.02, 0.0, 0.04}, 10e-3, 0.0}});
+        return painter.picture({.azimuth = azimuth}, {}, Surface()) != dry;
+    };
+    EXPECT_TRUE(changes(0.0));
+    EXPECT_FALSE(changes(std::numbers::pi));
+}
+
 TEST_F(FlowPainters, FramesHaveOneCameraAndTheSameBytesWithAnyNumberOfThreads)
 {
     FlowPainter painter(object, scene, options);

@@ -37,6 +37,9 @@ TEST(FlowReportOf, HasTheBalanceAndTheParameters)
     report.size = {1.0, 2.0, 3.0};
     report.parameters.wind = {1.0, 2.0, 3.0};
     report.parameters.rain.emplace().rainfall = 25.0 * kMillimetrePerHour;
+    report.counts.raindrops = 1000;
+    report.counts.behind = 3;
+    report.counts.behind_volume = 4e-9;
     report.balance.push_back(flowBalanceRow(state));
     const auto json = written(report);
     EXPECT_EQ(json.at("schema"), "droplet-shape.flow/1");
@@ -45,6 +48,11 @@ TEST(FlowReportOf, HasTheBalanceAndTheParameters)
     EXPECT_EQ(json.at("forces").at("wind_m_per_s"), nlohmann::json({1.0, 3.0, -2.0}));
     EXPECT_EQ(json.at("forces").at("gravity_m_per_s2"), nlohmann::json({0.0, -kStandardGravity, 0.0}));
     EXPECT_NEAR(json.at("sources").at("rain").at("rainfall_mm_per_h"), 25.0, 1e-12);
+    // Most raindrops are small, but have little of the water.
+    EXPECT_NEAR(json.at("sources").at("rain").at("small_share"), 0.01, 0.008);
+    EXPECT_GT(json.at("counts").at("raindrops_small"), 200);
+    EXPECT_EQ(json.at("counts").at("raindrops_behind"), 3);
+    EXPECT_EQ(json.at("counts").at("raindrops_behind_m3"), 4e-9);
     EXPECT_TRUE(json.at("sources").at("condensation").is_null());
     const auto& row = json.at("balance").at(0);
     EXPECT_EQ(row.at("time_s"), 0.333333333);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <limits>
 #include <random>
 #include <vector>
@@ -96,6 +97,18 @@ TEST(Rain, HasNoRaindropsWithoutRainfall)
 }
 
 // The shares of omitted water in the docstring of RaindropRange.
+TEST(Rain, HasTheRainfallOfItsDensity)
+{
+    const RainImpacts impacts{raindropSizes(25.0 * kMillimetrePerHour), {0.5e-3, 4e-3}, 0.0};
+    double sum = 0.0;
+    constexpr int kSteps = 20000;
+    for (int k = 0; k < kSteps; ++k) {
+        const double d = 0.5e-3 + (k + 0.5) * 3.5e-3 / kSteps;
+        sum += impacts.density(d, {}) * std::numbers::pi / 6.0 * d * d * d * 3.5e-3 / kSteps;
+    }
+    EXPECT_NEAR(impacts.rainfall(), sum, 1e-7 * sum);
+}
+
 TEST(Rain, LeavesOutLittleWater)
 {
     const RaindropRange range;

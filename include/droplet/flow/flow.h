@@ -26,6 +26,9 @@ struct FlowCounts {
     std::uint64_t left = 0;       ///< droplets that fell away from the object
     std::uint64_t dried = 0;      ///< droplets that dried up
     std::uint64_t stuck = 0;      ///< droplets stopped, as they met events without end at one time
+    std::uint64_t raindrops = 0;  ///< of those released, raindrops
+    std::uint64_t behind = 0;     ///< raindrops that met the back of an open sheet, and are lost
+    double behind_volume = 0.0;   ///< of these, which is not in FlowBalance::released [m³]
 
     friend bool operator==(const FlowCounts&, const FlowCounts&) = default;  ///< Compares all members.
 };

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_scene.h"
@@ -63,12 +65,21 @@ public:
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
 
-    /// Renders a picture, and wets the places below the droplets. Droplets are bent to follow the object. Those in the
+    /// Renders a picture, and wets the places below the droplets that run. Droplets are bent to follow the object. Those in the
     /// air, farther from the object than its size, are left out.
     /// @param moment    time, pose and view
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples, in the object's frame
     Picture picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets);
+
+    /// Exact bytes of what is wet.
+    [[nodiscard]] std::string bytes() const;
+
+    /// Wets what was wet, so that the next pictures equal those of the painter that was saved.
+    /// @param bytes  of bytes(), by a painter of the same object and options
+    /// @param name   of the source, for messages
+    /// @throws Error InvalidInput if the bytes are damaged, or of another object or other options
+    void restore(std::string_view bytes, const std::string& name);
 
 private:
     struct Content;

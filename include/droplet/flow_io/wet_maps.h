@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_scene.h"
@@ -79,6 +81,15 @@ public:
 
     /// The same in floating point; full_thickness has no effect.
     WetFloatMaps floatMaps(double time, std::span<const FlowSample> samples, const Surface& droplets);
+
+    /// Exact bytes of what is wet.
+    [[nodiscard]] std::string bytes() const;
+
+    /// Wets what was wet, so that the next maps equal those of the mapper that was saved.
+    /// @param bytes  of bytes(), by a mapper of the same object and options
+    /// @param name   of the source, for messages
+    /// @throws Error InvalidInput if the bytes are damaged, or of another object or other options
+    void restore(std::string_view bytes, const std::string& name);
 
 private:
     struct Content;

@@ -19,7 +19,8 @@ struct DropletBase {
     double height = 0.0;       ///< of the droplet [m], > 0
 };
 
-/// Water on a stand with many small droplets: what they do to the light there, and the film that they left.
+/// Water on a stand with many small droplets: what they do to the light there, and the film that they left. The film is
+/// on the front of the triangles, where their vertices run counter-clockwise.
 ///
 /// The film is given on a grid over every triangle with corners A, B and C: for i and j ≥ 0 with i + j ≤ n, at
 /// A + i/n (B − A) + j/n (C − A), in the order of j, then i.

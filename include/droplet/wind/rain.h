@@ -68,6 +68,8 @@ struct RainImpacts {
     /// ∫ N (v + U) dD over the range: rate of a floor and a wall together; the upper bound of every surface's rate
     /// [m⁻² s⁻¹].
     [[nodiscard]] double bound() const;
+    /// Volume that a floor at rest catches: ∫ N v π D³/6 dD over the range [m/s].
+    [[nodiscard]] double rainfall() const;
     /// Share of the raindrops of bound() with a given diameter that the surface catches. Draws of RaindropSampler, kept
     /// with this probability, have the density f and its rate.
     [[nodiscard]] double kept(double diameter, const Exposure& exposure) const;
