@@ -8,7 +8,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "flow/leg_means.h"
 
 namespace droplet {
 namespace {
@@ -121,24 +124,48 @@ public:
 private:
     using Face = FlowSurface::Face;
 
-    Vec3 pushOn(std::uint32_t face) const
+    /// What a face does to the droplet; the same during a walk.
+    struct Footing {
+        std::uint32_t face = FlowSurface::kNone;
+        Grip grip;
+        Vec3 push;  // along the face, less what roughness takes [m/s²]
+    };
+
+    Vec3 pushWithoutRoughness(std::uint32_t face) const
     {
         const Vec3& normal = faces_[face].normal;
-        const Vec3 push = drive_ - dot(drive_, normal) * normal;
-        if (ground_.isUniform()) {
-            return push;
-        }
-        const Vec2 smoothness = ground_.at(face, d_.id, f_.height).smoothness;
-        if (smoothness.x == smoothness.y) {
-            return smoothness.x * push;  // F ← F (1 − k_r)
-        }
-        const Vec3 edge = faces_[face].corners[1] - faces_[face].corners[0];
-        const Vec3 x = (1.0 / length(edge)) * edge;
-        const Vec3 along = dot(push, x) * x;
-        return smoothness.x * along + smoothness.y * (push - along);
+        return drive_ - dot(drive_, normal) * normal;
     }
 
-    Grip gripHere() const { return ground_.isUniform() ? Grip{} : ground_.at(d_.face, d_.id, f_.height); }
+    const Footing& footingOn(std::uint32_t face) const
+    {
+        if (footings_[0].face == face) {
+            return footings_[0];
+        }
+        std::swap(footings_[0], footings_[1]);
+        if (footings_[0].face == face) {
+            return footings_[0];
+        }
+        Footing& footing = footings_[0];
+        footing = {face, ground_.at(face, d_.id, f_.height), pushWithoutRoughness(face)};
+        const Vec2 smoothness = footing.grip.smoothness;
+        if (smoothness.x == smoothness.y) {
+            footing.push = smoothness.x * footing.push;  // F ← F (1 − k_r)
+        } else {
+            const Vec3 edge = faces_[face].corners[1] - faces_[face].corners[0];
+            const Vec3 x = (1.0 / length(edge)) * edge;
+            const Vec3 along = dot(footing.push, x) * x;
+            footing.push = smoothness.x * along + smoothness.y * (footing.push - along);
+        }
+        return footing;
+    }
+
+    Vec3 pushOn(std::uint32_t face) const
+    {
+        return ground_.isUniform() ? pushWithoutRoughness(face) : footingOn(face).push;
+    }
+
+    Grip gripHere() const { return ground_.isUniform() ? Grip{} : footingOn(d_.face).grip; }
 
     /// Ends the piece of the path over the present face.
     void endTrack(Vec3 place, double time)
@@ -243,19 +270,41 @@ private:
     bool advanceOnFace(double end)
     {
         const Face& face = faces_[d_.face];
-        const double speed = length(d_.leg.velocity);
-        std::optional<double> first;
-        std::size_t side = 0;
+        const double least = kRounding * length(d_.leg.velocity);
+        double until = end - d_.leg.begin;
+        LegMeans mean = legMeans(d_.leg.decay * until);
+        struct Exit {
+            Coordinate inside;
+            double guess = 0.0;
+            std::size_t side = 0;
+        };
+        std::array<Exit, 3> exits;
+        std::size_t count = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             Coordinate s = coordinate(face.corners[k], face.inward[k]);
             s.place = std::max(s.place, 0.0);
-            if (std::abs(s.velocity) < kRounding * speed) {
+            if (std::abs(s.velocity) < least) {
                 s.velocity = 0.0;
             }
-            const auto time = s.fallsBelowZero(0.0, first ? *first : end - d_.leg.begin);
-            if (time && (!first || *time < *first)) {
+            // Where it is pushed outward and inside in the end, it was inside before.
+            if (s.push > 0.0 ? s.velocity < 0.0 : placeAfter(s, until, mean) < 0.0) {
+                exits[count++] = {s, s.velocity < 0.0 ? -s.place / s.velocity : until, k};
+            }
+        }
+        // The first exit comes first, mostly; then the others need no search.
+        std::sort(exits.begin(), exits.begin() + static_cast<std::ptrdiff_t>(count),
+                  [](const Exit& a, const Exit& b) { return a.guess < b.guess; });
+        std::optional<double> first;
+        std::size_t side = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto time = firstBelowZero(exits[k].inside, until, mean);
+            if (time && (!first || *time < *first || (*time == *first && exits[k].side < side))) {
                 first = time;
-                side = k;
+                side = exits[k].side;
+                if (k + 1 < count) {
+                    until = *time;
+                    mean = legMeans(d_.leg.decay * until);
+                }
             }
         }
         if (turnsWithin(first.value_or(end - d_.leg.begin))) {
@@ -276,9 +325,11 @@ private:
         const Face& face = faces_[from];
         const Vec3 a = face.corners[side];
         const Vec3 edge = face.corners[(side + 1) % 3] - a;
-        const double share = dot(d_.leg.placeAt(time_) - a, edge) / dot(edge, edge);
+        const double passed = time_ - d_.leg.begin;
+        const LegMeans mean = legMeans(d_.leg.decay * passed);
+        const double share = dot(placeAfter(d_.leg, passed, mean) - a, edge) / dot(edge, edge);
         const Vec3 place = a + std::clamp(share, kCornerShare, 1.0 - kCornerShare) * edge;
-        const Vec3 velocity = d_.leg.velocityAt(time_);
+        const Vec3 velocity = velocityAfter(d_.leg, passed, mean);
         const std::uint32_t to = face.neighbour[side];
         if (to == FlowSurface::kNone) {
             launch(place, velocity);
@@ -524,7 +575,8 @@ private:
     Vec3 drive_;  // acceleration along the surface, before roughness
     FlowDroplet& d_;
     double time_;
-    bool is_open_ = false;  // the last fan
+    mutable std::array<Footing, 2> footings_;  // those asked for last
+    bool is_open_ = false;                     // the last fan
     std::vector<FlowTrack>* tracks_ = nullptr;
     Vec3 track_begin_;
     WalkCounts counts_;
