@@ -54,7 +54,7 @@ const CommandText& commandText()
                                   "\n"
                                   "Examples:\n"
                                   "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
-                                  "  droplet-shape flow car.stl 'rain-%04d.obj' --size 4.5m --rain 25mm/h\n"
+                                  "  droplet-shape flow car.stl 'rain-%04d.obj' --size 45cm --rain 25mm/h\n"
                                   "  droplet-shape flow --preset bottle bottle.glb\n"
                                   "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets out.csv\n"
                                   "\n"

@@ -356,7 +356,7 @@ VideoWriterOptions FlowRun::videoAt(const std::string& path) const
 {
     const std::string codec = options_.codec.value_or(codecFor(path));
     checkCodec(codec, path);
-    const VideoWriterOptions video{
+    VideoWriterOptions video{
         path, codec, options_.view.width, options_.view.height, options_.frames_per_second, options_.quality};
     tryVideo(video);
     return video;

@@ -57,7 +57,7 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
     FlowState state;
     scalars(in, state);
     in.require(state.time >= 0.0);
-    state.droplets.resize(in.count(21 * 8));
+    state.droplets.resize(in.count(21 * sizeof(double)));
     std::uint64_t previous_id = 0;
     for (FlowDroplet& d : state.droplets) {
         std::uint64_t has_grown = 0;
@@ -73,19 +73,19 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
         d.side = static_cast<std::uint32_t>(side);
         previous_id = d.id;
     }
-    state.wetness.resize(in.count(6 * 8));
+    state.wetness.resize(in.count(6 * sizeof(double)));
     in.require(state.wetness.size() == faces);
     for (FlowState::Wetness& w : state.wetness) {
         in.all(w.dryness, w.before, w.id, w.time);
     }
-    state.trails.resize(in.count(8 * 8));
+    state.trails.resize(in.count(8 * sizeof(double)));
     for (FlowState::Trail& t : state.trails) {
         in.all(t.id, t.volume, t.drying, t.length);
         face(t.face);
         in.get(t.place);
         in.require(t.volume >= 0.0 && t.drying >= 0.0);
     }
-    state.emissions.resize(in.count(2 * 8));
+    state.emissions.resize(in.count(2 * sizeof(double)));
     for (FlowState::Emission& e : state.emissions) {
         in.all(e.pending, e.released);
     }

@@ -163,11 +163,12 @@ void addSlope(Grids& grids, const std::string& material, double left, double wid
 void addTilted(Grids& grids)
 {
     constexpr std::array<const char*, 3> kNames{"left", "middle", "right"};
-    for (int k = -1; k <= 1; ++k) {
-        const double tilt = -35.0 * kDegree * k;
-        grids.add({grids.finer(8), grids.finer(8)}, kNames.at(static_cast<std::size_t>(k + 1)), [&](Vec2 uv) {
+    for (std::size_t k = 0; k < kNames.size(); ++k) {
+        const double place = static_cast<double>(k) - 1.0;
+        const double tilt = -35.0 * kDegree * place;
+        grids.add({grids.finer(8), grids.finer(8)}, kNames[k], [&](Vec2 uv) {
             const double x = 0.08 * (uv.x - 0.5);
-            return Vec3{0.09 * k + x * std::cos(tilt), 0.08 * (uv.y - 0.5), x * std::sin(tilt)};
+            return Vec3{0.09 * place + x * std::cos(tilt), 0.08 * (uv.y - 0.5), x * std::sin(tilt)};
         });
     }
 }
