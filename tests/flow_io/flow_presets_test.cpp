@@ -189,7 +189,7 @@ TEST(FlowPresets, RoughnessesHoldSmallDropletsAndStreaksCarryOthers)
         if (std::abs(run.state.time - 0.5) < 1e-9) {
             // Ways of the small droplets fall from left to right.
             double last = 1.0;
-            for (const std::uint64_t id : {1, 5, 9}) {
+            for (const std::uint64_t id : {1U, 5U, 9U}) {
                 const double way = length(now.at(id).place - begin.at(id).place);
                 EXPECT_LT(way, 0.7 * last) << id;
                 last = way;
