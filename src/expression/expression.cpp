@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/expression/expression.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "field.h"
+#include "isoline.h"
+#include "require.h"
+
+namespace droplet {
+namespace {
+
+/// Part of a hole that erasers must fill for it to be foam.
+bool isFoam(const Loop& hole, const ExpressionState& state, const ParticleFrame& frame)
+{
+    Vec2 lower = hole.points.front();
+    Vec2 upper = lower;
+    for (const Vec2 x : hole.points) {
+        lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
+        upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
+    }
+    for (std::size_t i = 0; i < frame.position.size(); ++i) {
+        const Vec2 x = frame.position[i];
+        if (x.x > lower.x && x.y > lower.y && x.x < upper.x && x.y < upper.y && state.air[frame.id[i]] > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool contains(const Loop& loop, Vec2 point)
+{
+    bool is_inside = false;
+    for (std::size_t k = 0; k < loop.points.size(); ++k) {
+        const Vec2 a = loop.points[k];
+        const Vec2 b = loop.points[(k + 1) % loop.points.size()];
+        if ((a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) {
+            is_inside = !is_inside;
+        }
+    }
+    return is_inside;
+}
+
+}  // namespace
+
+void ExpressionOptions::validate() const
+{
+    const auto at_least_zero = [](const char* field, double value) {
+        droplet::require(std::isfinite(value) && value >= 0.0, field, value, "finite and at least 0");
+    };
+    const auto within = [](const char* field, double value, double min, double max, const char* constraint) {
+        droplet::require(value >= min && value <= max, field, value, constraint);
+    };
+    at_least_zero("tail_length", tail_length);
+    within("tail_slope", tail_slope, 0.2, 1.2, "from 0.2 to 1.2");
+    within("max_tail", max_tail, 0.0, 100.0, "from 0 to 100 radii");
+    within("eraser_share", eraser_share, 0.0, 1.0, "from 0 to 1");
+    at_least_zero("air", air);
+    at_least_zero("release", release);
+    within("max_air", max_air, 0.0, 1000.0, "from 0 to 1000 areas of a particle");
+    within("smoothing", smoothing, 0.0, 2.0, "from 0 to 2");
+    within("resolution", resolution, 0.2, 1.0, "from 0.2 to 1 spacings");
+    at_least_zero("min_area", min_area);
+    at_least_zero("droplet_size", droplet_size);
+}
+
+ExpressionOptions expressionOf(LiquidStyle style)
+{
+    ExpressionOptions options;
+    if (style == LiquidStyle::Realistic) {
+        return options;
+    }
+    options.tail_length = 0.25;
+    options.max_tail = 7.0;
+    options.min_area = 0.6;
+    if (style == LiquidStyle::Wave) {
+        options.air = 120.0;
+        options.release = 20.0;
+        options.max_air = 30.0;
+    }
+    return options;
+}
+
+LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options)
+{
+    options.validate();
+    LiquidShape shape;
+    shape.time = frame.time;
+    const double particle = frame.spacing * frame.spacing;
+    std::vector<Loop> holes;
+    for (Loop& loop : isolines(fieldOf(state, frame, options))) {
+        const double area = signedArea(loop);
+        if (std::abs(area) < options.min_area * particle) {
+            continue;
+        }
+        if (area < 0.0) {
+            holes.push_back(std::move(loop));
+        } else {
+            (area <= options.droplet_size * particle ? shape.droplets : shape.liquid).push_back(std::move(loop));
+        }
+    }
+    for (Loop& hole : holes) {
+        const bool is_in_droplet = std::any_of(shape.droplets.begin(), shape.droplets.end(), [&](const Loop& droplet) {
+            return contains(droplet, hole.points.front());
+        });
+        if (is_in_droplet) {
+            shape.droplets.push_back(std::move(hole));
+            continue;
+        }
+        if (options.air > 0.0 && isFoam(hole, state, frame)) {
+            shape.foam.push_back(hole);
+        }
+        shape.liquid.push_back(std::move(hole));
+    }
+    return shape;
+}
+
+}  // namespace droplet

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstdint>
+
+#include "droplet/expression/expression.h"
+#include "exact_bytes.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::string_view kHead = "droplet-shape expression 1\n";
+
+}  // namespace
+
+std::string bytesOf(const ExpressionState& state)
+{
+    ExactWriter out(kHead);
+    out.all(state.aeration_limit, state.speed, state.frames);
+    for (const auto* values : {&state.air, &state.flight, &state.aeration}) {
+        out.put(std::uint64_t{values->size()});
+        for (const double value : *values) {
+            out.put(value);
+        }
+    }
+    out.put(std::uint64_t{state.group.size()});
+    for (const std::uint32_t group : state.group) {
+        out.put(std::uint64_t{group});
+    }
+    out.put(std::uint64_t{state.past.size()});
+    for (const ExpressionState::Past& past : state.past) {
+        out.put(past.time);
+        out.put(std::uint64_t{past.position.size()});
+        for (const Vec2 x : past.position) {
+            const bool was_there = !std::isnan(x.x);
+            out.all(std::uint64_t{was_there}, was_there ? x : Vec2{});
+        }
+    }
+    return out.release();
+}
+
+ExpressionState expressionFromBytes(std::string_view bytes, const std::string& name)
+{
+    ExactReader in(bytes, kHead, name);
+    ExpressionState state;
+    in.all(state.aeration_limit, state.speed, state.frames);
+    for (auto* values : {&state.air, &state.flight, &state.aeration}) {
+        values->resize(in.count(sizeof(double)));
+        for (double& value : *values) {
+            in.get(value);
+        }
+    }
+    state.group.resize(in.count(sizeof(std::uint64_t)));
+    for (std::uint32_t& group : state.group) {
+        std::uint64_t number = 0;
+        in.get(number);
+        in.require(number < state.group.size());
+        group = static_cast<std::uint32_t>(number);
+    }
+    state.past.resize(in.count(2 * sizeof(double)));
+    for (ExpressionState::Past& past : state.past) {
+        in.get(past.time);
+        past.position.resize(in.count(3 * sizeof(double)));
+        for (Vec2& x : past.position) {
+            std::uint64_t was_there = 0;
+            in.all(was_there, x);
+            if (was_there == 0) {
+                x = {std::nan(""), std::nan("")};
+            }
+        }
+    }
+    in.require(in.ended());
+    return state;
+}
+
+}  // namespace droplet
