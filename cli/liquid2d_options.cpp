@@ -95,7 +95,9 @@ void declare(CommandLine& line)
     line.add(kSurface, "--eraser-share", "NUMBER", "Share of particles that may hold air, 0 to 1 [0.15]");
     line.addFlag(kSurface, "--no-crest-gate", "Air enters anywhere at the surface, as in the paper");
     line.add(kSurface, "--smoothing", "NUMBER", "Smoothness of the surface, 0 to 2 [1]");
-    line.add(kSurface, "--resolution", "NUMBER", "Grid of the surface, in distances of particles, 0.2 to 1 [0.5]");
+    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of bends as short as a particle, 0 to 10 [2.5, realistic 1]");
+    line.add(kSurface, "--resolution", "NUMBER",
+             "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]");
     constexpr const char* kOut = "Output";
     line.add(kOut, "--width", "N", "Width of drawings and masks in pixels, up to 16384 [1280]");
     line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
@@ -197,6 +199,7 @@ void readSurface(const CommandLine& line, Liquid2dOptions& options)
         {"--max-air", &controls.max_air, {0.0, 1000.0, "a number from 0 to 1000"}},
         {"--eraser-share", &controls.eraser_share, {0.0, 1.0, "a number from 0 to 1"}},
         {"--smoothing", &controls.smoothing, {0.0, 2.0, "a number from 0 to 2"}},
+        {"--fairing", &controls.fairing, {0.0, 10.0, "a number from 0 to 10"}},
         {"--resolution", &controls.resolution, {0.2, 1.0, "a number from 0.2 to 1"}},
     };
     for (const Control& control : all) {

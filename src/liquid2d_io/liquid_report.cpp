@@ -31,6 +31,7 @@ void writeLiquidReport(std::ostream& out, const LiquidReport& report)
                      {"eraser_share", o.eraser_share},
                      {"crest_gate", o.crest_gate},
                      {"smoothing", o.smoothing},
+                     {"fairing", o.fairing},
                      {"resolution", o.resolution},
                      {"min_area", o.min_area},
                      {"droplet_size", o.droplet_size}};
