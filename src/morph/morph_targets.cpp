@@ -130,6 +130,7 @@ std::vector<Indices> neighboursOf(const std::vector<Vec2>& points)
 void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets, Indices& partner)
 {
     constexpr int kSweeps = 60;
+    constexpr std::size_t kThird = 6;  // neighbours tried as the third of three
     const std::vector<Indices> near_source = neighboursOf(sources);
     const std::vector<Indices> near_target = neighboursOf(targets);
     Indices owner(partner.size());
@@ -179,7 +180,7 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
             }
             for (const std::uint32_t j : candidates) {
                 tryPair(i, j);
-                for (std::size_t n = 0; threes && n < near_source[j].size(); ++n) {
+                for (std::size_t n = 0; threes && n < std::min(kThird, near_source[j].size()); ++n) {
                     tryThree(i, j, near_source[j][n]);
                 }
             }
