@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "liquid2d/near_points.h"
 #include "liquid2d/region.h"
@@ -32,11 +33,13 @@ Vec2 meanOf(const std::vector<Vec2>& points)
 
 void sortAlong(Vec2 direction, const std::vector<Vec2>& points, std::span<std::uint32_t> order)
 {
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const double u = dot(direction, points[a]);
-        const double v = dot(direction, points[b]);
-        return u < v || (u == v && a < b);
-    });
+    std::vector<std::pair<double, std::uint32_t>> keys;
+    keys.reserve(order.size());
+    for (const std::uint32_t i : order) {
+        keys.emplace_back(dot(direction, points[i]), i);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
 }
 
 Indices upTo(std::size_t count)
@@ -169,12 +172,13 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
             changed = true;
         }
     };
+    Indices candidates;
     bool threes = false;  // pairs first, which cost less time
     for (int sweep = 0; sweep < kSweeps && (changed || !threes); ++sweep) {
         threes = !changed;
         changed = false;
         for (std::uint32_t i = 0; i < partner.size(); ++i) {
-            Indices candidates = near_source[i];
+            candidates = near_source[i];
             for (const std::uint32_t t : near_target[partner[i]]) {
                 candidates.push_back(owner[t]);
             }

@@ -150,6 +150,9 @@ TEST(AssignTargets, IsNearTheLeastCost)
                                               sampleRegion(droplet::rectangle({0, 0}, {2, 0.3}), 200)};
     for (std::size_t a = 0; a < sets.size(); ++a) {
         for (std::size_t b = 0; b < sets.size(); ++b) {
+            if (a == b) {
+                continue;
+            }
             const auto partner = assignTargets(sets[a], sets[b]);
             expectPermutation(partner);
             // A common shift costs the same for all pairs, so it is left out of the comparison.
@@ -166,7 +169,6 @@ TEST(AssignTargets, IsNearTheLeastCost)
             const auto from = centred(sets[a]);
             const auto to = centred(sets[b]);
             const double ratio = cost(from, to, partner) / std::max(leastCost(from, to), 1e-12);
-            RecordProperty("ratio" + std::to_string(a) + std::to_string(b), std::to_string(ratio));
             EXPECT_LT(ratio, 1.05) << a << " to " << b;
         }
     }
