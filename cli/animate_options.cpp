@@ -15,26 +15,28 @@ namespace {
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape animate", "make animated droplets from frames or a video",
-                                  "[OPTIONS] INPUT... OUTPUT",
-                                  std::string(kUnitsText) +
-                                      "\n"
-                                      "Examples:\n"
-                                      "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
-                                      "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
-                                      "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
-                                      "\n"
-                                      "Exit codes:\n"
-                                      "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-                                      "  4 output cannot be written; 5 no such droplet exists"};
+    static const CommandText text{
+        "droplet-shape animate", "make animated droplets from frames or a video", "[OPTIONS] INPUT... OUTPUT",
+        std::string(kUnitsText) +
+            "\n"
+            "Examples:\n"
+            "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
+            "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
+            "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
+            "  droplet-shape liquid2d --scene dam --masks - | droplet-shape animate - dam.glb\n"
+            "\n"
+            "Exit codes:\n"
+            "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
+            "  4 output cannot be written; 5 no such droplet exists"};
     return text;
 }
 
 void declareAnimate(CommandLine& line)
 {
     line.addArguments("FILES",
-                      "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, or a "
-                      "video, which needs ffmpeg. OUTPUT is a .glb that plays, or a pattern for one file per frame "
+                      "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
+                      "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb "
+                      "that plays, or a pattern for one file per frame "
                       "such as out/%04d.glb, .gltf, .obj, .ply or .stl");
     line.add("Sequence", "--volume-mode", "total|track",
              "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "

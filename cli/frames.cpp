@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -104,6 +105,10 @@ Frames::Frames(const std::vector<std::string>& inputs)
     if (inputs.size() == 1) {
         const std::string& input = inputs.front();
         std::error_code ignored;
+        if (isStream(input)) {
+            stream_ = std::make_unique<PictureStream>(std::cin);
+            return;
+        }
         if (const auto pattern = NumberedPath::of(input, "INPUT")) {
             pictures_ = pattern->existing();
             return;
@@ -126,6 +131,8 @@ Frames::Frames(const std::vector<std::string>& inputs)
 
 void Frames::decide(const droplet::MaskOptions& options)
 {
+    // A stream cannot be read again, so the pictures before the decision are kept.
+    keeps_ = stream_ != nullptr;
     while (auto frame = read(options)) {
         const bool decides = frame->mask.found || frame->mask.segment != droplet::Segmentation::Threshold;
         if (done_ == 1 || decides) {
@@ -134,12 +141,15 @@ void Frames::decide(const droplet::MaskOptions& options)
         if (decides) {
             if (done_ == 1) {
                 first_picture_ = std::move(frame);
+                kept_.clear();
+                keeps_ = false;
                 return;
             }
             break;
         }
     }
     done_ = 0;
+    keeps_ = false;
     if (video_) {
         video_ = std::make_unique<Video>(video_path_);
     }
@@ -171,10 +181,39 @@ std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
     return frame;
 }
 
+std::optional<std::vector<std::byte>> Frames::nextOfStream()
+{
+    if (!keeps_ && !kept_.empty()) {
+        std::vector<std::byte> picture = std::move(kept_.front());
+        kept_.pop_front();
+        return picture;
+    }
+    auto picture = stream_->next();
+    if (picture && keeps_) {
+        kept_.push_back(*picture);
+    }
+    return picture;
+}
+
 std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
 {
     FramePicture frame;
-    if (video_) {
+    if (stream_) {
+        frame.number = done_ + 1;
+        frame.name = "standard input, frame " + std::to_string(frame.number);
+        try {
+            const auto bytes = nextOfStream();
+            if (!bytes && done_ == 0) {
+                throw Error(ErrorCode::InvalidInput, "there is no picture");
+            }
+            if (!bytes) {
+                return std::nullopt;
+            }
+            frame.mask = droplet::decodeMask(*bytes, options);
+        } catch (const Error& error) {
+            throw Error(error.code(), frame.name + ": " + error.what());
+        }
+    } else if (video_) {
         const auto bytes = video_->next();
         if (!bytes) {
             if (done_ == 0) {
@@ -211,7 +250,7 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
 
 std::optional<std::size_t> Frames::count() const
 {
-    return video_ ? std::nullopt : std::optional(pictures_.size());
+    return video_ || stream_ ? std::nullopt : std::optional(pictures_.size());
 }
 
 std::vector<std::size_t> Frames::numbers() const
@@ -236,6 +275,9 @@ std::vector<std::string> Frames::files() const
     }
     if (video_) {
         files.push_back(video_path_);
+    }
+    if (stream_) {
+        files.emplace_back(kStandardStream);
     }
     return files;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "droplet/footprint/mask.h"
+#include "picture_stream.h"
 #include "video.h"
 
 namespace cli {
@@ -25,7 +27,8 @@ struct FramePicture {
 /// which levels of which channel are dry and liquid in all frames.
 class Frames {
 public:
-    /// @param inputs          several pictures; or one path: a numbered pattern, a folder, a picture or a video
+    /// @param inputs          several pictures; or one path: a numbered pattern, a folder, a picture, a video, or -
+    ///                        for pictures on standard input
     /// @throws droplet::Error InvalidArgument, InvalidInput
     explicit Frames(const std::vector<std::string>& inputs);
 
@@ -33,7 +36,7 @@ public:
     /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size
     std::optional<FramePicture> next(const droplet::MaskOptions& options);
 
-    /// Number of frames, if it is known beforehand; not of a video.
+    /// Number of frames, if it is known beforehand; not of a video or standard input.
     [[nodiscard]] std::optional<std::size_t> count() const;
     /// Frame that decided, and its decision before MaskOptions::invert.
     struct Decision {
@@ -53,6 +56,8 @@ public:
 private:
     /// @throws droplet::Error InvalidInput
     void decide(const droplet::MaskOptions& options);
+    /// File of the next picture of the stream.
+    std::optional<std::vector<std::byte>> nextOfStream();
     [[nodiscard]] std::optional<FramePicture> read(const droplet::MaskOptions& options);
 
     std::optional<Decision> decision_;
@@ -60,6 +65,9 @@ private:
     std::vector<std::pair<std::size_t, std::string>> pictures_;
     std::string video_path_;
     std::unique_ptr<Video> video_;
+    std::unique_ptr<PictureStream> stream_;
+    std::deque<std::vector<std::byte>> kept_;  ///< pictures of the stream that were read for the decision
+    bool keeps_ = false;                       ///< whether pictures that are read now are kept
     std::size_t done_ = 0;
     int width_ = 0;
     int height_ = 0;

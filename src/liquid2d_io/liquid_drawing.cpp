@@ -381,8 +381,7 @@ DeepPicture liquidMask(const LiquidShape& shape, const LiquidView& view)
         for (const Loop& loop : *loops) {
             const std::vector<Vec2> points = toPixels(loop.points, view);
             for (std::size_t k = 0; k < points.size(); ++k) {
-                // Outer loops run clockwise in pixels, y down: their left sides go up.
-                coverage.addLine(points[(k + 1) % points.size()], points[k]);
+                coverage.addLine(points[k], points[(k + 1) % points.size()]);
             }
         }
     }

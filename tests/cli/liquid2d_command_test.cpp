@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `droplet-shape liquid2d`: outputs, errors, resuming an interrupted run; and `animate` on what it writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/mask.h"
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::runDroplet;
+using ::testing::StartsWith;
+
+class Liquid2dCommand : public ::testing::Test {
+protected:
+    [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    [[nodiscard]] static CommandResult liquid(std::vector<std::string> more)
+    {
+        std::vector<std::string> arguments{"liquid2d", "--scene",          "dam", "--time",  "1s",  "--fps",
+                                           "8",        "--particle-count", "300", "--width", "160", "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    }
+
+    static void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message)
+    {
+        const CommandResult result = runDroplet(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.error;
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+    }
+
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(Liquid2dCommand, WritesDrawingsMasksAndAReport)
+{
+    const CommandResult run =
+        liquid({path("out/%02d.svg"), "--masks", path("masks/%02d.png"), "--json", path("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto report = nlohmann::json::parse(readFile(path("r.json")));
+    EXPECT_EQ(report.at("schema"), "droplet-shape.liquid2d/1");
+    ASSERT_EQ(report.at("frames").size(), 8U);
+    const auto& frame = report.at("frames").at(5);
+    EXPECT_DOUBLE_EQ(frame.at("time_s").get<double>(), 5.0 / 8.0);
+    EXPECT_NEAR(frame.at("area_m2").get<double>(), frame.at("particle_area_m2").get<double>(),
+                0.1 * frame.at("particle_area_m2").get<double>());
+    EXPECT_THAT(readFile(path("out/06.svg")), StartsWith("<svg "));
+    // The mask covers the area that the report states, but for what lies beyond the window's edges.
+    const Mask mask = readMask(path("masks/06.png"));
+    double covered = 0.0;
+    for (const std::uint16_t level : mask.coverage) {
+        covered += level / 65535.0;
+    }
+    const double pixel = report.at("window_m").at(0).get<double>() / 160.0;
+    EXPECT_LE(covered * pixel * pixel, 1.001 * frame.at("area_m2").get<double>());
+    EXPECT_GE(covered * pixel * pixel, 0.9 * frame.at("area_m2").get<double>());
+    EXPECT_FALSE(fs::exists(path("out/checkpoint.state")));
+}
+
+TEST_F(Liquid2dCommand, ResumesToTheSameBytes)
+{
+    const auto run = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"liquid2d", path(folder + "/%02d.svg"), "--scene", "dam",    "--fps",
+                                           "4",        "--particle-count",         "300",     "--time", "2s",
+                                           "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    };
+    ASSERT_EQ(run("whole", {}).exit_code, 0);
+    // A folder in the place of the seventh frame interrupts the run behind its checkpoint.
+    fs::create_directories(path("cut/07.svg"));
+    ASSERT_EQ(run("cut", {}).exit_code, 4);
+    ASSERT_TRUE(fs::exists(path("cut/checkpoint.state")));
+    fs::remove(path("cut/07.svg"));
+    const std::string kept = path("cut/01.svg");
+    testing::writeFile(kept, "kept");
+    ASSERT_EQ(run("cut", {"--resume"}).exit_code, 0);
+    EXPECT_EQ(readFile(kept), "kept");
+    for (const char* name : {"/05.svg", "/08.svg"}) {
+        EXPECT_EQ(readFile(path("cut") + name), readFile(path("whole") + name)) << name;
+    }
+}
+
+TEST_F(Liquid2dCommand, AnimateTakesMasksFromStandardInput)
+{
+    const CommandResult masks = liquid({"--masks", "-"});
+    ASSERT_EQ(masks.exit_code, 0) << masks.error;
+    testing::CommandOptions input;
+    input.input = masks.output;
+    const std::vector<std::string> animate{"animate", "-", path("dam.glb"), "-q", "--triangles", "500"};
+    const CommandResult run = runDroplet(animate, input);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_TRUE(fs::exists(path("dam.glb")));
+
+    input.input.resize(input.input.size() - 10);
+    const CommandResult cut = runDroplet(animate, input);
+    EXPECT_EQ(cut.exit_code, 3);
+    EXPECT_THAT(cut.errorLines(), ElementsAre(HasSubstr("standard input, frame 8: the picture is cut off")));
+    input.input = "GIF89a and more";
+    EXPECT_THAT(runDroplet(animate, input).errorLines(), ElementsAre(HasSubstr("neither PNG nor binary PGM or PPM")));
+    input.input.clear();
+    EXPECT_THAT(runDroplet(animate, input).errorLines(), ElementsAre(HasSubstr("there is no picture")));
+    // Two grey pictures of 40 × 40 pixels with a square of 20 × 20.
+    for (int frame = 0; frame < 2; ++frame) {
+        input.input += "P5 # square\n40 40\n255\n";
+        for (int k = 0; k < 1600; ++k) {
+            const bool is_inside = k / 40 >= 10 && k / 40 < 30 && k % 40 >= 10 && k % 40 < 30;
+            input.input += is_inside ? '\xff' : '\0';
+        }
+    }
+    EXPECT_EQ(runDroplet(animate, input).exit_code, 0);
+}
+
+TEST_F(Liquid2dCommand, DrawsParticlesOfOtherPrograms)
+{
+    for (int frame = 1; frame <= 3; ++frame) {
+        std::string rows = "id,x,y\n";
+        for (int k = 0; k < 100; ++k) {
+            rows += std::to_string(k) + "," + std::to_string(0.1 * (k % 10)) + "," +
+                    std::to_string(0.1 * (k / 10) + 0.2 * frame) + "\n";
+        }
+        testing::writeFile(path("sim" + std::to_string(frame) + ".csv"), rows);
+    }
+    const CommandResult run = runDroplet(
+        {"liquid2d", "--particles", path("sim%d.csv"), path("out%d.png"), "--width", "100", "--json", "-", "--quiet"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto report = nlohmann::json::parse(run.output);
+    EXPECT_NEAR(report.at("frames").at(2).at("area_m2").get<double>(), 1.0, 0.05);
+    EXPECT_TRUE(fs::exists(path("out3.png")));
+
+    testing::writeFile(path("sim2.csv"), "id,x,y\n1,nan,0\n2,1,1\n");
+    expectRefused({"liquid2d", "--particles", path("sim%d.csv"), path("x%d.png"), "-q"}, 3, "sim2.csv");
+    fs::remove(path("sim2.csv"));
+    expectRefused({"liquid2d", "--particles", path("sim%d.csv"), path("x%d.png"), "-q"}, 3, "sim2.csv");
+}
+
+TEST_F(Liquid2dCommand, RefusesWhatCannotBeDrawn)
+{
+    const std::string out = path("x%d.svg");
+    expectRefused({"liquid2d", out, "--scene", "splosh"}, 2, "there is no scene 'splosh'; there are splash, wave");
+    expectRefused({"liquid2d"}, 2, "OUTPUT");
+    expectRefused({"liquid2d", path("x.gif")}, 2, "a file for every frame such as out/%04d.svg");
+    expectRefused({"liquid2d", out, "--spacing", "1mm"}, 2, "--spacing needs --particles");
+    expectRefused({"liquid2d", out, "--particles", "sim.vtk"}, 2, "a path for numbered files");
+    expectRefused({"liquid2d", out, "--tail-slope", "2"}, 2, "--tail-slope: '2' must be a number from 0.2 to 1.2");
+    expectRefused({"liquid2d", path("x.mp4"), "--resume"}, 2, "--resume needs a file for every frame");
+    testing::writeFile(path("scene.toml"), "spacing = \"2cm\"\ngravitas = \"1m/s2\"\n");
+    expectRefused({"liquid2d", out, "--scene", path("scene.toml")}, 3, "scene.toml:2: ");
+    expectRefused({"liquid2d", out, "--scene", path("none.toml")}, 3, "none.toml");
+}
+
+}  // namespace
+}  // namespace droplet
