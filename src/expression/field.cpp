@@ -11,6 +11,7 @@ namespace droplet {
 namespace {
 
 constexpr std::size_t kTilesPerBlock = 16;
+constexpr double kClusterMass = 0.12;
 constexpr int kRows = 3 * kTileSide;
 /// Cells of a tile and its eight neighbours, as rows of bits.
 using Rows = std::array<std::uint32_t, kRows>;
@@ -251,10 +252,15 @@ KernelShape kernelShape(double coverage, double smoothing)
 {
     const double bulk = bulkSupport(smoothing);
     const double bulk_weight = 1.0 / (kKernelIntegral * bulk * bulk);
-    const double b = smoothRamp(coverage, bulk_weight, std::max(0.8, bulk_weight + 0.1));
+    // 0 for an isolated particle, 1 at a straight rim.
+    const double full = std::max(0.8, bulk_weight + 0.1);
+    const double t = std::clamp((coverage - bulk_weight) / (full - bulk_weight), 0.0, 1.0);
+    const double b = smoothRamp(t, 0.0, 1.0);
     const double support = (1.0 - b) * 2.0 * kParticleRadius + b * bulk;
-    // An isolated disc of area 1 has weight 1: its kernel integrates to 1.2.
-    const double mass = (1.0 - b) * kKernelIntegral * 4.0 * kParticleRadius * kParticleRadius + b;
+    // An isolated disc of area 1 has weight 1: its kernel integrates to 1.2. Bodies of few particles are round, so
+    // their kernels reach beyond the rim and need more weight; fitted to the areas of clusters.
+    const double mass = (1.0 - b) * kKernelIntegral * 4.0 * kParticleRadius * kParticleRadius + b +
+                        kClusterMass * smoothRamp(t, 0.15, 0.4) * smoothRamp(t, 0.9, 0.6);
     return {support, mass / (kKernelIntegral * support * support) / std::max(1.0, coverage)};
 }
 

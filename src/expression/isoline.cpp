@@ -2,6 +2,7 @@
 #include "isoline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -13,6 +14,43 @@ namespace droplet {
 namespace {
 
 constexpr std::uint32_t kNoVertex = 0xFFFFFFFFU;
+/// Vertices keep this distance from nodes, so that loops do not touch.
+constexpr double kMargin = 0.001;
+
+/// Vertex of a loop on an edge between two nodes. In cells.
+struct Cut {
+    Vec2 corner{};    ///< the left or lower node
+    double at = 0.0;  ///< along the edge
+    bool up = false;  ///< whether the edge is upright
+    [[nodiscard]] Vec2 place() const { return up ? Vec2{corner.x, corner.y + at} : Vec2{corner.x + at, corner.y}; }
+};
+
+/// Points of a loop with the area of the curve through its vertices: chords cut off a part of it. Vertices move along
+/// their edges alone, so that loops still do not cross.
+std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale)
+{
+    std::vector<Vec2> points(cuts.size());
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        const Vec2 before = cuts[k == 0 ? cuts.size() - 1 : k - 1].place();
+        const Vec2 after = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
+        Cut cut = cuts[k];
+        const Vec2 chord = after - before;
+        const double size = length(chord);
+        const Vec2 outwards = size > 0.0 ? Vec2{chord.y / size, -chord.x / size} : Vec2{};
+        const double along = cut.up ? outwards.y : outwards.x;
+        if (std::abs(along) > 0.3) {
+            // Two thirds of the height of the arcs beside the vertex, by the arc through three points.
+            const Vec2 p = cut.place();
+            const double a = length(p - before);
+            const double b = length(after - p);
+            const double height = dot(p - before, outwards);
+            const double mean = a * b > 0.0 ? (a * a + b * b) / (12.0 * a * b) * height : 0.0;
+            cut.at = std::clamp(cut.at + mean / along, kMargin, 1.0 - kMargin);
+        }
+        points[k] = scale * cut.place();
+    }
+    return points;
+}
 
 /// Values of a tile's nodes with a row of the next tiles above and to the right.
 class Patch {
@@ -50,26 +88,27 @@ std::vector<Loop> isolines(const SurfaceField& field, double spacing)
     const std::size_t edges = 2 * field.nodes();
     std::vector<std::uint32_t> vertex_of(tiles * edges, kNoVertex);
     std::vector<std::uint32_t> first(tiles + 1, 0);
-    std::vector<std::vector<Vec2>> points(tiles);
+    std::vector<std::vector<Cut>> points(tiles);
     forBlocks(
         tiles,
         [&](std::size_t b, std::size_t e) {
             for (std::size_t t = b; t < e; ++t) {
                 const Patch patch(field, t);
                 const auto cut = [](float a, float c) {
-                    return static_cast<double>(std::clamp((kIsoValue - a) / (c - a), 0.001F, 0.999F));
+                    return std::clamp(static_cast<double>((kIsoValue - a) / (c - a)), kMargin, 1.0 - kMargin);
                 };
                 for (int j = 0; j < side; ++j) {
                     for (int i = 0; i < side; ++i) {
                         const bool in = patch.inside(i, j);
+                        const Vec2 corner{static_cast<double>(i), static_cast<double>(j)};
                         const std::size_t node = t * edges + 2 * static_cast<std::size_t>(j * side + i);
                         if (in != patch.inside(i + 1, j)) {
                             vertex_of[node] = static_cast<std::uint32_t>(points[t].size());
-                            points[t].push_back({i + cut(patch.at(i, j), patch.at(i + 1, j)), static_cast<double>(j)});
+                            points[t].push_back({corner, cut(patch.at(i, j), patch.at(i + 1, j)), false});
                         }
                         if (in != patch.inside(i, j + 1)) {
                             vertex_of[node + 1] = static_cast<std::uint32_t>(points[t].size());
-                            points[t].push_back({static_cast<double>(i), j + cut(patch.at(i, j), patch.at(i, j + 1))});
+                            points[t].push_back({corner, cut(patch.at(i, j), patch.at(i, j + 1)), true});
                         }
                     }
                 }
@@ -80,16 +119,17 @@ std::vector<Loop> isolines(const SurfaceField& field, double spacing)
     for (std::size_t t = 0; t < tiles; ++t) {
         first[t + 1] += first[t];
     }
-    std::vector<Vec2> place(first.back());
+    std::vector<Cut> place(first.back());
     std::vector<std::uint32_t> next(first.back(), kNoVertex);
     forBlocks(
         tiles,
         [&](std::size_t b, std::size_t e) {
             for (std::size_t t = b; t < e; ++t) {
                 for (std::size_t k = 0; k < points[t].size(); ++k) {
-                    const double cell = spacing / field.nodes_per_cell;
-                    place[first[t] + k] = {cell * (points[t][k].x + static_cast<double>(side) * field.tiles[t].x),
-                                           cell * (points[t][k].y + static_cast<double>(side) * field.tiles[t].y)};
+                    Cut cut = points[t][k];
+                    cut.corner = cut.corner + Vec2{static_cast<double>(side) * field.tiles[t].x,
+                                                   static_cast<double>(side) * field.tiles[t].y};
+                    place[first[t] + k] = cut;
                 }
                 const Patch patch(field, t);
                 for (int j = 0; j < side; ++j) {
@@ -143,20 +183,18 @@ std::vector<Loop> isolines(const SurfaceField& field, double spacing)
         },
         16);
 
+    const double cell = spacing / field.nodes_per_cell;
     std::vector<Loop> loops;
+    std::vector<Cut> cuts;
     for (std::uint32_t start = 0; start < next.size(); ++start) {
-        if (next[start] == kNoVertex) {
-            continue;
-        }
-        Loop loop;
+        cuts.clear();
         std::uint32_t at = start;
         while (at != kNoVertex && next[at] != kNoVertex) {
-            loop.points.push_back(place[at]);
+            cuts.push_back(place[at]);
             at = std::exchange(next[at], kNoVertex);
         }
-        if (at == start && loop.points.size() >= 3) {
-            loop.corner.assign(loop.points.size(), 0);
-            loops.push_back(std::move(loop));
+        if (at == start && cuts.size() >= 3) {
+            loops.push_back({withoutChordLoss(cuts, cell), std::vector<std::uint8_t>(cuts.size(), 0)});
         }
     }
     return loops;

@@ -19,6 +19,7 @@ constexpr double kFree = 3.5;
 /// A droplet whose weakest link is this short has its whole tail.
 constexpr double kTight = 1.25;
 constexpr int kPieces = 8;
+constexpr double kSwept = 0.91;
 
 constexpr std::uint32_t kUnknown = 0;
 constexpr std::uint32_t kBulk = 1;
@@ -261,15 +262,17 @@ Tails tailsOf(const TailInput& input, const ExpressionOptions& options)
         }
         const double r = radius_of(tail / droplet_radius);
         const auto skeleton = evenly(way, tail);
+        // Swept discs reach as far as their foremost points, so they are smaller than those of the body.
+        const double swept = members.size() == 1 ? 1.0 : kSwept;
         for (std::size_t k = 0; k < members.size(); ++k) {
             const Vec2 offset = r * (points[k] - way[0]);
             tails.heads.push_back({members[k], way[0] + offset, r});
             for (int p = 0; p < kPieces; ++p) {
                 const double a = tailProfile(static_cast<double>(p) / kPieces, options.tail_slope);
                 const double b = tailProfile(static_cast<double>(p + 1) / kPieces, options.tail_slope);
-                tails.pieces.push_back({skeleton[static_cast<std::size_t>(p)] + a * offset,
-                                        skeleton[static_cast<std::size_t>(p) + 1] + b * offset, r * kParticleRadius * a,
-                                        r * kParticleRadius * b});
+                tails.pieces.push_back({skeleton[static_cast<std::size_t>(p)] + swept * a * offset,
+                                        skeleton[static_cast<std::size_t>(p) + 1] + swept * b * offset,
+                                        r * kParticleRadius * a, r * kParticleRadius * b});
             }
         }
     }
