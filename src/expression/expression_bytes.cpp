@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <limits>
+#include <cmath>
+#include <cstdint>
 
 #include "droplet/expression/expression.h"
 #include "exact_bytes.h"
@@ -14,46 +15,57 @@ constexpr std::string_view kHead = "droplet-shape expression 1\n";
 std::string bytesOf(const ExpressionState& state)
 {
     ExactWriter out(kHead);
-    out.all(state.time, std::uint64_t{state.begun}, state.aeration_limit, state.frames);
-    out.put(std::uint64_t{state.times.size()});
-    for (const double time : state.times) {
-        out.put(time);
+    out.all(state.aeration_limit, state.speed, state.frames);
+    for (const auto* values : {&state.air, &state.flight, &state.aeration}) {
+        out.put(std::uint64_t{values->size()});
+        for (const double value : *values) {
+            out.put(value);
+        }
     }
-    out.put(std::uint64_t{state.particles.size()});
-    for (const ExpressionState::Memory& m : state.particles) {
-        out.all(std::uint64_t{m.id}, m.air, std::uint64_t{m.way.size()});
-        for (const Vec2 p : m.way) {
-            out.put(p);
+    out.put(std::uint64_t{state.group.size()});
+    for (const std::uint32_t group : state.group) {
+        out.put(std::uint64_t{group});
+    }
+    out.put(std::uint64_t{state.past.size()});
+    for (const ExpressionState::Past& past : state.past) {
+        out.put(past.time);
+        out.put(std::uint64_t{past.position.size()});
+        for (const Vec2 x : past.position) {
+            const bool was_there = !std::isnan(x.x);
+            out.all(std::uint64_t{was_there}, was_there ? x : Vec2{});
         }
     }
     return out.release();
 }
 
-ExpressionState expressionFromBytes(const std::string& bytes, const std::string& name)
+ExpressionState expressionFromBytes(std::string_view bytes, const std::string& name)
 {
     ExactReader in(bytes, kHead, name);
     ExpressionState state;
-    std::uint64_t begun = 0;
-    in.all(state.time, begun, state.aeration_limit, state.frames);
-    in.require(begun < 2 && state.aeration_limit >= 0.0);
-    state.begun = begun != 0;
-    state.times.resize(in.count(sizeof(double)));
-    for (std::size_t k = 0; k < state.times.size(); ++k) {
-        in.get(state.times[k]);
-        in.require(k == 0 || state.times[k] < state.times[k - 1]);
+    in.all(state.aeration_limit, state.speed, state.frames);
+    for (auto* values : {&state.air, &state.flight, &state.aeration}) {
+        values->resize(in.count(sizeof(double)));
+        for (double& value : *values) {
+            in.get(value);
+        }
     }
-    state.particles.resize(in.count(3 * sizeof(double)));
-    std::uint64_t after = 0;
-    for (ExpressionState::Memory& m : state.particles) {
-        std::uint64_t id = 0;
-        in.all(id, m.air);
-        in.require(id >= after && id <= std::numeric_limits<std::uint32_t>::max() && m.air >= 0.0);
-        after = id + 1;
-        m.id = static_cast<std::uint32_t>(id);
-        m.way.resize(in.count(2 * sizeof(double)));
-        in.require(m.way.size() <= state.times.size());
-        for (Vec2& p : m.way) {
-            in.get(p);
+    state.group.resize(in.count(sizeof(std::uint64_t)));
+    for (std::uint32_t& group : state.group) {
+        std::uint64_t number = 0;
+        in.get(number);
+        in.require(number < state.group.size());
+        group = static_cast<std::uint32_t>(number);
+    }
+    state.past.resize(in.count(2 * sizeof(double)));
+    for (ExpressionState::Past& past : state.past) {
+        in.get(past.time);
+        past.position.resize(in.count(3 * sizeof(double)));
+        for (Vec2& x : past.position) {
+            std::uint64_t was_there = 0;
+            in.all(was_there, x);
+            if (was_there == 0) {
+                x = {std::nan(""), std::nan("")};
+            }
         }
     }
     in.require(in.ended());

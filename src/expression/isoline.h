@@ -8,8 +8,10 @@
 
 namespace droplet {
 
-/// Loops around the liquid by marching squares: liquid on their left, closed, without crossings.
-/// @param spacing  of the particles [m]
-std::vector<Loop> isolines(const SurfaceField& field, double spacing);
+/// Lines along which a field has the value kIso, with greater values on their left.
+///
+/// Guarantees: lines are closed and cross neither themselves nor one another. Where two corners of a square of the grid
+/// are inside, diagonally, the mean of the four decides whether they are connected.
+std::vector<Loop> isolines(const Field& field);
 
 }  // namespace droplet

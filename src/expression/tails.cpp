@@ -1,278 +1,162 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// "Expressive Rendering for 2D Animations of Liquids", section 3. Departures: equation 1 holds half of the rectangle
+// and no taper, so the head's radius follows from the area of the tapering body itself; and the tails of a droplet of
+// several particles lead to one tip.
 #include "tails.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
-
-#include "surface_kernel.h"
 
 namespace droplet {
 namespace {
 
-/// Particles at most so far apart are one body [spacings].
-constexpr double kLink = 1.5;
-/// A droplet this far from all others has its whole tail.
-constexpr double kFree = 3.5;
-/// A droplet whose weakest link is this short has its whole tail.
-constexpr double kTight = 1.25;
-constexpr int kPieces = 8;
-constexpr double kSwept = 0.91;
+/// Points of a skeleton.
+constexpr std::size_t kPoints = 12;
 
-constexpr std::uint32_t kUnknown = 0;
-constexpr std::uint32_t kBulk = 1;
+/// Length of a tail, in radii of its droplet, below which it is none.
+constexpr double kLeastTail = 0.05;
 
-/// Detached droplets: sorted particles of each.
-struct Droplets {
-    std::vector<std::uint32_t> of;  ///< sorted particles: kBulk or 2 + number of the droplet
-    std::vector<std::vector<std::uint32_t>> members;
-};
-
-template <typename Visit>
-void forNeighbours(const ParticleCells& cells, std::uint32_t i, int reach, const Visit& visit)
+/// Area of the discs along a straight skeleton, over the square of the head's radius.
+/// @param length  of the skeleton, in radii of the head
+double sweptArea(double length, double slope)
 {
-    const std::uint32_t place = cells.place[i];
-    const int cx = static_cast<int>(place % kTileCells) % kTileSide;
-    const int cy = static_cast<int>(place % kTileCells) / kTileSide;
-    cells.rows(place / kTileCells, cx - reach, cx + reach, cy - reach, cy + reach,
-               [&](std::uint32_t first, std::uint32_t last, float dx, float dy) {
-                   for (std::uint32_t j = first; j < last; ++j) {
-                       const double x = static_cast<double>(cells.x[j] + dx - cells.x[i]);
-                       const double y = static_cast<double>(cells.y[j] + dy - cells.y[i]);
-                       visit(j, x * x + y * y);
-                   }
-               });
+    constexpr int kSteps = 40;
+    const double begin = -1.0;
+    const double end = length + taper(1.0, slope);
+    double area = 0.0;
+    for (int k = 0; k < kSteps; ++k) {
+        const double x = begin + (end - begin) * (k + 0.5) / kSteps;
+        double square = 0.0;
+        for (int m = 0; m <= kSteps; ++m) {
+            const double u = static_cast<double>(m) / kSteps;
+            const double r = taper(u, slope);
+            const double away = x - u * length;
+            square = std::max(square, r * r - away * away);
+        }
+        area += 2.0 * std::sqrt(square) * (end - begin) / kSteps;
+    }
+    return area;
 }
 
-Droplets findDroplets(const TailInput& input, std::size_t limit)
+/// Points at equal distances along a polyline of a length at most.
+std::vector<Vec2> resampled(const std::vector<Vec2>& way, double size)
 {
-    const ParticleCells& cells = input.cells;
-    Droplets result;
-    result.of.assign(cells.particle.size(), kUnknown);
-    for (std::uint32_t i = 0; i < cells.particle.size(); ++i) {
-        const std::uint32_t p = cells.place[i];
-        if ((input.full[p / kTileCells] >> (p % kTileCells) & 1U) != 0) {
-            result.of[i] = kBulk;
+    std::vector<Vec2> points{way.front()};
+    const double step = size / static_cast<double>(kPoints - 1);
+    double missing = step;
+    for (std::size_t k = 0; k + 1 < way.size() && points.size() < kPoints; ++k) {
+        const Vec2 side = way[k + 1] - way[k];
+        const double side_length = length(side);
+        double at = missing;
+        for (; at <= side_length * (1.0 + 1e-9) && points.size() < kPoints; at += step) {
+            points.push_back(way[k] + (at / side_length) * side);
         }
+        missing = at - side_length;
     }
-    std::vector<std::uint32_t> queue;
-    for (std::uint32_t start = 0; start < cells.particle.size(); ++start) {
-        if (result.of[start] != kUnknown) {
-            continue;
-        }
-        const auto mark = static_cast<std::uint32_t>(result.members.size() + 2);
-        queue.assign(1, start);
-        result.of[start] = mark;
-        bool is_bulk = false;
-        for (std::size_t k = 0; k < queue.size() && !is_bulk; ++k) {
-            forNeighbours(cells, queue[k], 2, [&](std::uint32_t j, double d2) {
-                if (d2 > kLink * kLink) {
-                    return;
-                }
-                if (result.of[j] == kBulk) {
-                    is_bulk = true;
-                } else if (result.of[j] == kUnknown) {
-                    result.of[j] = mark;
-                    queue.push_back(j);
-                }
-            });
-            is_bulk = is_bulk || queue.size() > limit;
-        }
-        if (is_bulk) {
-            for (const std::uint32_t j : queue) {
-                result.of[j] = kBulk;
-            }
-        } else {
-            result.members.push_back(queue);
-        }
-    }
-    return result;
-}
-
-/// Longest link of the shortest tree that joins all points (Prim).
-double weakestLink(const std::vector<Vec2>& points)
-{
-    std::vector<double> reach(points.size(), std::numeric_limits<double>::infinity());
-    std::vector<char> joined(points.size(), 0);
-    std::size_t at = 0;
-    double weakest = 0.0;
-    for (std::size_t k = 1; k < points.size(); ++k) {
-        joined[at] = 1;
-        std::size_t nearest = points.size();
-        for (std::size_t j = 0; j < points.size(); ++j) {
-            if (joined[j] == 0) {
-                reach[j] = std::min(reach[j], length(points[j] - points[at]));
-                if (nearest == points.size() || reach[j] < reach[nearest]) {
-                    nearest = j;
-                }
-            }
-        }
-        weakest = std::max(weakest, reach[nearest]);
-        at = nearest;
-    }
-    return weakest;
-}
-
-/// Way of the centroid over the last `duration`, latest first [spacings].
-std::vector<Vec2> wayOf(const TailInput& input, const std::vector<std::uint32_t>& members, double duration)
-{
-    const double scale = 1.0 / input.frame.spacing;
-    const double share = 1.0 / static_cast<double>(members.size());
-    std::vector<Vec2> way;
-    const std::vector<double>& times = input.state.times;
-    for (std::size_t k = 0; k < times.size(); ++k) {
-        Vec2 sum{};
-        for (const std::uint32_t m : members) {
-            const std::uint32_t i = input.cells.particle[m];
-            const auto& known = input.state.particles[input.memory[i]].way;
-            Vec2 p = k == 0 || known.empty() ? input.frame.position[i] : known[std::min(k, known.size() - 1)];
-            if (k > 0 && k >= known.size()) {
-                // Before it was born it came as it moves now.
-                const std::size_t last = known.empty() ? 0 : known.size() - 1;
-                p = p - (times[last] - times[k]) * input.frame.velocity[i];
-            }
-            sum = sum + p;
-        }
-        way.push_back(scale * share * sum);
-        if (k > 0 && times[0] - times[k] >= duration) {
-            const double t = (times[k - 1] - (times[0] - duration)) / (times[k - 1] - times[k]);
-            way[k] = way[k - 1] + t * (way[k] - way[k - 1]);
-            break;
-        }
-    }
-    return way;
+    return points;
 }
 
 double lengthOf(const std::vector<Vec2>& way)
 {
     double sum = 0.0;
-    for (std::size_t k = 1; k < way.size(); ++k) {
-        sum += length(way[k] - way[k - 1]);
+    for (std::size_t k = 0; k + 1 < way.size(); ++k) {
+        sum += length(way[k + 1] - way[k]);
     }
     return sum;
 }
 
-/// Points at equal distances along the first `total` of a way.
-std::array<Vec2, kPieces + 1> evenly(const std::vector<Vec2>& way, double total)
-{
-    std::array<Vec2, kPieces + 1> points{};
-    points[0] = way[0];
-    std::size_t k = 1;
-    double before = 0.0;
-    for (std::size_t p = 1; p <= kPieces; ++p) {
-        const double at = total * static_cast<double>(p) / kPieces;
-        double piece = length(way[k] - way[k - 1]);
-        while (before + piece < at && k + 1 < way.size()) {
-            before += piece;
-            ++k;
-            piece = length(way[k] - way[k - 1]);
-        }
-        const double t = piece > 0.0 ? std::min(1.0, (at - before) / piece) : 0.0;
-        points[p] = way[k - 1] + t * (way[k] - way[k - 1]);
-    }
-    return points;
-}
-
 }  // namespace
 
-double tailProfile(double u, double slope)
+double taper(double along, double slope)
 {
-    const double h00 = (1.0 + 2.0 * u) * (1.0 - u) * (1.0 - u);
-    const double h10 = u * (1.0 - u) * (1.0 - u);
-    const double h11 = u * u * (u - 1.0);
-    return std::max(0.0, h00 - slope * h10 - (2.0 - slope) * h11);
+    // Cubic Hermite spline from 1 with the tangent −slope to 0 with a zero tangent.
+    const double t = along;
+    return 1.0 - 3.0 * t * t + 2.0 * t * t * t - slope * (t - 2.0 * t * t + t * t * t);
 }
 
-TailRadius::TailRadius(double slope)
+double headRadius(double length, double slope)
 {
-    constexpr int kLengths = 24;
-    constexpr int kStations = 64;
-    constexpr int kDiscs = 48;
-    std::array<double, kDiscs + 1> g{};
-    for (int d = 0; d <= kDiscs; ++d) {
-        g[static_cast<std::size_t>(d)] = tailProfile(static_cast<double>(d) / kDiscs, slope);
+    double low = 0.0;
+    double high = 1.0;
+    for (int k = 0; k < 24; ++k) {
+        const double middle = 0.5 * (low + high);
+        (middle * middle * sweptArea(length / middle, slope) > std::numbers::pi ? high : low) = middle;
     }
-    for (int k = 0; k <= kLengths; ++k) {
-        // Area of the tail of length q around a head of radius 1.
-        const double t = static_cast<double>(k) / kLengths;
-        const double q = 32.0 * t * t;
-        const double step = (q + 2.0) / kStations;
-        double area = 0.0;
-        for (int s = 0; s < kStations; ++s) {
-            // Cosine stations follow the round head.
-            const double a = std::numbers::pi * (s + 0.5) / kStations;
-            const double x = -1.0 + 0.5 * (q + 2.0) * (1.0 - std::cos(a));
-            double widest = 0.0;
-            for (int d = 0; d <= kDiscs; ++d) {
-                const double r = g[static_cast<std::size_t>(d)];
-                const double off = x - q * d / kDiscs;
-                widest = std::max(widest, r * r - off * off);
-            }
-            area += 2.0 * std::sqrt(widest) * 0.5 * std::numbers::pi * std::sin(a) * step;
-        }
-        const double radius = k == 0 ? 1.0 : std::min(1.0, std::sqrt(std::numbers::pi / area));
-        length_.push_back(q * radius);
-        radius_.push_back(radius);
-    }
+    return 0.5 * (low + high);
 }
 
-double TailRadius::operator()(double length) const
+std::vector<Tail> tailsOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options)
 {
-    const auto after = std::upper_bound(length_.begin(), length_.end(), length);
-    if (after == length_.end()) {
-        return radius_.back();
-    }
-    const auto k = static_cast<std::size_t>(after - length_.begin());
-    const double t = (length - length_[k - 1]) / (length_[k] - length_[k - 1]);
-    return radius_[k - 1] + t * (radius_[k] - radius_[k - 1]);
-}
-
-Tails tailsOf(const TailInput& input, const ExpressionOptions& options)
-{
-    Tails tails;
-    if (options.tail_length <= 0.0 || options.max_tail <= 0.0 || input.state.times.size() < 2) {
+    std::vector<Tail> tails(frame.position.size());
+    if (!(options.tail_length > 0.0) || !(options.max_tail > 0.0) || state.past.size() < 2) {
         return tails;
     }
-    const Droplets droplets = findDroplets(input, static_cast<std::size_t>(options.droplet_size));
-    const TailRadius radius_of(options.tail_slope);
-    const double scale = 1.0 / input.frame.spacing;
-    for (std::size_t d = 0; d < droplets.members.size(); ++d) {
-        const std::vector<std::uint32_t>& members = droplets.members[d];
-        double gap = kFree;
-        std::vector<Vec2> points;
-        for (const std::uint32_t m : members) {
-            forNeighbours(input.cells, m, 4, [&](std::uint32_t j, double d2) {
-                if (droplets.of[j] != d + 2) {
-                    gap = std::min(gap, std::sqrt(d2));
-                }
-            });
-            points.push_back(scale * input.frame.position[input.cells.particle[m]]);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> bodies;
+    for (std::uint32_t i = 0; i < tails.size(); ++i) {
+        if (state.flight[frame.id[i]] > 0.0) {
+            // Droplets that have landed keep their tails until they are gone.
+            bodies[state.group[frame.id[i]]].push_back(i);
         }
-        const double freedom = smoothRamp(gap, kLink, kFree) * smoothRamp(weakestLink(points), kLink, kTight);
-        if (freedom <= 0.0) {
+    }
+    if (bodies.empty()) {
+        return tails;
+    }
+    // Radii of heads by lengths of tails; between the entries they are linear.
+    constexpr std::size_t kEntries = 9;
+    std::array<double, kEntries> radii{};
+    for (std::size_t k = 0; k < kEntries; ++k) {
+        radii[k] = headRadius(options.max_tail * static_cast<double>(k) / (kEntries - 1), options.tail_slope);
+    }
+    const auto radius_at = [&](double size) {
+        const double place = std::min(size / options.max_tail, 1.0) * (kEntries - 1);
+        const auto k = std::min(static_cast<std::size_t>(place), kEntries - 2);
+        return radii[k] + (place - static_cast<double>(k)) * (radii[k + 1] - radii[k]);
+    };
+
+    const double own_radius = frame.spacing / std::sqrt(std::numbers::pi);
+    for (const auto& [name, members] : bodies) {
+        // Way of the centroid, as far back as all particles have been in flight.
+        double flight = options.tail_length;
+        for (const std::uint32_t i : members) {
+            flight = std::min(flight, state.flight[frame.id[i]]);
+        }
+        std::vector<Vec2> way;
+        for (std::size_t k = 0; k < state.past.size(); ++k) {
+            Vec2 centre;
+            for (const std::uint32_t i : members) {
+                const std::vector<Vec2>& past = state.past[k].position;
+                const std::uint32_t id = frame.id[i];
+                centre = centre + (id < past.size() ? past[id] : Vec2{std::nan(""), 0.0});
+            }
+            centre = (1.0 / static_cast<double>(members.size())) * centre;
+            if (!std::isfinite(centre.x)) {
+                break;
+            }
+            const double age = frame.time - state.past[k].time;
+            if (age > flight && k > 0) {
+                const double last_age = frame.time - state.past[k - 1].time;
+                way.push_back(way.back() + ((flight - last_age) / (age - last_age)) * (centre - way.back()));
+                break;
+            }
+            way.push_back(centre);
+        }
+        const double radius = own_radius * std::sqrt(static_cast<double>(members.size()));
+        const double size = std::min(lengthOf(way), options.max_tail * radius);
+        if (!(size > kLeastTail * radius)) {
             continue;
         }
-        const std::vector<Vec2> way = wayOf(input, members, options.tail_length);
-        const double droplet_radius = kParticleRadius * std::sqrt(static_cast<double>(members.size()));
-        const double tail = freedom * std::min(lengthOf(way), options.max_tail * droplet_radius);
-        if (tail < 1e-6) {
-            continue;
-        }
-        const double r = radius_of(tail / droplet_radius);
-        const auto skeleton = evenly(way, tail);
-        // Swept discs reach as far as their foremost points, so they are smaller than those of the body.
-        const double swept = members.size() == 1 ? 1.0 : kSwept;
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            const Vec2 offset = r * (points[k] - way[0]);
-            tails.heads.push_back({members[k], way[0] + offset, r});
-            for (int p = 0; p < kPieces; ++p) {
-                const double a = tailProfile(static_cast<double>(p) / kPieces, options.tail_slope);
-                const double b = tailProfile(static_cast<double>(p + 1) / kPieces, options.tail_slope);
-                tails.pieces.push_back({skeleton[static_cast<std::size_t>(p)] + swept * a * offset,
-                                        skeleton[static_cast<std::size_t>(p) + 1] + swept * b * offset,
-                                        r * kParticleRadius * a, r * kParticleRadius * b});
+        const std::vector<Vec2> skeleton = resampled(way, size);
+        const double shrink = radius_at(size / radius);
+        for (const std::uint32_t i : members) {
+            Tail& tail = tails[i];
+            const Vec2 arm = shrink * (frame.position[i] - skeleton.front());
+            for (std::size_t k = 0; k < skeleton.size(); ++k) {
+                const double narrow = taper(static_cast<double>(k) / (kPoints - 1), options.tail_slope);
+                tail.place.push_back(skeleton[k] + narrow * arm);
+                tail.width.push_back(shrink * narrow);
             }
         }
     }

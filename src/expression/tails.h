@@ -5,55 +5,23 @@
 #include <vector>
 
 #include "droplet/expression/expression.h"
-#include "particle_cells.h"
 
 namespace droplet {
 
-/// Radius of a tail at u of its length, in radii of its head: a cubic Hermite curve from 1 to 0.
-/// @param slope  fall at the head; 1 is a cone
-double tailProfile(double u, double slope);
-
-/// Radius of a tail's head, in radii of the disc of its area.
-class TailRadius {
-public:
-    /// @param slope  of tailProfile()
-    explicit TailRadius(double slope);
-    /// @param length  of the tail in radii of the disc
-    [[nodiscard]] double operator()(double length) const;
-
-private:
-    std::vector<double> length_, radius_;
+/// Tapering body of a particle in flight: a polyline with a width at every point.
+struct Tail {
+    std::vector<Vec2> place;    ///< head first [m]
+    std::vector<double> width;  ///< over that of the particle without a tail
 };
 
-/// Piece of a tail: discs whose radius changes evenly from one end to the other. In spacings, absolute.
-struct TailPiece {
-    Vec2 from{}, to{};
-    double from_radius = 0.0;
-    double to_radius = 0.0;
-};
+/// Radius of a tail along its skeleton, over that of its head: falls from 1 at 0 to 0 at 1.
+/// @param slope  0.2 (thick) … 1.2 (thin)
+double taper(double along, double slope);
 
-/// Particle of a droplet with a tail, contracted. In spacings, absolute.
-struct TailHead {
-    std::uint32_t sorted = 0;  ///< among the sorted particles
-    Vec2 centre{};
-    double scale = 1.0;  ///< of its kernel's support
-};
+/// Radius of the head of a tail of a length that has the area of a disc, both over the disc's radius.
+double headRadius(double length, double slope);
 
-/// Tails of the detached droplets of a frame.
-struct Tails {
-    std::vector<TailHead> heads;
-    std::vector<TailPiece> pieces;
-};
-
-/// What tails are made from.
-struct TailInput {
-    const ExpressionState& state;
-    const std::vector<std::uint32_t>& memory;  ///< for each particle of the frame its place in the state
-    const ParticleFrame& frame;
-    const ParticleCells& cells;
-    const std::vector<std::uint64_t>& full;  ///< cells of each tile that are surely liquid
-};
-
-Tails tailsOf(const TailInput& input, const ExpressionOptions& options);
+/// Tails of the particles in flight, by index in the frame; those without a tail have no points.
+std::vector<Tail> tailsOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options);
 
 }  // namespace droplet

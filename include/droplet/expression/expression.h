@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "droplet/expression/liquid_shape.h"
@@ -27,6 +26,7 @@ struct ExpressionOptions {
     double air = 0.0;            ///< strength of aeration: α in areas of a particle per second, ≥ 0
     double release = 0.0;        ///< strength of release: β in areas of a particle per second, ≥ 0
     double max_air = 2.0;        ///< A_max in areas of a particle, ≥ 0
+    double eraser_share = 0.15;  ///< share of particles that may hold air, 0 … 1
     bool crest_gate = true;      ///< air enters at the crests of waves alone; false: as in the paper
     double smoothing = 1.0;      ///< radius of the surface's kernel in bulk liquid: (1 + smoothing)·spacing, 0 … 2
     double resolution = 0.5;     ///< side of the grid's cells in spacings, 0.2 … 1
@@ -40,26 +40,32 @@ struct ExpressionOptions {
 /// Controls of a style.
 ExpressionOptions expressionOf(LiquidStyle style);
 
-/// What the surface remembers of the particles from frame to frame.
+/// What the surface remembers of the particles from frame to frame. Arrays by particle have the particle's id as index.
 struct ExpressionState {
-    /// One particle's memory.
-    struct Memory {
-        std::uint32_t id = 0;   ///< of the particle
-        double air = 0.0;       ///< A_air in areas of a particle
-        std::vector<Vec2> way;  ///< positions of the last frames, latest first [m]
+    /// Positions at an earlier frame.
+    struct Past {
+        double time = 0.0;           ///< [s]
+        std::vector<Vec2> position;  ///< by id [m]; not a number for particles that were not there
     };
-    double time = 0.0;              ///< of the last frame [s]
-    bool begun = false;             ///< whether there was a frame
-    std::vector<double> times;      ///< of the positions, latest first [s]
-    std::vector<Memory> particles;  ///< in the order of ids
-    double aeration_limit = 0.0;    ///< τ₂: mean of the largest aeration of each frame
-    std::uint64_t frames = 0;       ///< number of frames in that mean
+    std::vector<Past> past;        ///< latest first; the latest is the last frame
+    std::vector<double> air;       ///< A_air by id, in areas of a particle
+    std::vector<double> flight;    ///< time by id that the particle's droplet has been in flight [s]
+    std::vector<std::uint32_t> group;  ///< by id: smallest id of the droplet that the particle flew in last
+    std::vector<double> aeration;  ///< by particle of the last frame, in [0, 1]
+    double aeration_limit = 0.0;   ///< τ₂: mean of the largest aeration of each frame [1/s]
+    double speed = 0.0;            ///< greatest lately that one particle in twenty exceeded [m/s]
+    std::uint64_t frames = 0;      ///< number of frames
 };
 
-/// Takes up a frame: updates ways and air.
+/// Takes up a frame: ways, flights and air.
+/// @param frame    valid, later than the one before
+/// @throws Error   InvalidInput: the frame is invalid, not later than the last one, or spread too far
 ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& frame, const ExpressionOptions& options);
 
 /// Outlines of the liquid at the frame that `state` took up last.
+///
+/// Guarantees: loops are closed and do not cross; an isolated droplet has the area of its particles, with its tail; the
+/// same bytes at any number of threads.
 LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options);
 
 /// State as bytes, for resuming.
@@ -67,6 +73,6 @@ std::string bytesOf(const ExpressionState& state);
 
 /// State from its bytes.
 /// @throws Error InvalidInput if the bytes are damaged; the message begins with `name`
-ExpressionState expressionFromBytes(const std::string& bytes, const std::string& name);
+ExpressionState expressionFromBytes(std::string_view bytes, const std::string& name);
 
 }  // namespace droplet

@@ -55,13 +55,13 @@ struct Emitter {
 
 /// Everything that a simulation of a 2D liquid starts from.
 struct FluidScene {
-    Vec2 size{4.0, 2.25};                 ///< of the shown window, its lower left corner at the origin [m], > 0
-    double spacing = 0.02;                ///< distance of particles at rest [m], > 0
-    Vec2 gravity{0.0, -9.81};             ///< [m/s²]
-    double density = 1000.0;              ///< [kg/m³], > 0
-    double surface_tension = 0.0;         ///< [N/m], ≥ 0
-    double viscosity = 0.0;               ///< kinematic [m²/s], ≥ 0
-    double margin = 0.5;                  ///< particles farther than this outside of the window are removed [m], ≥ 0
+    Vec2 size{4.0, 2.25};             ///< of the shown window, its lower left corner at the origin [m], > 0
+    double spacing = 0.02;            ///< distance of particles at rest [m], > 0
+    Vec2 gravity{0.0, -9.81};         ///< [m/s²]
+    double density = 1000.0;          ///< [kg/m³], > 0
+    double surface_tension = 0.0;     ///< [N/m], ≥ 0
+    std::optional<double> viscosity;  ///< kinematic [m²/s], ≥ 0; empty: as little as keeps the particles in order
+    double margin = 0.5;              ///< particles farther than this outside of the window are removed [m], ≥ 0
     std::size_t max_particles = 1000000;  ///< emitters stop there
     std::vector<LiquidBody> liquid;       ///< at the start
     std::vector<Wall> walls;              ///< solids

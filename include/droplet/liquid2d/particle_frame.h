@@ -16,7 +16,8 @@ struct ParticleFrame {
     double spacing = 0.0;           ///< distance of neighbours at rest [m]; a particle's area is its square
     std::vector<Vec2> position;     ///< [m], y up
     std::vector<Vec2> velocity;     ///< [m/s]
-    std::vector<std::uint32_t> id;  ///< the same for the same particle in every frame
+    std::vector<std::uint32_t> id;  ///< the same for the same particle in every frame; memory
+                                    ///< grows with the largest
     std::vector<double> density;    ///< relative to that of the liquid at rest; empty if unknown
 
     /// Checks the invariant.

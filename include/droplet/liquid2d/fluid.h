@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "droplet/liquid2d/fluid_scene.h"
+#include "droplet/liquid2d/particle_frame.h"
+
+namespace droplet {
+
+/// Event counters since the start.
+struct FluidCounts {
+    std::uint64_t steps = 0;                  ///< of time
+    std::uint64_t density_iterations = 0;     ///< of the solver that keeps the density
+    std::uint64_t divergence_iterations = 0;  ///< of the solver that keeps the velocity free of divergence
+    std::uint64_t emitted = 0;                ///< particles released by emitters
+    std::uint64_t removed = 0;                ///< particles that left the window and its margin
+    std::uint64_t rescued = 0;                ///< times that a particle was put back out of a wall
+};
+
+/// State of a 2D liquid.
+struct FluidState {
+    double time = 0.0;              ///< [s]
+    std::vector<Vec2> position;     ///< [m], sorted by cells of the neighbour search
+    std::vector<Vec2> velocity;     ///< [m/s]
+    std::vector<std::uint32_t> id;  ///< of each particle, unique
+    std::vector<double> density;    ///< relative to that at rest
+    std::vector<double> pressure;   ///< over the density [m²/s²]
+    std::vector<double> emitted;    ///< length of liquid that each emitter has released [m]
+    std::uint32_t next_id = 0;      ///< of the next particle
+    double approach_speed = 0.0;    ///< greatest of two neighbours, at the end of the last step [m/s]
+    double density_error = 0.0;     ///< mean compression at the end of the last step
+    double step = 0.0;              ///< length of the last step [s]
+    FluidCounts counts;             ///< since the start
+};
+
+/// Accelerations that a caller adds at every step [m/s²], for the particles of a state at its time.
+using FluidControl = std::function<void(const FluidState& state, std::span<Vec2> acceleration)>;
+
+/// Options of advanceFluid().
+struct FluidOptions {
+    double courant = 0.4;         ///< greatest way of two neighbours past each other in a step, in spacings, in (0, 1]
+    double density_error = 1e-3;  ///< mean compression at which iterations stop, > 0
+    double divergence_error = 1e-4;  ///< mean compression per step that is left in the velocity, > 0
+    int max_iterations = 100;        ///< of each solver in a step, ≥ 2
+    FluidControl control = {};       ///< further accelerations; may be empty
+};
+
+/// Fills the scene's bodies with particles on a hexagonal lattice, one per spacing².
+/// @throws Error InvalidArgument: the scene is invalid, has neither liquid nor emitters, or more than max_particles
+FluidState startFluid(const FluidScene& scene);
+
+/// Advances a liquid by divergence-free SPH (Bender and Koschier 2017) in the plane, with steps as long as the fastest
+/// particle allows.
+///
+/// Guarantees: without walls, gravity and control, momentum and angular momentum stay as they are up to rounding; no
+/// particle enters a wall; the same bytes at any number of threads.
+/// @param state    from startFluid() or this function, for the same scene
+/// @param scene    valid
+/// @param until    time to advance to [s]; the last step ends there
+/// @throws Error   InvalidArgument
+FluidState advanceFluid(FluidState state, const FluidScene& scene, double until, const FluidOptions& options = {});
+
+/// Particles of a state.
+ParticleFrame frameOf(const FluidState& state, const FluidScene& scene);
+
+/// Pressure at each particle [Pa].
+std::vector<double> pressures(const FluidState& state, const FluidScene& scene);
+
+/// Place of a wall's region at a time.
+Region wallAt(const Wall& wall, double time);
+
+/// State as bytes, for resuming.
+std::string bytesOf(const FluidState& state);
+
+/// State from its bytes.
+/// @throws Error InvalidInput if the bytes are damaged; the message begins with `name`
+FluidState fluidStateFromBytes(std::string_view bytes, const std::string& name);
+
+}  // namespace droplet

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "droplet/footprint/outline.h"
+#include "droplet/liquid2d/fluid_scene.h"
+
+namespace droplet {
+
+/// Reads a scene from a TOML file; docs/formats/fluid-scene.md describes its keys.
+/// @param path   of the file; paths of masks in it are relative to its folder
+/// @return       valid scene, whose emitters are free of walls
+/// @throws Error InvalidInput, one line that begins with file and line: not TOML, unknown keys, values out of range,
+///               masks that cannot be read, an emitter in a wall
+FluidScene readFluidScene(const std::filesystem::path& path);
+
+/// Scene from the text of a file, as readFluidScene() reads it.
+/// @param text   TOML
+/// @param path   of the file, for messages and as the place of masks
+/// @throws Error as readFluidScene()
+FluidScene parseFluidScene(std::string_view text, const std::filesystem::path& path);
+
+/// Region that an outline bounds.
+/// @param outline  as trace() makes it: the origin is the middle of the picture
+/// @param centre   place of the picture's middle [m]
+Region regionOf(const Outline& outline, Vec2 centre = {});
+
+/// First wall, at rest, that covers a part of an emitter's opening.
+/// @return  its index, or empty
+std::optional<std::size_t> wallInOpening(const Emitter& emitter, const std::vector<Wall>& walls);
+
+/// Checks that all emitters open into the free.
+/// @param scene  valid
+/// @throws Error InvalidInput, naming the emitter and the wall, counted from 1
+void checkEmitters(const FluidScene& scene);
+
+}  // namespace droplet

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Air: "Expressive Rendering for 2D Animations of Liquids", equation 2, and thresholds that set themselves. Departures:
+// the paper's criterion of aeration needs stresses, this one is that of Ihmsen et al. 2012; and the paper lets air in
+// behind waves too, so there is a gate here that only their crests pass.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "droplet/error.h"
+#include "droplet/expression/expression.h"
+#include "require.h"
+#include "surroundings.h"
+
+namespace droplet {
+namespace {
+
+/// Coverage below which a particle lies at the free surface: on the flat surface of a lattice it is 0.78.
+constexpr double kSurface = 0.86;
+
+/// Part of τ₂ at which aeration begins: τ₁.
+constexpr double kLeastAeration = 0.1;
+
+/// A droplet that has touched liquid loses its flight so many times as fast as it gained it.
+constexpr double kLanding = 6.0;
+
+/// Time in which the fastest speed is forgotten [s].
+constexpr double kMemory = 4.0;
+
+/// Spacings per second below which motion does not count as fast [1/s].
+constexpr double kSeen = 30.0;
+
+/// Maximum number of frames whose positions are kept.
+constexpr std::size_t kMaxPast = 16;
+
+double smoothStep(double from, double to, double x)
+{
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+/// Speed that one particle in twenty exceeds.
+double highSpeed(const ParticleFrame& frame)
+{
+    std::vector<double> speeds;
+    for (const Vec2 v : frame.velocity) {
+        speeds.push_back(length(v));
+    }
+    const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() - 1 - speeds.size() / 20);
+    std::nth_element(speeds.begin(), at, speeds.end());
+    return *at;
+}
+
+/// How much a particle belongs to the crest of a wave, in [0, 1]: it is fast, and its surface moves outwards, so it
+/// lies on the front and not on the back of the wave.
+double crest(Vec2 velocity, Vec2 outward, double fast)
+{
+    const double speed = length(velocity);
+    const double size = length(outward);
+    if (!(speed > 0.0) || !(size > 0.0) || !(fast > 0.0)) {
+        return 0.0;
+    }
+    return smoothStep(0.6, 0.9, speed / fast) * smoothStep(0.3, 0.7, dot(velocity, outward) / (speed * size));
+}
+
+/// Whether a particle may hold air: a share of all, spread evenly over the ids.
+bool mayHoldAir(std::uint32_t id, double share)
+{
+    // Fibonacci hashing: 2³² over the golden ratio.
+    return static_cast<double>(id * 2654435769U) < share * 4294967296.0;
+}
+
+}  // namespace
+
+ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& frame, const ExpressionOptions& options)
+{
+    options.validate();
+    frame.validate();
+    const double dt = state.past.empty() ? 0.0 : frame.time - state.past.front().time;
+    if (!state.past.empty() && !(dt > 0.0)) {
+        throw Error(ErrorCode::InvalidInput, fmt::format("a frame at {} s follows one at {} s; it must be later",
+                                                         numberText(frame.time), numberText(state.past.front().time)));
+    }
+    const std::size_t count = frame.position.size();
+    std::size_t ids = state.air.size();
+    for (const std::uint32_t id : frame.id) {
+        ids = std::max<std::size_t>(ids, std::size_t{id} + 1);
+    }
+    state.air.resize(ids);
+    state.flight.resize(ids);
+    state.group.resize(ids);
+    ExpressionState::Past now{frame.time, {}};
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    now.position.resize(ids, {kNone, kNone});
+    for (std::size_t i = 0; i < count; ++i) {
+        now.position[frame.id[i]] = frame.position[i];
+    }
+    state.past.insert(state.past.begin(), std::move(now));
+    while (state.past.size() > kMaxPast ||
+           (state.past.size() > 2 && state.past.rbegin()[1].time < frame.time - options.tail_length)) {
+        state.past.pop_back();
+    }
+    const bool needs_surroundings = options.tail_length > 0.0 || options.air > 0.0;
+    state.aeration.assign(count, 0.0);
+    ++state.frames;
+    if (count == 0 || !needs_surroundings) {
+        return state;
+    }
+
+    const Surroundings around = surroundingsOf(frame);
+    std::vector<std::uint32_t> smallest(count, std::numeric_limits<std::uint32_t>::max());
+    for (std::size_t i = 0; i < count; ++i) {
+        smallest[around.body[i]] = std::min(smallest[around.body[i]], frame.id[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        double& flight = state.flight[frame.id[i]];
+        const bool flies = around.size[i] <= options.droplet_size;
+        if (flies) {
+            state.group[frame.id[i]] = smallest[around.body[i]];
+        }
+        flight = std::clamp(flight + (flies ? dt : -kLanding * dt), 0.0, options.tail_length);
+    }
+    if (options.air > 0.0) {
+        const double weight = 1.0 / static_cast<double>(state.frames);
+        // The fastest time so far, forgotten within seconds; not slower than a motion that one sees.
+        state.speed = std::max({highSpeed(frame), state.speed * std::exp(-dt / kMemory), kSeen * frame.spacing});
+        const double largest = *std::max_element(around.churn.begin(), around.churn.end());
+        state.aeration_limit += weight * (largest - state.aeration_limit);
+        const double begin = kLeastAeration * state.aeration_limit;
+        for (std::size_t i = 0; i < count; ++i) {
+            // Densities know of walls, sums over particles do not.
+            const double coverage = frame.density.empty() ? around.coverage[i] : frame.density[i];
+            const bool is_surface = coverage < kSurface && around.size[i] > options.droplet_size &&
+                                    mayHoldAir(frame.id[i], options.eraser_share);
+            const double gate = options.crest_gate ? crest(frame.velocity[i], around.outward[i], state.speed) : 1.0;
+            const double churn = state.aeration_limit > 0.0
+                                     ? std::clamp((around.churn[i] - begin) / (state.aeration_limit - begin), 0.0, 1.0)
+                                     : 0.0;
+            // On a crest the surface stretches evenly, which the criterion hardly sees; so the gate itself counts.
+            const double entering = is_surface ? (options.crest_gate ? gate * (0.5 + 0.5 * churn) : churn) : 0.0;
+            const double leaving = 1.0 - smoothStep(0.3, 1.0, length(frame.velocity[i]) / state.speed);
+            double& air = state.air[frame.id[i]];
+            air = std::clamp(air + (options.air * entering - options.release * leaving) * dt, 0.0, options.max_air);
+            state.aeration[i] = entering;
+        }
+    }
+    return state;
+}
+
+}  // namespace droplet

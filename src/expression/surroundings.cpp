@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Churn: Ihmsen, Akinci, Akinci, Teschner: Unified spray, foam and air bubbles for particle-based fluids. The Visual
+// Computer 28, 2012: trapped air, Σ‖v_ij‖(1 − v̂_ij·x̂_ij)W.
+#include "surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "blocks.h"
+#include "droplet/error.h"
+#include "liquid2d/kernel.h"
+#include "union_find.h"
+
+namespace droplet {
+namespace {
+
+/// Distance up to which particles are connected, in spacings: neighbours in the lattice are 1.07 apart.
+constexpr double kConnected = 1.5;
+
+constexpr std::size_t kBlockSize = 1024;
+
+}  // namespace
+
+double Surroundings::alone()
+{
+    const Kernel kernel(1.0);
+    return kernel.area() * kernel(0.0);
+}
+
+Surroundings surroundingsOf(const ParticleFrame& frame)
+{
+    const std::size_t count = frame.position.size();
+    Surroundings result;
+    result.coverage.resize(count);
+    result.outward.resize(count);
+    result.churn.resize(count);
+    result.body.resize(count);
+    result.size.resize(count);
+    if (count == 0) {
+        return result;
+    }
+    Vec2 lower = frame.position.front();
+    Vec2 upper = lower;
+    for (const Vec2 x : frame.position) {
+        lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
+        upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
+    }
+    const Kernel kernel(frame.spacing);
+    const double reach = kernel.support();
+    constexpr double kMaxCells = 1e8;
+    if (!(((upper.x - lower.x) / reach + 1.0) * ((upper.y - lower.y) / reach + 1.0) < kMaxCells)) {
+        throw Error(ErrorCode::InvalidInput, "the particles are spread too far for their spacing");
+    }
+    CellGrid cells(lower, upper, reach);
+    const std::vector<std::uint32_t> order = cells.sort(frame.position);
+    std::vector<Vec2> position(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        position[k] = frame.position[order[k]];
+    }
+    struct Pair {
+        std::uint32_t a;
+        std::uint32_t b;
+    };
+    const auto pairs = mapBlocks<std::vector<Pair>>(
+        count,
+        [&](std::size_t begin, std::size_t end) {
+            std::vector<Pair> connected;
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::uint32_t i = order[k];
+                const Vec2 x = position[k];
+                double coverage = kernel.area() * kernel(0.0);
+                Vec2 gradient;
+                double churn = 0.0;
+                const int column = cells.column(x.x);
+                const int row = cells.row(x.y);
+                for (int r = row - 1; r <= row + 1; ++r) {
+                    const auto [first, last] = cells.range(r, column - 1, column + 1);
+                    for (std::uint32_t m = first; m < last; ++m) {
+                        const Vec2 between = x - position[m];
+                        const double square = dot(between, between);
+                        if (m == k || square >= reach * reach) {
+                            continue;
+                        }
+                        const double distance = std::sqrt(square);
+                        const Kernel::Both near = kernel.both(std::max(distance, 1e-9 * reach));
+                        coverage += kernel.area() * near.value;
+                        gradient = gradient + (kernel.area() * near.slope_over_distance) * between;
+                        const std::uint32_t j = order[m];
+                        const Vec2 velocity = frame.velocity[i] - frame.velocity[j];
+                        const double speed = length(velocity);
+                        if (distance > 0.0) {
+                            churn += kernel.area() * near.value * (speed - dot(velocity, between) / distance);
+                        }
+                        if (m > k && distance < kConnected * frame.spacing) {
+                            connected.push_back({static_cast<std::uint32_t>(k), m});
+                        }
+                    }
+                }
+                result.coverage[i] = coverage;
+                result.outward[i] = (-frame.spacing) * gradient;
+                result.churn[i] = churn / frame.spacing;
+            }
+            return connected;
+        },
+        kBlockSize);
+    UnionFind bodies(count);
+    for (const std::vector<Pair>& block : pairs) {
+        for (const Pair& pair : block) {
+            bodies.join(pair.a, pair.b);
+        }
+    }
+    // Bodies are named by their smallest index in the frame, so that they do not depend on the grid.
+    std::vector<std::uint32_t> name(count, std::numeric_limits<std::uint32_t>::max());
+    std::vector<std::uint32_t> size(count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t root = bodies.find(k);
+        name[root] = std::min(name[root], order[k]);
+        ++size[root];
+    }
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t root = bodies.find(k);
+        result.body[order[k]] = name[root];
+        result.size[order[k]] = size[root];
+    }
+    return result;
+}
+
+}  // namespace droplet

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kernel.h"
+
+namespace droplet {
+namespace {
+
+/// Calls work(a, b) for every side of every loop.
+template <typename Work>
+void forSides(const Region& region, const Work& work)
+{
+    for (const std::vector<Vec2>& loop : region.loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            work(loop[i], loop[(i + 1) % loop.size()]);
+        }
+    }
+}
+
+/// Abscissae at which the sides cross a horizontal line, in order.
+std::vector<double> crossings(const Region& region, double y)
+{
+    std::vector<double> xs;
+    forSides(region, [&](Vec2 a, Vec2 b) {
+        if ((a.y <= y) != (b.y <= y)) {
+            xs.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+        }
+    });
+    std::sort(xs.begin(), xs.end());
+    return xs;
+}
+
+}  // namespace
+
+Region rectangle(Vec2 lower, Vec2 upper)
+{
+    return {{{lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}}};
+}
+
+Region circle(Vec2 centre, double radius)
+{
+    constexpr int kCorners = 96;
+    constexpr double kTurn = 2.0 * std::numbers::pi / kCorners;
+    // Radius of the corners of a polygon with the circle's area.
+    const double outer = radius * std::sqrt(kTurn / std::sin(kTurn));
+    Region region{{{}}};
+    for (int k = 0; k < kCorners; ++k) {
+        region.loops.front().push_back(centre + outer * Vec2{std::cos(k * kTurn), std::sin(k * kTurn)});
+    }
+    return region;
+}
+
+bool contains(const Region& region, Vec2 point)
+{
+    bool is_inside = false;
+    forSides(region, [&](Vec2 a, Vec2 b) {
+        if ((a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) {
+            is_inside = !is_inside;
+        }
+    });
+    return is_inside;
+}
+
+bool isInsideOnLeft(const Region& region, const std::vector<Vec2>& loop)
+{
+    Vec2 middle;
+    Vec2 along;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 side = loop[(i + 1) % loop.size()] - loop[i];
+        if (length(side) > longest) {
+            longest = length(side);
+            middle = loop[i] + 0.5 * side;
+            along = side;
+        }
+    }
+    return contains(region, middle + 1e-6 * Vec2{-along.y, along.x});
+}
+
+RegionMoments momentsOf(const Region& region)
+{
+    RegionMoments moments;
+    for (const std::vector<Vec2>& loop : region.loops) {
+        double area = 0.0;
+        Vec2 first;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec2 a = loop[i];
+            const Vec2 b = loop[(i + 1) % loop.size()];
+            area += 0.5 * cross(a, b);
+            first = first + (cross(a, b) / 6.0) * (a + b);
+        }
+        const double sign = isInsideOnLeft(region, loop) ? 1.0 : -1.0;
+        moments.area += sign * area;
+        moments.centroid = moments.centroid + sign * first;
+    }
+    if (moments.area > 0.0) {
+        moments.centroid = (1.0 / moments.area) * moments.centroid;
+    }
+    return moments;
+}
+
+std::vector<Vec2> latticeIn(const Region& region, double spacing)
+{
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    double left = lowest;
+    forSides(region, [&](Vec2 a, Vec2) {
+        lowest = std::min(lowest, a.y);
+        highest = std::max(highest, a.y);
+        left = std::min(left, a.x);
+    });
+    const double step = latticeStep(spacing);
+    const double row_height = 0.5 * std::sqrt(3.0) * step;
+    std::vector<Vec2> points;
+    for (std::size_t row = 0;; ++row) {
+        const double y = lowest + (static_cast<double>(row) + 0.5) * row_height;
+        if (!(y < highest)) {
+            return points;
+        }
+        const double begin = left + (row % 2 == 0 ? 0.5 : 1.0) * step;
+        const std::vector<double> xs = crossings(region, y);
+        for (std::size_t k = 0; k + 1 < xs.size(); k += 2) {
+            // A fourth of a step of leeway, so that two sides a whole number of steps apart do not depend on rounding.
+            auto column = static_cast<long long>(std::ceil((xs[k] - begin) / step + 0.25));
+            for (; begin + static_cast<double>(column) * step < xs[k + 1] - 0.25 * step; ++column) {
+                points.push_back({begin + static_cast<double>(column) * step, y});
+            }
+        }
+    }
+}
+
+}  // namespace droplet

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "droplet/liquid2d/fluid_scene.h"
+
+namespace droplet {
+
+/// Whether a region contains a point.
+bool contains(const Region& region, Vec2 point);
+
+/// Signed area of a region's loops and the centroid of the region.
+struct RegionMoments {
+    double area = 0.0;  ///< [m²], ≥ 0
+    Vec2 centroid;      ///< [m]
+};
+
+/// Area and centroid, by the even-odd rule.
+RegionMoments momentsOf(const Region& region);
+
+/// Points of the hexagonal lattice with one point per spacing² that lie in a region. The lowest row is half a row above
+/// the region's lowest point.
+std::vector<Vec2> latticeIn(const Region& region, double spacing);
+
+/// Whether the solid of a loop's region lies on the loop's left.
+bool isInsideOnLeft(const Region& region, const std::vector<Vec2>& loop);
+
+}  // namespace droplet
