@@ -73,6 +73,7 @@ ExpressionOptions expressionOf(LiquidStyle style)
     }
     options.tail_length = 0.25;
     options.max_tail = 7.0;
+    options.resolution = 0.25;
     options.min_area = 0.6;
     if (style == LiquidStyle::Wave) {
         options.air = 120.0;
