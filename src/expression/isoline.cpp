@@ -38,8 +38,10 @@ std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale)
         const double size = length(chord);
         const Vec2 outwards = size > 0.0 ? Vec2{chord.y / size, -chord.x / size} : Vec2{};
         const double along = cut.up ? outwards.y : outwards.x;
-        // At a sharp turn no arc fits.
-        if (std::abs(along) > 0.3 && dot(cut.place() - before, after - cut.place()) > 0.0) {
+        // At a sharp turn, of more than 45°, no arc fits.
+        const Vec2 in = cut.place() - before;
+        const Vec2 out = after - cut.place();
+        if (std::abs(along) > 0.3 && dot(in, out) > std::abs(cross(in, out))) {
             // Two thirds of the height of the arcs beside the vertex, by the arc through three points.
             const Vec2 p = cut.place();
             const double a = length(p - before);
