@@ -22,6 +22,7 @@
 #include "flow_command.h"
 #include "glyphs_command.h"
 #include "interruption.h"
+#include "liquid2d_command.h"
 #include "option_values.h"
 #include "shape_command.h"
 #include "terminal.h"
@@ -69,10 +70,10 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"animate", cli::runAnimate},      {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},      {"flow", cli::runFlow},
-                                          {"glyphs", cli::runGlyphs},        {"wind-tunnel", cli::runWindTunnel},
-                                          {"windshield", cli::runWindshield}};
+    static const std::vector<Command> all{{"animate", cli::runAnimate},        {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},        {"flow", cli::runFlow},
+                                          {"glyphs", cli::runGlyphs},          {"liquid2d", cli::runLiquid2d},
+                                          {"wind-tunnel", cli::runWindTunnel}, {"windshield", cli::runWindshield}};
     return all;
 }
 

@@ -21,6 +21,7 @@ const CommandText& commandText()
         "  compare      Measure the difference of two surfaces\n"
         "  flow         Let droplets run over a mesh\n"
         "  glyphs       Make droplets from type\n"
+        "  liquid2d     Draw an animation of liquid in the plane\n"
         "  wind-tunnel  Compute how droplets move in the wind\n"
         "  windshield   Show rain on the windshield of a moving car\n"
         "\n" +

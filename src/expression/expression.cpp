@@ -7,6 +7,7 @@
 #include "field.h"
 #include "isoline.h"
 #include "require.h"
+#include "smooth.h"
 
 namespace droplet {
 namespace {
@@ -60,6 +61,7 @@ void ExpressionOptions::validate() const
     at_least_zero("release", release);
     within("max_air", max_air, 0.0, 1000.0, "from 0 to 1000 areas of a particle");
     within("smoothing", smoothing, 0.0, 2.0, "from 0 to 2");
+    within("fairing", fairing, 0.0, 10.0, "from 0 to 10");
     within("resolution", resolution, 0.2, 1.0, "from 0.2 to 1 spacings");
     at_least_zero("min_area", min_area);
     at_least_zero("droplet_size", droplet_size);
@@ -72,6 +74,8 @@ ExpressionOptions expressionOf(LiquidStyle style)
         return options;
     }
     options.tail_length = 0.25;
+    options.resolution = 0.4;
+    options.fairing = 2.5;
     options.max_tail = 7.0;
     options.resolution = 0.25;
     options.min_area = 0.6;
@@ -90,7 +94,10 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
     shape.time = frame.time;
     const double particle = frame.spacing * frame.spacing;
     std::vector<Loop> holes;
+    // Bends shorter than two spacings come from single particles.
+    const int rounds = static_cast<int>(std::lround(options.fairing * 2.0 / (options.resolution * options.resolution)));
     for (Loop& loop : isolines(fieldOf(state, frame, options))) {
+        loop.points = smoothed(std::move(loop.points), rounds);
         const double area = signedArea(loop);
         if (std::abs(area) < options.min_area * particle) {
             continue;

@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <span>
+#include <utility>
+#include <vector>
 
 #include "droplet/error.h"
 #include "file_bytes.h"
+#include "liquid2d/near_points.h"
 #include "liquid2d_io/raw_particles.h"
 #include "require.h"
 
@@ -72,57 +73,6 @@ RawParticles rawParticles(std::string_view bytes, const std::string& name)
     return readCsvParticles(bytes, name);
 }
 
-/// Nearest neighbours among points, by a tree that halves them in turn along x and y.
-class Nearest {
-public:
-    explicit Nearest(const std::vector<Vec2>& points) : points_(points) { halve(points_, true); }
-
-    /// Square of the distance from a point to the nearest one elsewhere.
-    [[nodiscard]] double squared(Vec2 from) const
-    {
-        double best = std::numeric_limits<double>::infinity();
-        search(points_, true, from, best);
-        return best;
-    }
-
-private:
-    static bool isBefore(Vec2 a, Vec2 b, bool by_x) { return by_x ? a.x < b.x : a.y < b.y; }
-
-    static void halve(std::span<Vec2> points, bool by_x)
-    {
-        if (points.size() < 2) {
-            return;
-        }
-        const std::size_t middle = points.size() / 2;
-        std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle), points.end(),
-                         [by_x](Vec2 a, Vec2 b) { return isBefore(a, b, by_x); });
-        halve(points.first(middle), !by_x);
-        halve(points.subspan(middle + 1), !by_x);
-    }
-
-    static void search(std::span<const Vec2> points, bool by_x, Vec2 from, double& best)
-    {
-        if (points.empty()) {
-            return;
-        }
-        const std::size_t middle = points.size() / 2;
-        const Vec2 to = points[middle] - from;
-        const double squared = dot(to, to);
-        if (squared > 0.0) {
-            best = std::min(best, squared);
-        }
-        const double aside = by_x ? to.x : to.y;
-        const std::span<const Vec2> before = points.first(middle);
-        const std::span<const Vec2> after = points.subspan(middle + 1);
-        search(aside > 0.0 ? before : after, !by_x, from, best);
-        if (aside * aside < best) {
-            search(aside > 0.0 ? after : before, !by_x, from, best);
-        }
-    }
-
-    std::vector<Vec2> points_;
-};
-
 double median(std::vector<double> values)
 {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -134,12 +84,12 @@ double median(std::vector<double> values)
 double estimatedSpacing(const std::vector<Vec2>& points)
 {
     constexpr std::size_t kAsked = 10000;
-    const Nearest nearest(points);
+    const NearPoints near(points);
     std::vector<double> distances;
     for (std::size_t i = 0; i < points.size(); i += points.size() / kAsked + 1) {
-        const double squared = nearest.squared(points[i]);
-        if (std::isfinite(squared)) {
-            distances.push_back(std::sqrt(squared));
+        const auto found = near.nearest(points[i], 2);  // the first is the point itself
+        if (found.size() == 2 && found[1].squared > 0.0) {
+            distances.push_back(std::sqrt(found[1].squared));
         }
     }
     if (distances.empty()) {

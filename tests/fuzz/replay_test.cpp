@@ -43,6 +43,16 @@ TEST(FuzzReplay, Object)
     replay("object", fuzzObject);
 }
 
+TEST(FuzzReplay, Particles)
+{
+    replay("particles", fuzzParticles);
+}
+
+TEST(FuzzReplay, Scene)
+{
+    replay("scene", fuzzScene);
+}
+
 TEST(FuzzReplay, Svg)
 {
     replay("svg", fuzzSvg);

@@ -21,4 +21,10 @@ void fuzzFootprint(std::span<const std::byte> bytes);
 /// Reads a mesh's file as an object for droplets to run over; refusals must be one line.
 void fuzzObject(std::span<const std::byte> bytes);
 
+/// Reads particles of any format; refusals must be one line.
+void fuzzParticles(std::span<const std::byte> bytes);
+
+/// Reads the scene of a 2D liquid; refusals must be one line.
+void fuzzScene(std::span<const std::byte> bytes);
+
 }  // namespace droplet

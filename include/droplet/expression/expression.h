@@ -29,6 +29,7 @@ struct ExpressionOptions {
     double eraser_share = 0.15;  ///< share of particles that may hold air, 0 … 1
     bool crest_gate = true;      ///< air enters at the crests of waves alone; false: as in the paper
     double smoothing = 1.0;      ///< radius of the surface's kernel in bulk liquid: (1 + smoothing)·spacing, 0 … 2
+    double fairing = 1.0;        ///< how much bends as short as a particle are smoothed away, 0 … 10
     double resolution = 0.5;     ///< side of the grid's cells in spacings, 0.2 … 1
     double min_area = 0.25;      ///< loops below this area, in areas of a particle, are dropped, ≥ 0
     double droplet_size = 60.0;  ///< detached bodies of up to so many particles count as droplets, ≥ 0
@@ -47,14 +48,14 @@ struct ExpressionState {
         double time = 0.0;           ///< [s]
         std::vector<Vec2> position;  ///< by id [m]; not a number for particles that were not there
     };
-    std::vector<Past> past;        ///< latest first; the latest is the last frame
-    std::vector<double> air;       ///< A_air by id, in areas of a particle
-    std::vector<double> flight;    ///< time by id that the particle's droplet has been in flight [s]
+    std::vector<Past> past;            ///< latest first; the latest is the last frame
+    std::vector<double> air;           ///< A_air by id, in areas of a particle
+    std::vector<double> flight;        ///< time by id that the particle's droplet has been in flight [s]
     std::vector<std::uint32_t> group;  ///< by id: smallest id of the droplet that the particle flew in last
-    std::vector<double> aeration;  ///< by particle of the last frame, in [0, 1]
-    double aeration_limit = 0.0;   ///< τ₂: mean of the largest aeration of each frame [1/s]
-    double speed = 0.0;            ///< greatest lately that one particle in twenty exceeded [m/s]
-    std::uint64_t frames = 0;      ///< number of frames
+    std::vector<double> aeration;      ///< by particle of the last frame, in [0, 1]
+    double aeration_limit = 0.0;       ///< τ₂: mean of the largest aeration of each frame [1/s]
+    double speed = 0.0;                ///< greatest lately that one particle in twenty exceeded [m/s]
+    std::uint64_t frames = 0;          ///< number of frames
 };
 
 /// Takes up a frame: ways, flights and air.

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "liquid2d_options.h"
+
+#include <filesystem>
+#include <set>
+
+#include "command_line.h"
+#include "common_options.h"
+#include "droplet/liquid2d_io/fluid_presets.h"
+#include "droplet/units.h"
+#include "droplet/version.h"
+#include "files.h"
+#include "option_values.h"
+#include "value_list.h"
+
+namespace cli {
+namespace {
+
+using droplet::Dimension;
+
+constexpr Range kTime{Dimension::Duration, 1e-3, 3600.0, "from 1ms to 1h"};
+constexpr Range kTail{Dimension::Duration, 0.0, 60.0, "from 0s to 60s"};
+constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e4, "from 0m/s2 to 10000m/s2"};
+constexpr Range kTension{Dimension::SurfaceTension, 0.0, 1e6, "from 0N/m to 1e6N/m"};
+constexpr Range kSpacing{Dimension::Length, 1e-6, 1e3, "from 1um to 1000m"};
+
+std::string presetNames()
+{
+    std::string names;
+    for (const droplet::FluidPreset& preset : droplet::fluidPresets()) {
+        names += preset.name + "|";
+    }
+    return names + "FILE.toml";
+}
+
+std::string lookNames()
+{
+    std::string names;
+    for (const droplet::LiquidLook& look : droplet::liquidLooks()) {
+        names += (names.empty() ? "" : "|") + look.name;
+    }
+    return names;
+}
+
+const CommandText& commandText()
+{
+    static const CommandText text{"droplet-shape liquid2d", "draw an animation of liquid in the plane",
+                                  "[OPTIONS] [OUTPUT]",
+                                  "Quantities carry a unit:\n"
+                                  "  lengths um mm cm m in; durations ms s min h; acceleration m/s2 mm/s2 g;\n"
+                                  "  surface tension mN/m N/m dyn/cm\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape liquid2d --scene splash 'out/%04d.svg'\n"
+                                  "  droplet-shape liquid2d --scene wave --particle-count 20k wave.mp4\n"
+                                  "  droplet-shape liquid2d --particles 'sim/%04d.vtp' --style wave 'out/%04d.png'\n"
+                                  "  droplet-shape liquid2d --scene dam --masks - | droplet-shape animate - out.glb\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 3 input unreadable; 4 output cannot be\n"
+                                  "  written"};
+    return text;
+}
+
+void declare(CommandLine& line)
+{
+    line.addArgument("OUTPUT",
+                     "Drawings of all frames, such as out/%04d.svg or out/%04d.png; an .svg or .png of the last frame; "
+                     "or a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks");
+    constexpr const char* kLiquid = "Liquid";
+    line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate [splash]");
+    line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]");
+    line.add(kLiquid, "--walls", "FILE", "Further walls: a mask, drawn over the width of the window");
+    line.add(kLiquid, "--gravity", "ACCELERATION", "Gravity instead of the scene's, downwards");
+    line.add(kLiquid, "--surface-tension", "TENSION", "Surface tension instead of the scene's");
+    line.add(kLiquid, "--particles", "PATH",
+             "Particles of another simulation, such as sim/%04d.vtp, instead of a scene: .csv, .vtk, .vtp, .vtu or "
+             ".bgeo");
+    line.add(kLiquid, "--particle-scale", "NUMBER", "Length of the unit of these files in metres [1]");
+    line.add(kLiquid, "--plane", "xy|xz|yz|zx|zy|yx", "Axes of these files that become x and y [xy]");
+    line.add(kLiquid, "--spacing", "LENGTH", "Distance of their particles at rest [median distance of neighbours]");
+    line.exclude({"--scene", "--particles"});
+    constexpr const char* kTimes = "Time";
+    line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]");
+    line.add(kTimes, "--fps", "RATE", "Frames per second [24]");
+    constexpr const char* kSurface = "Surface";
+    line.add(kSurface, "--style", "realistic|cartoon|wave",
+             "Starting point of these controls: cartoon has tails, wave also hollows crests [the scene's, or cartoon]");
+    line.add(kSurface, "--tail", "DURATION", "Time whose way the tail of a droplet in flight shows [by style]");
+    line.add(kSurface, "--tail-slope", "NUMBER", "Taper of tails, from 0.2, thick, to 1.2, thin [0.7]");
+    line.add(kSurface, "--max-tail", "NUMBER", "Maximum length of a tail, in radii of its droplet [7]");
+    line.add(kSurface, "--air", "NUMBER", "Rate at which air enters crests, in areas of a particle per second");
+    line.add(kSurface, "--release", "NUMBER", "Rate at which slow liquid releases air");
+    line.add(kSurface, "--max-air", "NUMBER", "Maximum air of a particle, in its areas");
+    line.add(kSurface, "--eraser-share", "NUMBER", "Share of particles that may hold air, 0 to 1 [0.15]");
+    line.addFlag(kSurface, "--no-crest-gate", "Air enters anywhere at the surface, as in the paper");
+    line.add(kSurface, "--smoothing", "NUMBER", "Smoothness of the surface, 0 to 2 [1]");
+    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of bends as short as a particle, 0 to 10 [2.5, realistic 1]");
+    line.add(kSurface, "--resolution", "NUMBER",
+             "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]");
+    constexpr const char* kOut = "Output";
+    line.add(kOut, "--width", "N", "Width of drawings and masks in pixels, up to 16384 [1280]");
+    line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
+    line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width");
+    line.add(kOut, "--masks", "PATH",
+             "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
+    line.add(kOut, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
+    line.add(kOut, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    line.add(kOut, "--json", "FILE", "Write a report; - is standard output");
+    constexpr const char* kRun = "Run";
+    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    line.add(kRun, "--progress", "auto|none|json",
+             "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
+    declareCommon(line, kRun, "time = \"5s\"");
+    line.exclude({"--resume", "--no-clobber"});
+}
+
+std::optional<std::string> text(const CommandLine& line, const char* option)
+{
+    const auto given = line.value(option);
+    return given ? std::optional(given->text) : std::nullopt;
+}
+
+void readLiquid(const CommandLine& line, Liquid2dOptions& options)
+{
+    options.scene = text(line, "--scene").value_or(options.scene);
+    if (const auto particles = line.value("--particles")) {
+        options.particles = NumberedPath::of(particles->text, "--particles");
+        if (!options.particles) {
+            refuse(*particles, "a path for numbered files, such as sim/%04d.vtp");
+        }
+        for (const char* option : {"--particle-count", "--walls", "--gravity", "--surface-tension", "--time"}) {
+            if (line.value(option)) {
+                refuse(std::string(option) + " needs --scene, not --particles");
+            }
+        }
+    } else {
+        for (const char* option : {"--particle-scale", "--plane", "--spacing"}) {
+            if (line.value(option)) {
+                refuse(std::string(option) + " needs --particles");
+            }
+        }
+    }
+    if (const auto number_of = line.value("--particle-count")) {
+        options.particle_count = count(*number_of, 1'000'000, "1M");
+    }
+    options.walls = text(line, "--walls");
+    if (const auto gravity = line.value("--gravity")) {
+        options.gravity = quantity(*gravity, kGravity);
+    }
+    if (const auto tension = line.value("--surface-tension")) {
+        options.surface_tension = quantity(*tension, kTension);
+    }
+    if (const auto scale = line.value("--particle-scale")) {
+        options.particle_reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
+    }
+    if (const auto plane = line.value("--plane")) {
+        options.particle_reading.plane = choice<std::string>(
+            *plane, {{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}, {"zx", "zx"}, {"zy", "zy"}, {"yx", "yx"}});
+    }
+    if (const auto spacing = line.value("--spacing")) {
+        options.particle_reading.spacing = quantity(*spacing, kSpacing);
+    }
+}
+
+droplet::LiquidStyle styleNamed(const Given& given)
+{
+    return choice<droplet::LiquidStyle>(given, {{"realistic", droplet::LiquidStyle::Realistic},
+                                                {"cartoon", droplet::LiquidStyle::Cartoon},
+                                                {"wave", droplet::LiquidStyle::Wave}});
+}
+
+void readSurface(const CommandLine& line, Liquid2dOptions& options)
+{
+    std::string style = "cartoon";
+    if (!options.particles) {
+        for (const droplet::FluidPreset& preset : droplet::fluidPresets()) {
+            style = preset.name == options.scene ? preset.style : style;
+        }
+    }
+    style = text(line, "--style").value_or(style);
+    options.style = style;
+    options.controls = droplet::expressionOf(styleNamed({style, "--style"}));
+    droplet::ExpressionOptions& controls = options.controls;
+    if (const auto tail = line.value("--tail")) {
+        controls.tail_length = quantity(*tail, kTail);
+    }
+    struct Control {
+        const char* option;
+        double* value;
+        NumberRange range;
+    };
+    const std::vector<Control> all{
+        {"--tail-slope", &controls.tail_slope, {0.2, 1.2, "a number from 0.2 to 1.2"}},
+        {"--max-tail", &controls.max_tail, {0.0, 100.0, "a number from 0 to 100"}},
+        {"--air", &controls.air, {0.0, 1e6, "a number from 0 to 1e6"}},
+        {"--release", &controls.release, {0.0, 1e6, "a number from 0 to 1e6"}},
+        {"--max-air", &controls.max_air, {0.0, 1000.0, "a number from 0 to 1000"}},
+        {"--eraser-share", &controls.eraser_share, {0.0, 1.0, "a number from 0 to 1"}},
+        {"--smoothing", &controls.smoothing, {0.0, 2.0, "a number from 0 to 2"}},
+        {"--fairing", &controls.fairing, {0.0, 10.0, "a number from 0 to 10"}},
+        {"--resolution", &controls.resolution, {0.2, 1.0, "a number from 0.2 to 1"}},
+    };
+    for (const Control& control : all) {
+        if (const auto given = line.value(control.option)) {
+            *control.value = number(*given, control.range);
+        }
+    }
+    controls.crest_gate = !line.flag("--no-crest-gate");
+    const auto look = line.value("--look");
+    options.look = forOption("--look", [&] {
+        return droplet::liquidLookNamed(look ? look->text : style == "realistic" ? "flat" : "comic");
+    });
+    if (const auto width = line.value("--line-width")) {
+        options.look.line_width = number(*width, {0.0, 50.0, "a number from 0 to 50"});
+    }
+}
+
+void readOutputs(const CommandLine& line, Liquid2dOptions& options)
+{
+    if (const auto masks = line.value("--masks")) {
+        options.masks = masks->text;
+        if (!isStream(masks->text)) {
+            options.mask_files = NumberedPath::of(masks->text, "--masks");
+            if (!options.mask_files || std::filesystem::path(masks->text).extension() != ".png") {
+                refuse(*masks, "a path such as masks/%04d.png, or -");
+            }
+        }
+    }
+    if (!line.values("OUTPUT").empty() || !options.masks) {
+        options.output = line.argument("OUTPUT");
+        options.files = NumberedPath::of(*options.output, "OUTPUT");
+        const std::string extension = std::filesystem::path(*options.output).extension().string();
+        const bool is_drawing = extension == ".svg" || extension == ".png";
+        if (is_drawing) {
+            options.kind = options.files ? LiquidOutput::Drawings : LiquidOutput::Drawing;
+        } else if (!options.files && isVideo(*options.output)) {
+            options.kind = LiquidOutput::Video;
+        } else {
+            refuse({*options.output, "OUTPUT"},
+                   "a file for every frame such as out/%04d.svg or .png; a single .svg or .png; or a .mp4, .mkv, .mov "
+                   "or .webm");
+        }
+    }
+    if (const auto width = line.value("--width")) {
+        options.width = static_cast<int>(count(*width, 16384, "16384"));
+        if (options.width < 16) {
+            refuse(*width, "a whole number from 16 to 16384");
+        }
+    }
+    options.codec = text(line, "--codec");
+    for (const char* option : {"--codec", "--quality"}) {
+        if (line.value(option) && options.kind != LiquidOutput::Video) {
+            refuse(std::string(option) + " needs a video as OUTPUT");
+        }
+    }
+    if (const auto quality = line.value("--quality")) {
+        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
+    }
+    options.json = text(line, "--json");
+    options.resume = line.flag("--resume");
+    const bool has_files =
+        options.kind == LiquidOutput::Drawings || (options.kind == LiquidOutput::None && options.mask_files);
+    if (options.resume && (!has_files || (options.masks && !options.mask_files))) {
+        refuse("--resume needs a file for every frame, such as out/%04d.svg, and no masks on standard output");
+    }
+}
+
+}  // namespace
+
+std::variant<Liquid2dOptions, std::string> parseLiquid2d(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (const auto text = requestedText(line)) {
+        return *text;
+    }
+    Liquid2dOptions options;
+    readLiquid(line, options);
+    readSurface(line, options);
+    readOutputs(line, options);
+    if (const auto duration = line.value("--time")) {
+        options.duration = quantity(*duration, kTime);
+    }
+    if (const auto rate = line.value("--fps")) {
+        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
+    }
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    options.threads = readThreads(line);
+    options.output_options.no_clobber = line.flag("--no-clobber");
+    options.quiet = line.flag("--quiet");
+    options.progress = readProgress(line);
+    // These options do not change what a frame shows.
+    const std::set<std::string> neutral{"--time",  "--resume", "--no-clobber", "--threads",
+                                        "--quiet", "--config", "--json",       "--progress"};
+    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output.value_or("");
+    for (const auto& [name, value] : line.given()) {
+        if (neutral.count(name) == 0) {
+            options.fingerprint.append("\n").append(name).append(" ").append(value);
+        }
+    }
+    return options;
+}
+
+}  // namespace cli

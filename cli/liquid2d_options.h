@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "droplet/expression/expression.h"
+#include "droplet/io/output.h"
+#include "droplet/liquid2d_io/liquid_drawing.h"
+#include "droplet/liquid2d_io/particle_file.h"
+#include "droplet_options.h"
+#include "numbered_path.h"
+#include "video_writer.h"
+
+namespace cli {
+
+/// What the output of `droplet-shape liquid2d` is.
+enum class LiquidOutput {
+    None,      ///< masks alone
+    Drawings,  ///< an .svg or .png for every frame
+    Drawing,   ///< an .svg or .png of the last frame
+    Video,
+};
+
+/// Options of `droplet-shape liquid2d`. All values are in range; no file but the configuration file has been read.
+struct Liquid2dOptions {
+    std::optional<std::string> output;  ///< path
+    LiquidOutput kind = LiquidOutput::None;
+    std::optional<NumberedPath> files;       ///< set if every frame gets a drawing
+    std::optional<std::string> masks;        ///< path or kStandardStream
+    std::optional<NumberedPath> mask_files;  ///< set unless masks go to standard output
+    std::string scene = "splash";            ///< name of a preset, or path of a file
+    std::optional<std::size_t> particle_count;
+    std::optional<std::string> walls;       ///< path of a mask
+    std::optional<double> gravity;          ///< [m/s²]
+    std::optional<double> surface_tension;  ///< [N/m]
+    std::optional<NumberedPath> particles;  ///< files of another simulation instead of a scene
+    droplet::ParticleFileOptions particle_reading;
+    std::optional<std::string> style;     ///< empty: the preset's, or cartoon
+    droplet::ExpressionOptions controls;  ///< of the style, with changes
+    droplet::LiquidLook look;
+    int width = 1280;  ///< of drawings and masks [px]
+    double quality = kVideoQuality;
+    std::optional<std::string> codec;
+    std::optional<double> duration;  ///< [s]; empty: the preset's, or 4 s
+    double frames_per_second = 24.0;
+    std::optional<std::string> json;
+    bool resume = false;
+    std::string fingerprint;  ///< all options that decide what the frames show
+    std::optional<std::string> config;
+    std::optional<std::size_t> threads;
+    droplet::OutputOptions output_options;
+    ProgressMode progress = ProgressMode::Auto;
+    bool quiet = false;
+};
+
+/// Reads the command line and the configuration file that it names.
+/// @return                the options, or the text that --help or --version prints
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+std::variant<Liquid2dOptions, std::string> parseLiquid2d(int argc, const char* const* argv);
+
+}  // namespace cli

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "liquid2d_run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "checkpoint.h"
+#include "content_hash.h"
+#include "droplet/error.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/footprint/outline.h"
+#include "droplet/liquid2d/fluid.h"
+#include "droplet/liquid2d_io/fluid_presets.h"
+#include "droplet/liquid2d_io/liquid_drawing.h"
+#include "droplet/liquid2d_io/read_scene.h"
+#include "droplet_report.h"
+#include "files.h"
+#include "option_values.h"
+#include "stage_clock.h"
+#include "video_writer.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+using droplet::FluidScene;
+using droplet::ParticleFrame;
+using droplet::Vec2;
+
+constexpr const char* kCommand = "liquid2d";
+
+/// Frames of particles, one after another.
+class ParticleSource {
+public:
+    virtual ~ParticleSource() = default;
+    /// Next frame.
+    virtual ParticleFrame next() = 0;
+    [[nodiscard]] virtual std::size_t frames() const = 0;
+    [[nodiscard]] virtual Vec2 size() const = 0;
+    /// Visible walls at the time of the last frame.
+    [[nodiscard]] virtual std::vector<droplet::Region> walls() const { return {}; }
+    [[nodiscard]] virtual std::uint64_t steps() const { return 0; }
+    [[nodiscard]] virtual std::uint64_t removed() const { return 0; }
+    /// State after the last frame, for a checkpoint.
+    [[nodiscard]] virtual std::string bytes() const { return {}; }
+    virtual void restore(std::string_view bytes, const std::string& name, std::size_t frames) = 0;
+};
+
+/// Particles of a simulated scene.
+class SimulatedParticles : public ParticleSource {
+public:
+    explicit SimulatedParticles(const Liquid2dOptions& options) : fps_(options.frames_per_second)
+    {
+        double duration = 4.0;
+        const bool is_file = std::filesystem::path(options.scene).extension() == ".toml";
+        if (is_file) {
+            scene_ = droplet::readFluidScene(options.scene);
+        } else {
+            const droplet::FluidPreset& preset = forOption(
+                "--scene", [&]() -> const droplet::FluidPreset& { return droplet::fluidPresetNamed(options.scene); });
+            scene_ = preset.scene;
+            duration = preset.duration;
+        }
+        duration = options.duration.value_or(duration);
+        frames_ = std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * fps_)), 1);
+        if (options.gravity) {
+            scene_.gravity = {0.0, -*options.gravity};
+        }
+        scene_.surface_tension = options.surface_tension.value_or(scene_.surface_tension);
+        if (options.walls) {
+            addWalls(*options.walls);
+        }
+        state_ = droplet::startFluid(scene_);
+        if (options.particle_count) {
+            if (state_.position.empty()) {
+                refuse("--particle-count needs a scene with liquid at the start");
+            }
+            scene_.max_particles = std::max<std::size_t>(scene_.max_particles, 2 * *options.particle_count);
+            scene_.spacing *=
+                std::sqrt(static_cast<double>(state_.position.size()) / static_cast<double>(*options.particle_count));
+            state_ = droplet::startFluid(scene_);
+        }
+        if (options.walls) {
+            droplet::checkEmitters(scene_);
+        }
+    }
+
+    ParticleFrame next() override
+    {
+        const double time = static_cast<double>(done_) / fps_;
+        if (time > state_.time) {
+            state_ = droplet::advanceFluid(std::move(state_), scene_, time);
+        }
+        ++done_;
+        return frameOf(state_, scene_);
+    }
+    [[nodiscard]] std::size_t frames() const override { return frames_; }
+    [[nodiscard]] Vec2 size() const override { return scene_.size; }
+    [[nodiscard]] std::vector<droplet::Region> walls() const override
+    {
+        std::vector<droplet::Region> regions;
+        for (const droplet::Wall& wall : scene_.walls) {
+            if (wall.visible) {
+                regions.push_back(droplet::wallAt(wall, state_.time));
+            }
+        }
+        return regions;
+    }
+    [[nodiscard]] std::uint64_t steps() const override { return state_.counts.steps; }
+    [[nodiscard]] std::uint64_t removed() const override { return state_.counts.removed; }
+    [[nodiscard]] std::string bytes() const override { return bytesOf(state_); }
+    void restore(std::string_view bytes, const std::string& name, std::size_t frames) override
+    {
+        state_ = droplet::fluidStateFromBytes(bytes, name);
+        done_ = frames;
+    }
+
+private:
+    void addWalls(const std::string& path)
+    {
+        droplet::TraceOptions trace;
+        trace.width = scene_.size.x;
+        const droplet::Outline outline = droplet::trace(droplet::readMask(path), trace);
+        // The mask stands on the lower edge of the window.
+        scene_.walls.push_back(
+            {droplet::regionOf(outline, {0.5 * scene_.size.x, 0.5 * outline.extent.y}), std::nullopt, true});
+    }
+
+    FluidScene scene_;
+    droplet::FluidState state_;
+    double fps_;
+    std::size_t frames_ = 1;
+    std::size_t done_ = 0;
+};
+
+/// Particles from files of another program.
+class FileParticles : public ParticleSource {
+public:
+    explicit FileParticles(const Liquid2dOptions& options)
+        : fps_(options.frames_per_second), reading_(options.particle_reading)
+    {
+        for (const auto& [number, path] : options.particles->existing()) {
+            paths_.push_back(path);
+        }
+        // The window shows all particles of all frames.
+        Vec2 lower{1e300, 1e300};
+        Vec2 upper{-1e300, -1e300};
+        double spacing = 0.0;
+        for (const std::string& path : paths_) {
+            const ParticleFrame frame = droplet::readParticles(path, reading_).frame;
+            reading_.spacing = reading_.spacing.value_or(frame.spacing);
+            spacing = frame.spacing;
+            for (const Vec2 x : frame.position) {
+                lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
+                upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
+            }
+        }
+        if (!(upper.x >= lower.x)) {
+            throw Error(ErrorCode::InvalidInput, options.particles->text() + ": no file has any particles");
+        }
+        const double margin = std::max(0.05 * std::max(upper.x - lower.x, upper.y - lower.y), 4.0 * spacing);
+        origin_ = lower - Vec2{margin, margin};
+        size_ = upper - lower + Vec2{2.0 * margin, 2.0 * margin};
+    }
+
+    ParticleFrame next() override
+    {
+        droplet::ParticleFile file = droplet::readParticles(paths_[done_], reading_);
+        ParticleFrame frame = std::move(file.frame);
+        frame.time = static_cast<double>(done_) / fps_;
+        for (Vec2& x : frame.position) {
+            x = x - origin_;
+        }
+        if (!file.has_velocity && last_) {
+            frame = droplet::fillVelocities(*last_, std::move(frame));
+        }
+        last_ = frame;
+        ++done_;
+        return frame;
+    }
+    [[nodiscard]] std::size_t frames() const override { return paths_.size(); }
+    [[nodiscard]] Vec2 size() const override { return size_; }
+    void restore(std::string_view /*bytes*/, const std::string& /*name*/, std::size_t frames) override
+    {
+        done_ = frames - 1;
+        next();
+    }
+
+private:
+    double fps_;
+    droplet::ParticleFileOptions reading_;
+    std::vector<std::string> paths_;
+    Vec2 origin_;
+    Vec2 size_;
+    std::optional<ParticleFrame> last_;
+    std::size_t done_ = 0;
+};
+
+class LiquidRun {
+public:
+    LiquidRun(const Liquid2dOptions& options, ProgressDisplay& progress) : options_(options), progress_(progress)
+    {
+        if (options.particles) {
+            source_ = std::make_unique<FileParticles>(options);
+        } else {
+            source_ = std::make_unique<SimulatedParticles>(options);
+        }
+        view_.size = source_->size();
+        view_.width = options.width;
+        view_.height = std::max(static_cast<int>(std::lround(options.width * view_.size.y / view_.size.x)), 1);
+        if (options.kind == LiquidOutput::Video) {
+            // Encoders need even sides.
+            view_.width += view_.width % 2;
+            view_.height += view_.height % 2;
+        }
+        if (view_.height > 32767) {
+            refuse(fmt::format("--width: at {} pixels the drawing is {} pixels high; at most 32767 are allowed",
+                               view_.width, view_.height));
+        }
+        report_.scene = options.particles ? std::nullopt : std::optional(options.scene);
+        report_.particles = options.particles ? std::optional(options.particles->text()) : std::nullopt;
+        report_.output = options.output;
+        report_.masks = options.masks;
+        report_.style = *options.style;
+        report_.options = options.controls;
+        report_.size = view_.size;
+        report_.frames_per_second = options.frames_per_second;
+    }
+
+    droplet::LiquidReport execute()
+    {
+        if (hasCheckpoint()) {
+            fingerprint_ = fingerprintOf(
+                {options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
+                 std::filesystem::path(options_.scene).extension() == ".toml" ? hashOfFile(options_.scene) : ""});
+            resume();
+        }
+        if (options_.kind == LiquidOutput::Video) {
+            const std::string codec = options_.codec.value_or(codecFor(*options_.output));
+            checkCodec(codec, *options_.output);
+            const VideoWriterOptions video{*options_.output,           codec,           view_.width, view_.height,
+                                           options_.frames_per_second, options_.quality};
+            tryVideo(video);
+            video_ = std::make_unique<VideoWriter>(video);
+        }
+        run();
+        std::vector<OutputFile> files;
+        if (video_) {
+            files.push_back({*options_.output, [&](std::ostream& out) { video_->finish(out); }});
+        } else if (options_.kind == LiquidOutput::Drawing) {
+            files.push_back({*options_.output, [&](std::ostream& out) { draw(*options_.output, out); }});
+        }
+        if (options_.json) {
+            files.push_back({*options_.json, [&](std::ostream& out) {
+                                 finish();
+                                 writeLiquidReport(out, report_);
+                             }});
+        }
+        writeTogether(files, options_.output_options);
+        if (hasCheckpoint()) {
+            std::error_code none;
+            std::filesystem::remove(checkpointPath(), none);
+        }
+        finish();
+        return std::move(report_);
+    }
+
+private:
+    [[nodiscard]] const std::optional<NumberedPath>& numbered() const
+    {
+        return options_.files ? options_.files : options_.mask_files;
+    }
+    [[nodiscard]] bool hasCheckpoint() const
+    {
+        return numbered().has_value() && (!options_.masks || options_.mask_files);
+    }
+    [[nodiscard]] std::string checkpointPath() const
+    {
+        return std::filesystem::path(numbered()->with("checkpoint")).replace_extension(".state").string();
+    }
+
+    void resume()
+    {
+        const std::string path = checkpointPath();
+        const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
+        if (!checkpoint) {
+            // The checkpoint of another run must not be used for this one.
+            removeCheckpoint(path, kCommand, options_.output_options);
+            return;
+        }
+        if (checkpoint->fingerprint != fingerprint_) {
+            refuse("--resume: " + path + " belongs to a run with other options or files");
+        }
+        if (checkpoint->frames > source_->frames()) {
+            refuse(fmt::format("--resume: {} frames exist already, but this run has {}", checkpoint->frames,
+                               source_->frames()));
+        }
+        for (std::size_t number = 1; number <= checkpoint->frames; ++number) {
+            for (const auto* files : {&options_.files, &options_.mask_files}) {
+                if (*files && !std::filesystem::exists((*files)->at(number))) {
+                    return;
+                }
+            }
+        }
+        // The surface's bytes follow those of the particles, whose number is in the first line.
+        const std::string_view state = checkpoint->state;
+        const std::size_t line = state.find('\n');
+        std::size_t size = 0;
+        if (line != std::string_view::npos) {
+            std::from_chars(state.data(), state.data() + line, size);
+        }
+        if (line == std::string_view::npos || size > state.size() - line - 1) {
+            throw Error(ErrorCode::InvalidInput,
+                        path + ": is not a complete checkpoint; remove it to start from the first frame");
+        }
+        source_->restore(state.substr(line + 1, size), path, checkpoint->frames);
+        surface_ = droplet::expressionFromBytes(state.substr(line + 1 + size), path);
+        report_.frames = rowsFromBytes<droplet::LiquidFrameRow>(checkpoint->rows);
+    }
+
+    void saveCheckpoint(std::size_t frames) const
+    {
+        const std::string particles = source_->bytes();
+        writeCheckpoint(checkpointPath(), {kCommand, fingerprint_, frames, bytesOfRows(report_.frames),
+                                           fmt::format("{}\n", particles.size()) + particles + bytesOf(surface_)});
+    }
+
+    void run()
+    {
+        const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
+        const std::size_t count = source_->frames();
+        for (std::size_t done = report_.frames.size(); done < count; ++done) {
+            const ParticleFrame frame = source_->next();
+            report_.spacing = frame.spacing;
+            surface_ = advanceExpression(std::move(surface_), frame, options_.controls);
+            shape_ = liquidShape(surface_, frame, options_.controls);
+            report_.frames.push_back({frame.time, frame.position.size(), source_->steps(),
+                                      static_cast<double>(frame.position.size()) * frame.spacing * frame.spacing,
+                                      shape_.area(), shape_.liquid.size(), shape_.foam.size(), shape_.droplets.size()});
+            write(done + 1);
+            if (hasCheckpoint() && (done + 1) % second == 0) {
+                saveCheckpoint(done + 1);
+            }
+            progress_.reportFrame(done + 1, count);
+        }
+        report_.removed = source_->removed();
+    }
+
+    void write(std::size_t number)
+    {
+        if (video_) {
+            video_->add(picture());
+        } else if (options_.files) {
+            const std::string path = options_.files->at(number);
+            droplet::writeAtomically(
+                path, [&](std::ostream& out) { draw(path, out); }, options_.output_options);
+        }
+        if (!options_.masks) {
+            return;
+        }
+        const auto write_mask = [&](std::ostream& out) {
+            writePng(liquidMask(shape_, view_), out, droplet::PngEffort::Fast);
+        };
+        if (options_.mask_files) {
+            droplet::writeAtomically(options_.mask_files->at(number), write_mask, options_.output_options);
+        } else {
+            write_mask(std::cout);
+            std::cout.flush();
+            if (!std::cout) {
+                throw Error(ErrorCode::OutputFailed, "--masks: standard output cannot be written");
+            }
+        }
+    }
+
+    void draw(const std::string& path, std::ostream& out) const
+    {
+        const std::vector<droplet::Region> walls = source_->walls();
+        if (std::filesystem::path(path).extension() == ".svg") {
+            writeLiquidSvg({shape_, walls}, view_, options_.look, out);
+            return;
+        }
+        writePng(liquidLayer({shape_, walls}, view_, options_.look), out, droplet::PngEffort::Fast);
+    }
+
+    /// Frame of a video, on white where the look has no background.
+    [[nodiscard]] droplet::Picture picture() const
+    {
+        const std::vector<droplet::Region> walls = source_->walls();
+        droplet::Picture white;
+        white.width = view_.width;
+        white.height = view_.height;
+        white.rgb.assign(3 * static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height), 255);
+        return droplet::over(liquidLayer({shape_, walls}, view_, options_.look), white);
+    }
+
+    void finish()
+    {
+        report_.time_total = clock_.total();
+        report_.peak_memory = peakMemory();
+    }
+
+    const Liquid2dOptions& options_;
+    ProgressDisplay& progress_;
+    StageClock clock_;
+    std::unique_ptr<ParticleSource> source_;
+    droplet::LiquidView view_;
+    droplet::ExpressionState surface_;
+    droplet::LiquidShape shape_;  ///< of the last frame
+    std::unique_ptr<VideoWriter> video_;
+    std::string fingerprint_;
+    droplet::LiquidReport report_;
+};
+
+/// Checks all paths before any work is done.
+void check(const Liquid2dOptions& options)
+{
+    std::vector<NamedFile> inputs;
+    if (options.config) {
+        inputs.push_back({"--config", *options.config});
+    }
+    if (options.walls) {
+        inputs.push_back({"--walls", *options.walls});
+    }
+    if (!options.particles && std::filesystem::path(options.scene).extension() == ".toml") {
+        inputs.push_back({"--scene", options.scene});
+    }
+    std::vector<NamedFile> outputs;
+    if (options.output) {
+        outputs.push_back(
+            {"OUTPUT", options.files ? options.files->at(1) : *options.output, options.files.has_value()});
+    }
+    if (options.masks) {
+        outputs.push_back({"--masks", options.mask_files ? options.mask_files->at(1) : *options.masks,
+                           options.mask_files.has_value()});
+    }
+    if (options.json) {
+        outputs.push_back({"--json", *options.json});
+    }
+    checkFiles(inputs, outputs, options.output_options);
+}
+
+}  // namespace
+
+droplet::LiquidReport drawLiquid2d(const Liquid2dOptions& options, ProgressDisplay& progress)
+{
+    check(options);
+    return LiquidRun(options, progress).execute();
+}
+
+}  // namespace cli

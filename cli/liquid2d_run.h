@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "droplet/liquid2d_io/liquid_report.h"
+#include "liquid2d_options.h"
+#include "progress_display.h"
+
+namespace cli {
+
+/// Simulates or reads the liquid, draws all frames and writes all files.
+/// @throws droplet::Error
+droplet::LiquidReport drawLiquid2d(const Liquid2dOptions& options, ProgressDisplay& progress);
+
+}  // namespace cli

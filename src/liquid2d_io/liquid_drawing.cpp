@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/liquid2d_io/liquid_drawing.h"
+
+#include <cairo.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <ostream>
+
+#include "bezier.h"
+#include "droplet/error.h"
+#include "require.h"
+
+namespace droplet {
+namespace {
+
+/// Greatest distance of curves from the shape [px].
+constexpr double kTolerance = 0.3;
+
+void validate(const LiquidView& view)
+{
+    requireWithin("view.width", view.width, 1, 32767);
+    requireWithin("view.height", view.height, 1, 32767);
+    require(view.size.x > 0.0 && std::isfinite(view.size.x), "view.size.x", view.size.x, "finite and more than 0 m");
+    require(view.size.y > 0.0 && std::isfinite(view.size.y), "view.size.y", view.size.y, "finite and more than 0 m");
+}
+
+/// Place in pixels, y down.
+Vec2 toPixels(Vec2 x, const LiquidView& view)
+{
+    return {x.x * view.width / view.size.x, (view.size.y - x.y) * view.height / view.size.y};
+}
+
+std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& view)
+{
+    std::vector<Vec2> result;
+    result.reserve(points.size());
+    for (const Vec2 point : points) {
+        result.push_back(toPixels(point, view));
+    }
+    return result;
+}
+
+std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
+{
+    std::vector<BezierPath> paths;
+    for (const Loop& loop : loops) {
+        paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
+    }
+    return paths;
+}
+
+std::string hex(Colour colour)
+{
+    return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+double lineWidth(const LiquidLook& look, const LiquidView& view)
+{
+    return look.line_width * 1e-3 * view.width;
+}
+
+/// Number with two digits after the point, without trailing zeros.
+void put(std::string& text, double value)
+{
+    std::string number = fmt::format("{:.2f}", value);
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.back() == '.') {
+        number.pop_back();
+    }
+    if (number == "-0") {
+        number = "0";
+    }
+    if (!text.empty() && text.back() != 'M' && text.back() != 'c' && text.back() != 'L' && number.front() != '-') {
+        text += ' ';
+    }
+    text += number;
+}
+
+/// Path data, with relative coordinates of rounded points, so that rounding does not add up.
+std::string dataOf(const std::vector<BezierPath>& paths)
+{
+    const auto rounded = [](Vec2 a) { return Vec2{std::round(a.x * 100.0) / 100.0, std::round(a.y * 100.0) / 100.0}; };
+    std::string data;
+    for (const BezierPath& path : paths) {
+        Vec2 at = rounded(path.start);
+        data += 'M';
+        put(data, at.x);
+        put(data, at.y);
+        data += 'c';
+        for (const BezierCurve& curve : path.curves) {
+            for (const Vec2 point : {curve.leaving, curve.arriving, curve.end}) {
+                put(data, rounded(point).x - at.x);
+                put(data, rounded(point).y - at.y);
+            }
+            at = rounded(curve.end);
+        }
+        data += 'z';
+    }
+    return data;
+}
+
+std::string dataOf(const std::vector<Region>& regions, const LiquidView& view)
+{
+    std::string data;
+    for (const Region& region : regions) {
+        for (const std::vector<Vec2>& loop : region.loops) {
+            data += 'M';
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const Vec2 x = toPixels(loop[k], view);
+                data += k == 1 ? "L" : "";
+                put(data, x.x);
+                put(data, x.y);
+            }
+            data += 'z';
+        }
+    }
+    return data;
+}
+
+struct Free {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+
+void setColour(cairo_t* context, Colour colour)
+{
+    cairo_set_source_rgb(context, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
+}
+
+void addPaths(cairo_t* context, const std::vector<BezierPath>& paths)
+{
+    for (const BezierPath& path : paths) {
+        cairo_move_to(context, path.start.x, path.start.y);
+        for (const BezierCurve& curve : path.curves) {
+            cairo_curve_to(context, curve.leaving.x, curve.leaving.y, curve.arriving.x, curve.arriving.y, curve.end.x,
+                           curve.end.y);
+        }
+        cairo_close_path(context);
+    }
+}
+
+void drawPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fill, const LiquidLook& look, double line)
+{
+    addPaths(context, paths);
+    setColour(context, fill);
+    cairo_fill_preserve(context);
+    if (line > 0.0) {
+        setColour(context, look.line);
+        cairo_stroke_preserve(context);
+    }
+    cairo_new_path(context);
+}
+
+/// Sums, row by row, how much of each pixel lies to the right of the sides of polygons, with their signs.
+class Coverage {
+public:
+    Coverage(int width, int height)
+        : width_(width), height_(height), sums_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height))
+    {
+    }
+
+    void addLine(Vec2 a, Vec2 b)
+    {
+        // Cut where the line enters and leaves the picture sideways, so that each part is on one side of both edges.
+        std::vector<double> cuts{0.0, 1.0};
+        for (const double edge : {0.0, static_cast<double>(width_)}) {
+            if ((a.x < edge) != (b.x < edge)) {
+                cuts.push_back((edge - a.x) / (b.x - a.x));
+            }
+        }
+        std::sort(cuts.begin(), cuts.end());
+        const auto clamped = [&](double t) {
+            const Vec2 x = a + t * (b - a);
+            return Vec2{std::clamp(x.x, 0.0, static_cast<double>(width_)), x.y};
+        };
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+            addInside(clamped(cuts[k]), clamped(cuts[k + 1]));
+        }
+    }
+
+    [[nodiscard]] DeepPicture picture() const
+    {
+        DeepPicture picture;
+        picture.width = width_;
+        picture.height = height_;
+        picture.channels = 1;
+        for (int y = 0; y < height_; ++y) {
+            double sum = 0.0;
+            for (int x = 0; x < width_; ++x) {
+                sum += sums_[index(x, y)];
+                picture.levels.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(sum, 0.0, 1.0))));
+            }
+        }
+        return picture;
+    }
+
+private:
+    [[nodiscard]] std::size_t index(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
+    }
+
+    void addInside(Vec2 a, Vec2 b)
+    {
+        const double sign = a.y < b.y ? 1.0 : -1.0;
+        if (a.y > b.y) {
+            std::swap(a, b);
+        }
+        const int first = std::max(static_cast<int>(std::floor(a.y)), 0);
+        for (int y = first; y < height_ && y < b.y; ++y) {
+            const double top = std::max(a.y, static_cast<double>(y));
+            const double bottom = std::min(b.y, static_cast<double>(y) + 1.0);
+            if (!(bottom > top)) {
+                continue;
+            }
+            const auto x_at = [&](double at) { return a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y); };
+            addRow(y, std::minmax(x_at(top), x_at(bottom)), sign * (bottom - top));
+        }
+    }
+
+    /// Adds a line through a row: of each pixel the part to the right of it.
+    void addRow(int y, std::pair<double, double> range, double height)
+    {
+        const double left = std::clamp(range.first, 0.0, static_cast<double>(width_));
+        const double right = std::clamp(range.second, 0.0, static_cast<double>(width_));
+        const int begin = std::min(static_cast<int>(left), width_);
+        const int end = std::min(static_cast<int>(right), width_);
+        if (begin == end) {
+            const double beyond = 1.0 - (0.5 * (left + right) - begin);
+            sums_[index(begin, y)] += height * beyond;
+            if (begin < width_) {
+                sums_[index(begin + 1, y)] += height * (1.0 - beyond);
+            }
+            return;
+        }
+        // Within each column the line covers a part of the height; behind it pixels are covered by all of that part.
+        for (int x = begin; x <= end; ++x) {
+            const double from = std::max(left, static_cast<double>(x));
+            const double to = std::min(right, static_cast<double>(x) + 1.0);
+            const double part = height * (to - from) / (right - left);
+            const double beyond = 1.0 - (0.5 * (from + to) - x);
+            sums_[index(x, y)] += part * beyond;
+            if (x < width_) {
+                sums_[index(x + 1, y)] += part * (1.0 - beyond);
+            }
+        }
+    }
+
+    int width_;
+    int height_;
+    std::vector<double> sums_;
+};
+
+}  // namespace
+
+const std::vector<LiquidLook>& liquidLooks()
+{
+    static const std::vector<LiquidLook> kLooks{
+        {"flat", {58, 134, 200}, {58, 134, 200}, Colour{214, 236, 250}, {}, 0.0, {92, 84, 78}, std::nullopt},
+        {"comic",
+         {66, 152, 214},
+         {104, 178, 228},
+         Colour{244, 250, 255},
+         {18, 38, 76},
+         2.5,
+         {122, 104, 92},
+         Colour{252, 246, 232}},
+        {"ink", {255, 255, 255}, {255, 255, 255}, std::nullopt, {20, 20, 24}, 2.0, {60, 60, 64}, Colour{255, 255, 255}},
+        {"night", {38, 190, 206}, {140, 232, 232}, Colour{16, 92, 116}, {}, 0.0, {44, 52, 76}, Colour{12, 18, 40}},
+    };
+    return kLooks;
+}
+
+const LiquidLook& liquidLookNamed(std::string_view name)
+{
+    std::string names;
+    for (const LiquidLook& look : liquidLooks()) {
+        if (look.name == name) {
+            return look;
+        }
+        names += (names.empty() ? "" : ", ") + look.name;
+    }
+    throw Error(ErrorCode::InvalidArgument, fmt::format("there is no look '{}'; there are {}", name, names));
+}
+
+void writeLiquidSvg(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out)
+{
+    validate(view);
+    out << fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n", view.width,
+        view.height);
+    if (look.background) {
+        out << fmt::format("<rect id=\"background\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+                           hex(*look.background));
+    }
+    const double line = lineWidth(look, view);
+    const std::string stroke =
+        line > 0.0
+            ? fmt::format(" stroke=\"{}\" stroke-width=\"{:.4g}\" stroke-linejoin=\"round\"", hex(look.line), line)
+            : "";
+    const auto group = [&](const char* id, const std::string& data, const std::string& fill, const std::string& lines) {
+        if (!data.empty()) {
+            out << fmt::format("<g id=\"{}\"><path fill-rule=\"evenodd\" fill=\"{}\"{} d=\"{}\"/></g>\n", id, fill,
+                               lines, data);
+        }
+    };
+    group("liquid", dataOf(pathsOf(scene.shape.liquid, view)), hex(look.water), stroke);
+    group("droplets", dataOf(pathsOf(scene.shape.droplets, view)), hex(look.droplet), stroke);
+    group("foam", dataOf(pathsOf(scene.shape.foam, view)), look.foam ? hex(*look.foam) : "none", stroke);
+    group("walls", dataOf(scene.walls, view), hex(look.wall), "");
+    out << "</svg>\n";
+}
+
+Layer liquidLayer(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look)
+{
+    validate(view);
+    const std::unique_ptr<cairo_surface_t, Free> surface(
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, view.width, view.height));
+    const std::unique_ptr<cairo_t, Free> context(cairo_create(surface.get()));
+    cairo_t* const c = context.get();
+    if (cairo_status(c) != CAIRO_STATUS_SUCCESS) {
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("a picture of {} x {} pixels cannot be drawn", view.width, view.height));
+    }
+    cairo_set_fill_rule(c, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    const double line = lineWidth(look, view);
+    cairo_set_line_width(c, line);
+    if (look.background) {
+        setColour(c, *look.background);
+        cairo_paint(c);
+    }
+    drawPaths(c, pathsOf(scene.shape.liquid, view), look.water, look, line);
+    drawPaths(c, pathsOf(scene.shape.droplets, view), look.droplet, look, line);
+    if (look.foam) {
+        drawPaths(c, pathsOf(scene.shape.foam, view), *look.foam, look, line);
+    }
+    for (const Region& region : scene.walls) {
+        for (const std::vector<Vec2>& loop : region.loops) {
+            for (const Vec2 point : toPixels(loop, view)) {
+                cairo_line_to(c, point.x, point.y);
+            }
+            cairo_close_path(c);
+        }
+        setColour(c, look.wall);
+        cairo_fill(c);
+    }
+    cairo_surface_flush(surface.get());
+
+    Layer layer;
+    layer.width = view.width;
+    layer.height = view.height;
+    const unsigned char* const data = cairo_image_surface_get_data(surface.get());
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+    const auto width = static_cast<std::size_t>(view.width);
+    layer.rgba.reserve(4 * width * static_cast<std::size_t>(view.height));
+    for (std::size_t y = 0; y < static_cast<std::size_t>(view.height); ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            std::uint32_t pixel = 0;
+            std::copy_n(data + y * stride + 4 * x, 4, reinterpret_cast<unsigned char*>(&pixel));
+            const std::uint32_t alpha = pixel >> 24U;
+            for (const unsigned shift : {16U, 8U, 0U}) {
+                const std::uint32_t level = (pixel >> shift) & 0xFFU;
+                layer.rgba.push_back(
+                    static_cast<std::uint8_t>(alpha == 0 ? 0 : std::min((level * 255U + alpha / 2) / alpha, 255U)));
+            }
+            layer.rgba.push_back(static_cast<std::uint8_t>(alpha));
+        }
+    }
+    return layer;
+}
+
+DeepPicture liquidMask(const LiquidShape& shape, const LiquidView& view)
+{
+    validate(view);
+    Coverage coverage(view.width, view.height);
+    for (const auto* loops : {&shape.liquid, &shape.droplets}) {
+        for (const Loop& loop : *loops) {
+            const std::vector<Vec2> points = toPixels(loop.points, view);
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                // Outer loops run clockwise in pixels, y down: their left sides go up.
+                coverage.addLine(points[(k + 1) % points.size()], points[k]);
+            }
+        }
+    }
+    return coverage.picture();
+}
+
+}  // namespace droplet
