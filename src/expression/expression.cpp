@@ -77,7 +77,6 @@ ExpressionOptions expressionOf(LiquidStyle style)
     options.resolution = 0.4;
     options.fairing = 2.5;
     options.max_tail = 7.0;
-    options.resolution = 0.25;
     options.min_area = 0.6;
     if (style == LiquidStyle::Wave) {
         options.air = 120.0;

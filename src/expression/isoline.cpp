@@ -16,6 +16,8 @@ namespace {
 constexpr std::uint32_t kNoVertex = 0xFFFFFFFFU;
 /// Vertices keep this distance from nodes, so that loops do not touch.
 constexpr double kMargin = 0.001;
+/// Loops with half this width are thin: tails, for which the grid is coarse [spacings].
+constexpr double kThin = 0.35;
 
 /// Vertex of a loop on an edge between two nodes. In cells.
 struct Cut {
@@ -27,8 +29,18 @@ struct Cut {
 
 /// Points of a loop with the area of the curve through its vertices: chords cut off a part of it. Vertices move along
 /// their edges alone, so that loops still do not cross.
-std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale)
+/// @param thin  twice the area over the length of loops, in cells, that are too thin for that
+std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale, double thin)
 {
+    double area = 0.0;
+    double around = 0.0;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        const Vec2 a = cuts[k].place();
+        const Vec2 b = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
+        area += 0.5 * cross(a - cuts[0].place(), b - cuts[0].place());
+        around += length(b - a);
+    }
+    const double share = smoothRamp(2.0 * std::abs(area) / around, thin, 1.5 * thin);
     std::vector<Vec2> points(cuts.size());
     for (std::size_t k = 0; k < cuts.size(); ++k) {
         const Vec2 before = cuts[k == 0 ? cuts.size() - 1 : k - 1].place();
@@ -48,7 +60,7 @@ std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale)
             const double b = length(after - p);
             const double height = dot(p - before, outwards);
             const double mean = a * b > 0.0 ? (a * a + b * b) / (12.0 * a * b) * height : 0.0;
-            cut.at = std::clamp(cut.at + mean / along, kMargin, 1.0 - kMargin);
+            cut.at = std::clamp(cut.at + share * mean / along, kMargin, 1.0 - kMargin);
         }
         points[k] = scale * cut.place();
     }
@@ -197,7 +209,8 @@ std::vector<Loop> isolines(const Field& field)
             at = std::exchange(next[at], kNoVertex);
         }
         if (at == start && cuts.size() >= 3) {
-            loops.push_back({withoutChordLoss(cuts, cell), std::vector<std::uint8_t>(cuts.size(), 0)});
+            loops.push_back({withoutChordLoss(cuts, cell, kThin * field.nodes_per_cell),
+                             std::vector<std::uint8_t>(cuts.size(), 0)});
         }
     }
     return loops;
