@@ -1,277 +1,547 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// "Expressive Rendering for 2D Animations of Liquids", sections 3 and 4. Departures: equation 5 in the usual order of
-// Hermite's polynomials; the ring of an eraser stays below the surface's value, as the text says and the equation does
-// not; fields of particles in bulk liquid are wider and lower than those of single droplets, so that the surface is
-// smooth and both have the right area; the first air fades in.
 #include "field.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "blocks.h"
+#include "surface_kernel.h"
 #include "tails.h"
 
 namespace droplet {
 namespace {
 
+constexpr std::size_t kTilesPerBlock = 16;
 /// Margin of an eraser's ring below the surface's value.
 constexpr double kBelow = 0.02;
-
 /// Air, in areas of a particle, over which a particle turns from water to an eraser.
 constexpr double kFade = 0.25;
+/// Narrower kernels show gaps between single particles, so no cell is surely liquid.
+constexpr double kSmooth = 0.95;
+constexpr double kClusterMass = 0.12;
+constexpr int kRows = 3 * kTileSide;
+/// Cells of a tile and its eight neighbours, as rows of bits.
+using Rows = std::array<std::uint32_t, kRows>;
 
-/// Integral of fall(r)·2πr over the disc, over the square of its radius: 2π(1/2 − 3/4 + 2/5).
-constexpr double kDiscIntegral = 0.3 * std::numbers::pi;
-
-/// Coverage from which a particle counts as bulk liquid: that on the flat surface of a lattice.
-constexpr double kBulk = 0.82;
-
-/// Part of the lattice's number of particles at which a tile without gaps is taken for full.
-constexpr double kFull = 0.7;
-
-/// Field of one particle.
-struct Splat {
-    Vec2 place;            ///< [m]
-    double support = 0.0;  ///< [m]
-    double weight = 0.0;
-};
-
-/// Part of a field that may be longer than a tile.
-struct LongSplat {
-    Tail tail;  ///< empty for an eraser
-    Splat water;
-    double inner = 0.0;  ///< of an eraser [m]
-    double outer = 0.0;  ///< of an eraser [m]
-    double share = 0.0;  ///< of the eraser; the rest is water
-    Vec2 lower;          ///< bounds [m]
-    Vec2 upper;          ///< [m]
-};
-
-/// Field of a single particle's water.
-Splat splatOf(const ParticleFrame& frame, std::size_t i, double coverage, const ExpressionOptions& options)
+std::uint32_t byteOf(std::uint64_t bits, int row)
 {
-    const double d = frame.spacing;
-    const double alone = Surroundings::alone();
-    const double t = std::clamp((coverage - alone) / (kBulk - alone), 0.0, 1.0);
-    // The power gives clusters of 2 to 61 particles their areas within 8 %.
-    const double bulk = t * t * t;
-    // A disc of the support 2R has the area of radius R, where the field is one half.
-    const double single = 2.0 * d / std::sqrt(std::numbers::pi);
-    const double wide = (1.0 + options.smoothing) * single;
-    Splat splat;
-    splat.place = frame.position[i];
-    splat.support = single + bulk * (wide - single);
-    // In bulk, weights that sum to one; alone, a peak of one.
-    const double summing = d * d / (kDiscIntegral * splat.support * splat.support);
-    const double peak = kDiscIntegral * single * single / (d * d);
-    splat.weight = summing * (peak + bulk * (1.0 - peak)) / std::max(coverage, 1.0);
-    return splat;
+    return static_cast<std::uint32_t>(bits >> static_cast<unsigned>(8 * row)) & 0xFFU;
 }
 
-/// Value of a tail at a point: that of its nearest part, relative to its width there.
-double tailAt(const Tail& tail, const Splat& water, Vec2 point)
+Rows rowsAround(const ParticleCells& cells, std::size_t tile, const std::vector<std::uint64_t>& bits)
 {
-    double nearest = 1.0;
-    for (std::size_t k = 0; k + 1 < tail.place.size(); ++k) {
-        const Vec2 side = tail.place[k + 1] - tail.place[k];
-        const Vec2 arm = point - tail.place[k];
-        const double square = dot(side, side);
-        const double along = square > 0.0 ? std::clamp(dot(arm, side) / square, 0.0, 1.0) : 0.0;
-        const double width = water.support * (tail.width[k] + along * (tail.width[k + 1] - tail.width[k]));
-        if (width > 0.0) {
-            nearest = std::min(nearest, length(arm - along * side) / width);
+    Rows rows{};
+    for (int k = 0; k < 9; ++k) {
+        if (const std::int32_t t = cells.around[tile][static_cast<std::size_t>(k)]; t >= 0) {
+            for (int y = 0; y < kTileSide; ++y) {
+                rows[static_cast<std::size_t>(k / 3 * kTileSide + y)] |= byteOf(bits[static_cast<std::size_t>(t)], y)
+                                                                         << static_cast<unsigned>(k % 3 * kTileSide);
+            }
         }
     }
-    return water.weight * fall(nearest);
+    return rows;
 }
 
-void setBounds(LongSplat& splat)
+/// Cells of the middle tile that have a set cell at most `reach` ≤ 8 away in both directions.
+std::uint64_t dilated(const Rows& rows, int reach)
+{
+    Rows wide = rows;
+    for (std::uint32_t& row : wide) {
+        std::uint32_t r = row;
+        for (int k = 1; k <= reach; ++k) {
+            r |= row << static_cast<unsigned>(k) | row >> static_cast<unsigned>(k);
+        }
+        row = r;
+    }
+    std::uint64_t result = 0;
+    for (int y = 0; y < kTileSide; ++y) {
+        std::uint32_t r = 0;
+        for (int k = -reach; k <= reach; ++k) {
+            r |= wide[static_cast<std::size_t>(kTileSide + y + k)];
+        }
+        result |= static_cast<std::uint64_t>(r >> 8U & 0xFFU) << static_cast<unsigned>(8 * y);
+    }
+    return result;
+}
+
+/// Cells that are surely liquid: all blocks of cells around them hold about as many particles as they should.
+std::uint64_t fullCells(const ParticleCells& cells, std::size_t tile, const std::vector<std::uint64_t>& opened)
+{
+    constexpr int kMargin = 3;
+    constexpr int kSide = kTileSide + 2 * kMargin;
+    std::array<std::array<int, kSide>, kSide> counts{};
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const int cx = x - kMargin;
+            const int cy = y - kMargin;
+            const auto k = static_cast<std::size_t>((cy + kTileSide) / kTileSide * 3 + (cx + kTileSide) / kTileSide);
+            const std::int32_t t = cells.around[tile][k];
+            if (t < 0) {
+                continue;
+            }
+            const auto cell = static_cast<std::size_t>((cy & 7) * kTileSide + (cx & 7));
+            const std::size_t at = static_cast<std::size_t>(t) * kTileCells + cell;
+            const bool is_open = (opened[static_cast<std::size_t>(t)] >> cell & 1U) != 0;
+            counts[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
+                is_open ? -100 : std::min(4, static_cast<int>(cells.begin[at + 1] - cells.begin[at]));
+        }
+    }
+    const auto count = [&](int x, int y) { return counts[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]; };
+    std::array<std::uint32_t, kSide> dense{};
+    for (int y = 1; y + 1 < kSide; ++y) {
+        for (int x = 1; x + 1 < kSide; ++x) {
+            const int below = count(x - 1, y - 1) + count(x, y - 1);
+            const int below_right = count(x, y - 1) + count(x + 1, y - 1);
+            const int left = count(x - 1, y) + count(x, y);
+            const int right = count(x, y) + count(x + 1, y);
+            const int above = count(x - 1, y + 1) + count(x, y + 1);
+            const int above_right = count(x, y + 1) + count(x + 1, y + 1);
+            const int all = below + count(x + 1, y - 1) + left + count(x + 1, y) + above + count(x + 1, y + 1);
+            if (all >= 7 && std::min({below + left, below_right + right, above + left, above_right + right}) >= 2) {
+                dense[static_cast<std::size_t>(y)] |= 1U << static_cast<unsigned>(x);
+            }
+        }
+    }
+    std::uint64_t full = 0;
+    for (int y = 0; y < kTileSide; ++y) {
+        std::uint32_t row = ~0U;
+        for (int k = -1; k <= 1; ++k) {
+            const std::uint32_t d = dense[static_cast<std::size_t>(y + kMargin + k)];
+            row &= d & d << 1U & d >> 1U;
+        }
+        full |= static_cast<std::uint64_t>(row >> static_cast<unsigned>(kMargin) & 0xFFU)
+                << static_cast<unsigned>(8 * y);
+    }
+    return full;
+}
+
+int reachOf(double smoothing)
+{
+    return static_cast<int>(std::ceil(std::max(bulkSupport(smoothing), 2.0 * kParticleRadius)));
+}
+
+/// Field of a particle's water, ready to be added to nodes.
+struct Stamp {
+    float x, y;
+    float support, weight;
+};
+
+/// Field of a particle that has a tail or holds air. In spacings, absolute.
+struct LongStamp {
+    Tail tail;  ///< empty for an eraser
+    Vec2 place{};
+    double support = 0.0;
+    double weight = 0.0;
+    double inner = 0.0;  ///< of an eraser
+    double outer = 0.0;  ///< of an eraser
+    double share = 0.0;  ///< of the eraser; the rest is water
+    Vec2 lower{};        ///< bounds
+    Vec2 upper{};
+};
+
+/// Value of a tail at a point: that of its nearest part, relative to its width there.
+double tailAt(const LongStamp& s, Vec2 point)
+{
+    double nearest = 1.0;
+    for (std::size_t k = 0; k + 1 < s.tail.place.size(); ++k) {
+        const Vec2 side = s.tail.place[k + 1] - s.tail.place[k];
+        const Vec2 arm = point - s.tail.place[k];
+        const double square = dot(side, side);
+        const double along = square > 0.0 ? std::clamp(dot(arm, side) / square, 0.0, 1.0) : 0.0;
+        const double width = s.support * (s.tail.width[k] + along * (s.tail.width[k + 1] - s.tail.width[k]));
+        const Vec2 off = arm - along * side;
+        const double off2 = dot(off, off);
+        if (off2 < nearest * nearest * width * width) {
+            nearest = std::sqrt(off2) / width;
+        }
+    }
+    return s.weight * static_cast<double>(surfaceKernel(static_cast<float>(nearest)));
+}
+
+void setBounds(LongStamp& s)
 {
     const auto include = [&](Vec2 x, double reach) {
-        splat.lower = {std::min(splat.lower.x, x.x - reach), std::min(splat.lower.y, x.y - reach)};
-        splat.upper = {std::max(splat.upper.x, x.x + reach), std::max(splat.upper.y, x.y + reach)};
+        s.lower = {std::min(s.lower.x, x.x - reach), std::min(s.lower.y, x.y - reach)};
+        s.upper = {std::max(s.upper.x, x.x + reach), std::max(s.upper.y, x.y + reach)};
     };
-    splat.lower = splat.upper = splat.water.place;
-    include(splat.water.place, std::max(splat.water.support, splat.outer));
-    for (std::size_t k = 0; k < splat.tail.place.size(); ++k) {
-        include(splat.tail.place[k], splat.water.support * splat.tail.width[k]);
+    s.lower = s.upper = s.place;
+    include(s.place, std::max(s.support, s.outer));
+    for (std::size_t k = 0; k < s.tail.place.size(); ++k) {
+        include(s.tail.place[k], s.support * s.tail.width[k]);
     }
+}
+
+class Tile {
+public:
+    Tile(float* values, int nodes_per_cell)
+        : values_(values), side_(kTileSide * nodes_per_cell), step_(1.0F / static_cast<float>(nodes_per_cell))
+    {
+    }
+
+    /// Calls set(value, x, y) for the nodes of a box.
+    template <typename Set>
+    void box(float x0, float x1, float y0, float y1, const Set& set)
+    {
+        const float n = 1.0F / step_;
+        const int left = std::max(0, static_cast<int>(std::ceil(x0 * n)));
+        const int right = std::min(side_ - 1, static_cast<int>(std::floor(x1 * n)));
+        const int lower = std::max(0, static_cast<int>(std::ceil(y0 * n)));
+        const int upper = std::min(side_ - 1, static_cast<int>(std::floor(y1 * n)));
+        for (int j = lower; j <= upper; ++j) {
+            float* row = values_ + static_cast<std::ptrdiff_t>(j) * side_;
+            for (int i = left; i <= right; ++i) {
+                set(row[i], step_ * static_cast<float>(i), step_ * static_cast<float>(j));
+            }
+        }
+    }
+
+    void add(const Stamp& s)
+    {
+        const float per_support = 1.0F / s.support;
+        box(s.x - s.support, s.x + s.support, s.y - s.support, s.y + s.support, [&](float& value, float x, float y) {
+            const float d2 = (x - s.x) * (x - s.x) + (y - s.y) * (y - s.y);
+            value += s.weight * surfaceKernel(std::sqrt(d2) * per_support);
+        });
+    }
+
+    /// @param corner  of the tile
+    void add(const LongStamp& s, Vec2 corner)
+    {
+        const Vec2 lower = s.lower - corner;
+        const Vec2 upper = s.upper - corner;
+        const auto f = [](double value) { return static_cast<float>(value); };
+        box(f(lower.x) - 1e-3F, f(upper.x) + 1e-3F, f(lower.y) - 1e-3F, f(upper.y) + 1e-3F,
+            [&](float& value, float x, float y) {
+                const Vec2 point = corner + Vec2{static_cast<double>(x), static_cast<double>(y)};
+                if (!s.tail.place.empty()) {
+                    value += f(tailAt(s, point));
+                    return;
+                }
+                const double d = length(point - s.place);
+                value += f((1.0 - s.share) * s.weight) * surfaceKernel(f(d / s.support)) +
+                         f(s.share * eraser(d, s.inner, s.outer));
+            });
+    }
+
+private:
+    float* values_;
+    int side_;
+    float step_;
+};
+
+/// Gives nodes beside missing tiles the value of those, so that every loop closes.
+void closeBorder(const Field& field, std::size_t tile, float* values)
+{
+    const int side = field.side();
+    const auto set = [&](int k, int begin, int step) {
+        const std::int32_t other = field.around[tile][static_cast<std::size_t>(k)];
+        for (int i = 0; other < 0 && i < side; ++i) {
+            float& value = values[begin + i * step];
+            value = other == Field::kLiquid ? 1.0F : std::min(value, 0.0F);
+        }
+    };
+    set(1, 0, 1);
+    set(3, 0, side);
+    set(5, side - 1, side);
+    set(7, side * (side - 1), 1);
+}
+
+/// Things by the tiles that they touch.
+struct Touching {
+    std::uint32_t tile = 0;
+    std::uint32_t thing = 0;
+};
+
+TilePlace tileOf(Vec2 p)
+{
+    return {static_cast<std::int32_t>(std::floor(p.x / kTileSide)),
+            static_cast<std::int32_t>(std::floor(p.y / kTileSide))};
 }
 
 }  // namespace
 
-double eraser(double distance, double inner, double outer)
+double bulkSupport(double smoothing)
 {
-    const double ring = kIso - kBelow;
-    if (distance < inner) {
-        return ring - (1.0 + ring) * fall(distance / inner);
-    }
-    return ring * fall((distance - inner) / (outer - inner));
+    return 1.1 * (1.0 + smoothing);
 }
 
-Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options)
+KernelShape kernelShape(double coverage, double smoothing)
 {
-    const std::size_t count = frame.position.size();
-    Field field;
-    if (count == 0) {
-        return field;
-    }
-    const Surroundings around = surroundingsOf(frame);
-    std::vector<Tail> tails = tailsOf(state, frame, options);
-    const double radius = frame.spacing / std::sqrt(std::numbers::pi);
+    const double bulk = bulkSupport(smoothing);
+    const double bulk_weight = 1.0 / (kKernelIntegral * bulk * bulk);
+    // 0 for an isolated particle, 1 at a straight rim.
+    const double full = std::max(0.8, bulk_weight + 0.1);
+    const double t = std::clamp((coverage - bulk_weight) / (full - bulk_weight), 0.0, 1.0);
+    const double b = smoothRamp(t, 0.0, 1.0);
+    const double support = (1.0 - b) * 2.0 * kParticleRadius + b * bulk;
+    // An isolated disc of area 1 has weight 1: its kernel integrates to 1.2. Bodies of few particles are round, so
+    // their kernels reach beyond the rim and need more weight; fitted to the areas of clusters.
+    const double mass = (1.0 - b) * kKernelIntegral * 4.0 * kParticleRadius * kParticleRadius + b +
+                        kClusterMass * smoothRamp(t, 0.15, 0.4) * smoothRamp(t, 0.9, 0.6);
+    return {support, mass / (kKernelIntegral * support * support) / std::max(1.0, coverage)};
+}
 
-    std::vector<Splat> splats(count);
-    std::vector<LongSplat> long_splats;
-    double widest = 0.0;
-    Vec2 lower = frame.position.front();
-    Vec2 upper = lower;
-    for (std::size_t i = 0; i < count; ++i) {
-        splats[i] = splatOf(frame, i, around.coverage[i], options);
-        const double air = options.air > 0.0 ? state.air[frame.id[i]] : 0.0;
-        if (!tails[i].place.empty() || air > 0.0) {
-            LongSplat splat;
-            splat.tail = std::move(tails[i]);
-            splat.water = splats[i];
-            if (air > 0.0) {
-                splat.tail = {};
-                splat.inner = radius * std::sqrt(air);
-                splat.outer = radius * std::sqrt(air + 1.0);
-                const double t = std::min(air / kFade, 1.0);
-                splat.share = t * t * (3.0 - 2.0 * t);
-            }
-            setBounds(splat);
-            lower = {std::min(lower.x, splat.lower.x), std::min(lower.y, splat.lower.y)};
-            upper = {std::max(upper.x, splat.upper.x), std::max(upper.y, splat.upper.y)};
-            long_splats.push_back(std::move(splat));
-            splats[i].weight = 0.0;
-        }
-        widest = std::max(widest, splats[i].support);
-        lower = {std::min(lower.x, frame.position[i].x), std::min(lower.y, frame.position[i].y)};
-        upper = {std::max(upper.x, frame.position[i].x), std::max(upper.y, frame.position[i].y)};
-    }
-
-    field.step = options.resolution * frame.spacing;
-    field.side = static_cast<int>(std::ceil(widest / field.step)) + 1;
-    const double tile = field.side * field.step;
-    // A whole number of tiles from zero, so that nodes stay where they are from frame to frame.
-    field.origin = {tile * (std::floor(lower.x / tile) - 1.0), tile * (std::floor(lower.y / tile) - 1.0)};
-    field.columns = static_cast<int>(std::floor((upper.x - field.origin.x) / tile)) + 2;
-    field.rows = static_cast<int>(std::floor((upper.y - field.origin.y) / tile)) + 2;
-    // The upper corner of the grid lies half a tile inside of the last one, so that the number of tiles is certain.
-    CellGrid cells(field.origin, field.origin + Vec2{tile * (field.columns - 0.5), tile * (field.rows - 0.5)}, tile);
-    const std::vector<std::uint32_t> order = cells.sort(frame.position);
-    std::vector<Splat> sorted(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        sorted[k] = splats[order[k]];
-    }
-
-    // Tiles that long splats touch, in order.
-    std::vector<std::pair<std::size_t, std::uint32_t>> touched;
-    const auto index_of = [&](int column, int row) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(field.columns) +
-               static_cast<std::size_t>(column);
-    };
-    for (std::uint32_t k = 0; k < long_splats.size(); ++k) {
-        const LongSplat& splat = long_splats[k];
-        for (int row = std::max(cells.row(splat.lower.y), 0); row <= std::min(cells.row(splat.upper.y), field.rows - 1);
-             ++row) {
-            for (int column = std::max(cells.column(splat.lower.x), 0);
-                 column <= std::min(cells.column(splat.upper.x), field.columns - 1); ++column) {
-                touched.emplace_back(index_of(column, row), k);
-            }
-        }
-    }
-    std::sort(touched.begin(), touched.end());
-
-    const double full = kFull * tile * tile / (frame.spacing * frame.spacing);
-    const auto occupancy = [&](int column, int row) {
-        const auto [first, last] = cells.range(row, column, column);
-        return last - first;
-    };
-    field.tile.assign(index_of(0, field.rows), Field::kOutside);
-    std::vector<std::pair<int, int>> computed;
-    for (int row = 0; row < field.rows; ++row) {
-        for (int column = 0; column < field.columns; ++column) {
-            bool is_near = false;
-            bool is_deep = true;
-            for (int r = row - 1; r <= row + 1; ++r) {
-                for (int c = column - 1; c <= column + 1; ++c) {
-                    const std::uint32_t particles = occupancy(c, r);
-                    is_near = is_near || particles > 0;
-                    is_deep = is_deep && particles >= full;
-                }
-            }
-            const std::size_t index = index_of(column, row);
-            const auto splat = std::lower_bound(touched.begin(), touched.end(), std::pair{index, std::uint32_t{0}});
-            const bool is_touched = splat != touched.end() && splat->first == index;
-            if (is_deep && !is_touched) {
-                field.tile[index] = Field::kInside;
-            } else if (is_near || is_touched) {
-                field.tile[index] = static_cast<std::int32_t>(computed.size());
-                computed.emplace_back(column, row);
-            }
-        }
-    }
-
-    const auto side = static_cast<std::size_t>(field.side);
-    field.values.resize(computed.size() * side * side);
+Coverage coverageOf(const ParticleCells& cells, const std::vector<std::uint64_t>& opened, const FieldOptions& options)
+{
+    const std::size_t tiles = cells.tiles.size();
+    Coverage result;
+    result.full.assign(tiles, 0);
+    result.occupied.assign(tiles, 0);
+    result.near.assign(tiles, 0);
+    result.coverage.assign(cells.particle.size(), 1.0F);
     forBlocks(
-        computed.size(),
-        [&](std::size_t begin, std::size_t end) {
-            for (std::size_t t = begin; t < end; ++t) {
-                const auto [column, row] = computed[t];
-                float* const values = field.values.data() + t * side * side;
-                const Vec2 corner = field.origin + Vec2{tile * column, tile * row};
-                for (int r = row - 1; r <= row + 1; ++r) {
-                    const auto [first, last] = cells.range(r, column - 1, column + 1);
-                    for (std::uint32_t k = first; k < last; ++k) {
-                        const Splat& splat = sorted[k];
-                        const Vec2 at = splat.place - corner;
-                        const double inverse = 1.0 / field.step;
-                        const int x0 = std::max(static_cast<int>(std::ceil((at.x - splat.support) * inverse)), 0);
-                        const int x1 =
-                            std::min(static_cast<int>(std::floor((at.x + splat.support) * inverse)), field.side - 1);
-                        const int y0 = std::max(static_cast<int>(std::ceil((at.y - splat.support) * inverse)), 0);
-                        const int y1 =
-                            std::min(static_cast<int>(std::floor((at.y + splat.support) * inverse)), field.side - 1);
-                        const auto scale = static_cast<float>(1.0 / (splat.support * splat.support));
-                        const auto weight = static_cast<float>(splat.weight);
-                        for (int y = y0; y <= y1; ++y) {
-                            const auto dy = static_cast<float>(y * field.step - at.y);
-                            float* const line = values + static_cast<std::size_t>(y) * side;
-                            for (int x = x0; x <= x1; ++x) {
-                                const auto dx = static_cast<float>(x * field.step - at.x);
-                                const float square = (dx * dx + dy * dy) * scale;
-                                if (square < 1.0F) {
-                                    line[x] += weight * (1.0F - square * (3.0F - 2.0F * std::sqrt(square)));
-                                }
-                            }
-                        }
-                    }
-                }
-                const std::size_t index = index_of(column, row);
-                for (auto at = std::lower_bound(touched.begin(), touched.end(), std::pair{index, std::uint32_t{0}});
-                     at != touched.end() && at->first == index; ++at) {
-                    const LongSplat& splat = long_splats[at->second];
-                    for (std::size_t n = 0; n < side * side; ++n) {
-                        const Vec2 point = corner + Vec2{field.step * static_cast<double>(n % side),
-                                                         field.step * static_cast<double>(n / side)};
-                        double value = 0.0;
-                        if (!splat.tail.place.empty()) {
-                            value = tailAt(splat.tail, splat.water, point);
-                        } else {
-                            const double distance = length(point - splat.water.place);
-                            value = (1.0 - splat.share) * splat.water.weight * fall(distance / splat.water.support) +
-                                    splat.share * eraser(distance, splat.inner, splat.outer);
-                        }
-                        values[n] += static_cast<float>(value);
+        tiles,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                for (std::size_t c = 0; c < kTileCells; ++c) {
+                    const std::size_t at = t * kTileCells + c;
+                    if (cells.begin[at] < cells.begin[at + 1]) {
+                        result.occupied[t] |= std::uint64_t{1} << c;
                     }
                 }
             }
         },
-        16);
+        kTilesPerBlock);
+    if (!options.everywhere) {
+        forBlocks(
+            tiles,
+            [&](std::size_t b, std::size_t e) {
+                for (std::size_t t = b; t < e; ++t) {
+                    if (result.occupied[t] != 0) {
+                        result.full[t] = fullCells(cells, t, opened);
+                    }
+                }
+            },
+            kTilesPerBlock);
+    }
+    const double support = bulkSupport(options.smoothing);
+    const int reach = reachOf(options.smoothing);
+    const auto per_support = static_cast<float>(1.0 / support);
+    const auto weight = static_cast<float>(1.0 / (kKernelIntegral * support * support));
+    const auto reach2 = static_cast<float>(support * support);
+    std::vector<std::uint64_t> open(tiles);
+    for (std::size_t t = 0; t < tiles; ++t) {
+        open[t] = ~result.full[t];
+    }
+    forBlocks(
+        tiles,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                if (result.occupied[t] == 0) {
+                    continue;
+                }
+                result.near[t] = result.occupied[t] & dilated(rowsAround(cells, t, open), reach);
+                for (int c = 0; c < kTileCells; ++c) {
+                    if ((result.near[t] >> static_cast<unsigned>(c) & 1U) == 0) {
+                        continue;
+                    }
+                    const int cx = c % kTileSide;
+                    const int cy = c / kTileSide;
+                    const std::size_t at = t * kTileCells + static_cast<std::size_t>(c);
+                    cells.rows(t, cx - reach, cx + reach, cy - reach, cy + reach,
+                               [&](std::uint32_t first, std::uint32_t last, float dx, float dy) {
+                                   for (std::uint32_t i = cells.begin[at]; i < cells.begin[at + 1]; ++i) {
+                                       const float x = cells.x[i] - dx;
+                                       const float y = cells.y[i] - dy;
+                                       float sum = 0.0F;
+                                       for (std::uint32_t j = first; j < last; ++j) {
+                                           const float ex = cells.x[j] - x;
+                                           const float ey = cells.y[j] - y;
+                                           const float d2 = ex * ex + ey * ey;
+                                           if (d2 < reach2) {
+                                               sum += surfaceKernel(std::sqrt(d2) * per_support);
+                                           }
+                                       }
+                                       result.coverage[i] += weight * sum;
+                                   }
+                               });
+                    for (std::uint32_t i = cells.begin[at]; i < cells.begin[at + 1]; ++i) {
+                        result.coverage[i] -= 1.0F;
+                    }
+                }
+            }
+        },
+        kTilesPerBlock);
+    return result;
+}
+
+double eraser(double distance, double inner, double outer)
+{
+    const double ring = kIso - kBelow;
+    const auto fall = [](double t) { return 1.0 - t * t * (3.0 - 2.0 * t); };
+    if (distance < inner) {
+        return ring - (1.0 + ring) * fall(distance / inner);
+    }
+    return distance < outer ? ring * fall((distance - inner) / (outer - inner)) : 0.0;
+}
+
+Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options,
+              bool everywhere)
+{
+    const ParticleCells cells = sortIntoCells(frame);
+    const FieldOptions field_options{options.smoothing,
+                                     std::clamp(static_cast<int>(std::ceil(1.0 / options.resolution - 1e-9)), 1, 5),
+                                     everywhere || options.smoothing < kSmooth};
+    const int reach = reachOf(options.smoothing);
+    const std::size_t tiles = cells.tiles.size();
+    const double scale = 1.0 / frame.spacing;
+
+    // Tails and air.
+    std::vector<Tail> tails = tailsOf(state, frame, options);
+    std::vector<LongStamp> stamps;
+    std::vector<std::uint32_t> owner;  // Of each stamp, sorted.
+    std::vector<char> is_long(cells.particle.size(), 0);
+    for (std::uint32_t k = 0; k < cells.particle.size(); ++k) {
+        const std::uint32_t i = cells.particle[k];
+        const double air = options.air > 0.0 ? state.air[frame.id[i]] : 0.0;
+        if (air == 0.0 && tails[i].place.empty()) {
+            continue;
+        }
+        is_long[k] = 1;
+        LongStamp s;
+        s.place = scale * frame.position[i];
+        s.support = std::max(bulkSupport(options.smoothing), 2.0 * kParticleRadius);
+        if (air > 0.0) {
+            s.inner = kParticleRadius * std::sqrt(air);
+            s.outer = kParticleRadius * std::sqrt(air + 1.0);
+            s.share = smoothRamp(air, 0.0, kFade);
+        } else {
+            s.tail = std::move(tails[i]);
+            for (Vec2& p : s.tail.place) {
+                p = scale * p;
+            }
+        }
+        setBounds(s);
+        stamps.push_back(std::move(s));
+        owner.push_back(k);
+    }
+    TileNumbers old_numbers;
+    std::vector<std::uint64_t> opened(tiles, 0);
+    if (!stamps.empty()) {
+        for (const TilePlace place : cells.tiles) {
+            old_numbers.insert(place);
+        }
+    }
+    for (const LongStamp& s : stamps) {
+        // Air takes liquid away, and so does a particle that its droplet draws towards its centre.
+        const double r = std::max(s.outer, 0.5);
+        for (auto y = static_cast<std::int32_t>(std::floor(s.place.y - r)); y <= s.place.y + r; ++y) {
+            for (auto x = static_cast<std::int32_t>(std::floor(s.place.x - r)); x <= s.place.x + r; ++x) {
+                if (const auto t = old_numbers.find({x >> 3, y >> 3})) {
+                    opened[*t] |= std::uint64_t{1} << static_cast<unsigned>((y & 7) * kTileSide + (x & 7));
+                }
+            }
+        }
+    }
+    const Coverage coverage = coverageOf(cells, opened, field_options);
+    for (std::size_t k = 0; k < stamps.size(); ++k) {
+        const KernelShape kernel = kernelShape(static_cast<double>(coverage.coverage[owner[k]]), options.smoothing);
+        stamps[k].support = kernel.support;
+        stamps[k].weight = kernel.weight;
+        setBounds(stamps[k]);
+    }
+
+    std::vector<std::uint8_t> has_rim(tiles, 0);
+    forBlocks(
+        tiles,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                has_rim[t] = (~coverage.full[t] & dilated(rowsAround(cells, t, coverage.occupied), reach)) != 0;
+            }
+        },
+        kTilesPerBlock);
+    Field field;
+    field.spacing = frame.spacing;
+    field.nodes_per_cell = field_options.nodes_per_cell;
+    TileNumbers numbers;
+    std::vector<std::int32_t> source;  // Tile of particles, or kNone.
+    for (std::size_t t = 0; t < tiles; ++t) {
+        if (has_rim[t] != 0) {
+            numbers.insert(cells.tiles[t]);
+            field.tiles.push_back(cells.tiles[t]);
+            source.push_back(static_cast<std::int32_t>(t));
+        }
+    }
+    std::vector<Touching> touching;
+    for (std::uint32_t k = 0; k < stamps.size(); ++k) {
+        const TilePlace a = tileOf(stamps[k].lower - Vec2{1.0, 1.0});
+        const TilePlace b = tileOf(stamps[k].upper + Vec2{1.0, 1.0});
+        for (std::int32_t y = a.y; y <= b.y; ++y) {
+            for (std::int32_t x = a.x; x <= b.x; ++x) {
+                const std::uint32_t tile = numbers.insert({x, y});
+                if (tile == field.tiles.size()) {
+                    field.tiles.push_back({x, y});
+                    const auto old = old_numbers.find({x, y});
+                    source.push_back(old ? static_cast<std::int32_t>(*old) : ParticleCells::kNone);
+                }
+                touching.push_back({tile, k});
+            }
+        }
+    }
+    std::stable_sort(touching.begin(), touching.end(),
+                     [](const Touching& a, const Touching& b) { return a.tile < b.tile; });
+
+    const std::size_t count = field.tiles.size();
+    field.around.resize(count);
+    field.values.assign(count * field.nodes(), 0.0F);
+    forBlocks(
+        count,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                for (int k = 0; k < 9; ++k) {
+                    const auto other = numbers.find({field.tiles[t].x + k % 3 - 1, field.tiles[t].y + k / 3 - 1});
+                    std::int32_t value = Field::kDry;
+                    if (other) {
+                        value = static_cast<std::int32_t>(*other);
+                    } else if (source[t] >= 0) {
+                        const std::int32_t s =
+                            cells.around[static_cast<std::size_t>(source[t])][static_cast<std::size_t>(k)];
+                        if (s >= 0 && coverage.full[static_cast<std::size_t>(s)] == ~std::uint64_t{0}) {
+                            value = Field::kLiquid;
+                        }
+                    }
+                    field.around[t][static_cast<std::size_t>(k)] = value;
+                }
+                float* values = field.values.data() + t * field.nodes();
+                Tile tile(values, field.nodes_per_cell);
+                if (source[t] >= 0) {
+                    const auto s = static_cast<std::size_t>(source[t]);
+                    cells.rows(
+                        s, -reach, kTileSide - 1 + reach, -reach, kTileSide - 1 + reach,
+                        [&](std::uint32_t first, std::uint32_t last, float dx, float dy) {
+                            for (std::uint32_t i = first; i < last; ++i) {
+                                const std::uint32_t p = cells.place[i];
+                                if ((coverage.near[p / kTileCells] >> (p % kTileCells) & 1U) == 0 || is_long[i] != 0) {
+                                    continue;
+                                }
+                                const KernelShape kernel =
+                                    kernelShape(static_cast<double>(coverage.coverage[i]), options.smoothing);
+                                tile.add({cells.x[i] + dx, cells.y[i] + dy, static_cast<float>(kernel.support),
+                                          static_cast<float>(kernel.weight)});
+                            }
+                        });
+                }
+                const Vec2 corner{static_cast<double>(kTileSide) * field.tiles[t].x,
+                                  static_cast<double>(kTileSide) * field.tiles[t].y};
+                for (auto at = std::lower_bound(touching.begin(), touching.end(), t,
+                                                [](const Touching&a, std::size_t n) { return a.tile < n; });
+                     at != touching.end() && at->tile == t; ++at) {
+                    tile.add(stamps[at->thing], corner);
+                }
+                // Cells that are surely liquid got a part of their sum.
+                const int n = field.nodes_per_cell;
+                const std::uint64_t full = source[t] >= 0 ? coverage.full[static_cast<std::size_t>(source[t])] : 0;
+                for (int j = 0; full != 0 && j < field.side(); ++j) {
+                    for (int i = 0; i < field.side(); ++i) {
+                        if ((full >> static_cast<unsigned>(j / n * kTileSide + i / n) & 1U) != 0) {
+                            values[j * field.side() + i] = 1.0F;
+                        }
+                    }
+                }
+                closeBorder(field, t, values);
+            }
+        },
+        4);
     return field;
 }
 

@@ -1,195 +1,217 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lorensen, Cline: Marching cubes. SIGGRAPH 1987, in the plane.
 #include "isoline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "blocks.h"
+#include "surface_kernel.h"
 
 namespace droplet {
 namespace {
 
-/// Sides of a square.
-enum Side : std::uint8_t { kBottom, kRight, kTop, kLeft };
+constexpr std::uint32_t kNoVertex = 0xFFFFFFFFU;
+/// Vertices keep this distance from nodes, so that loops do not touch.
+constexpr double kMargin = 0.001;
+/// Loops with half this width are thin: tails, for which the grid is coarse [spacings].
+constexpr double kThin = 0.35;
 
-/// Line through a square from one side to another, inside on its left.
+/// Vertex of a loop on an edge between two nodes. In cells.
 struct Cut {
-    Side from;
-    Side to;
+    Vec2 corner{};    ///< the left or lower node
+    double at = 0.0;  ///< along the edge
+    bool up = false;  ///< whether the edge is upright
+    [[nodiscard]] Vec2 place() const { return up ? Vec2{corner.x, corner.y + at} : Vec2{corner.x + at, corner.y}; }
 };
 
-/// Cuts of a square by its corners inside: 1 lower left, 2 lower right, 4 upper right, 8 upper left. Diagonals are
-/// connected.
-constexpr std::array<std::array<Cut, 2>, 16> kCuts{{
-    {{}},
-    {{{kBottom, kLeft}}},
-    {{{kRight, kBottom}}},
-    {{{kRight, kLeft}}},
-    {{{kTop, kRight}}},
-    {{{kBottom, kRight}, {kTop, kLeft}}},
-    {{{kTop, kBottom}}},
-    {{{kTop, kLeft}}},
-    {{{kLeft, kTop}}},
-    {{{kBottom, kTop}}},
-    {{{kLeft, kBottom}, {kRight, kTop}}},
-    {{{kRight, kTop}}},
-    {{{kLeft, kRight}}},
-    {{{kBottom, kRight}}},
-    {{{kLeft, kBottom}}},
-    {{}},
-}};
-/// Cuts of diagonals that are not connected.
-constexpr std::array<Cut, 2> kApartRising{{{kBottom, kLeft}, {kTop, kRight}}};
-constexpr std::array<Cut, 2> kApartFalling{{{kRight, kBottom}, {kLeft, kTop}}};
-
-constexpr int numberOfCuts(unsigned corners)
+/// Points of a loop with the area of the curve through its vertices: chords cut off a part of it. Vertices move along
+/// their edges alone, so that loops still do not cross.
+/// @param thin  twice the area over the length of loops, in cells, that are too thin for that
+std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale, double thin)
 {
-    return corners == 0 || corners == 15 ? 0 : (corners == 5 || corners == 10 ? 2 : 1);
+    double area = 0.0;
+    double around = 0.0;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        const Vec2 a = cuts[k].place();
+        const Vec2 b = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
+        area += 0.5 * cross(a - cuts[0].place(), b - cuts[0].place());
+        around += length(b - a);
+    }
+    const double share = smoothRamp(2.0 * std::abs(area) / around, thin, 1.5 * thin);
+    std::vector<Vec2> points(cuts.size());
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        const Vec2 before = cuts[k == 0 ? cuts.size() - 1 : k - 1].place();
+        const Vec2 after = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
+        Cut cut = cuts[k];
+        const Vec2 chord = after - before;
+        const double size = length(chord);
+        const Vec2 outwards = size > 0.0 ? Vec2{chord.y / size, -chord.x / size} : Vec2{};
+        const double along = cut.up ? outwards.y : outwards.x;
+        // At a sharp turn, of more than 45°, no arc fits.
+        const Vec2 in = cut.place() - before;
+        const Vec2 out = after - cut.place();
+        if (std::abs(along) > 0.3 && dot(in, out) > std::abs(cross(in, out))) {
+            // Two thirds of the height of the arcs beside the vertex, by the arc through three points.
+            const Vec2 p = cut.place();
+            const double a = length(p - before);
+            const double b = length(after - p);
+            const double height = dot(p - before, outwards);
+            const double mean = a * b > 0.0 ? (a * a + b * b) / (12.0 * a * b) * height : 0.0;
+            cut.at = std::clamp(cut.at + share * mean / along, kMargin, 1.0 - kMargin);
+        }
+        points[k] = scale * cut.place();
+    }
+    return points;
 }
 
-/// Piece of a line between two sides of the grid's squares.
-struct Piece {
-    std::uint64_t from;
-    std::uint64_t to;
-    Vec2 point;  ///< on `from`
-};
-
-class Tracer {
+/// Values of a tile's nodes with a row of the next tiles above and to the right.
+class Patch {
 public:
-    explicit Tracer(const Field& field) : field_(field) {}
-
-    /// Pieces in the squares whose lower left node is in a tile.
-    void trace(int column, int row, std::vector<Piece>& pieces) const
+    Patch(const Field& field, std::size_t tile) : side_(field.side()), stride_(side_ + 1)
     {
-        const bool is_computed = field_.tileAt(column, row) >= 0;
-        if (!is_computed && field_.tileAt(column + 1, row) < 0 && field_.tileAt(column, row + 1) < 0 &&
-            field_.tileAt(column + 1, row + 1) < 0) {
-            return;
-        }
-        for (int j = 0; j < field_.side; ++j) {
-            for (int i = 0; i < field_.side; ++i) {
-                // Without values of its own, a tile meets others in its last row and column alone.
-                if (is_computed || i + 1 == field_.side || j + 1 == field_.side) {
-                    traceSquare(column * field_.side + i, row * field_.side + j, pieces);
+        values_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_));
+        for (int j = 0; j <= side_; ++j) {
+            for (int i = 0; i <= side_; ++i) {
+                const int k = 4 + (i == side_ ? 1 : 0) + (j == side_ ? 3 : 0);
+                const std::int32_t t = field.around[tile][static_cast<std::size_t>(k)];
+                float value = t == Field::kLiquid ? 1.0F : 0.0F;
+                if (t >= 0) {
+                    value = field.values[static_cast<std::size_t>(t) * field.nodes() +
+                                         static_cast<std::size_t>(j % side_ * side_ + i % side_)];
                 }
+                values_[static_cast<std::size_t>(j * stride_ + i)] = value;
             }
         }
     }
+    [[nodiscard]] float at(int i, int j) const { return values_[static_cast<std::size_t>(j * stride_ + i)]; }
+    [[nodiscard]] bool inside(int i, int j) const { return at(i, j) > kIsoValue; }
 
 private:
-    void traceSquare(int x, int y, std::vector<Piece>& pieces) const
-    {
-        const std::array<float, 4> value{field_.at(x, y), field_.at(x + 1, y), field_.at(x + 1, y + 1),
-                                         field_.at(x, y + 1)};
-        unsigned corners = 0;
-        for (unsigned k = 0; k < 4; ++k) {
-            corners |= value[k] >= static_cast<float>(kIso) ? 1U << k : 0U;
-        }
-        const int cuts = numberOfCuts(corners);
-        if (cuts == 0) {
-            return;
-        }
-        const bool is_connected = value[0] + value[1] + value[2] + value[3] >= static_cast<float>(4.0 * kIso);
-        for (int k = 0; k < cuts; ++k) {
-            const auto& all =
-                cuts == 2 && !is_connected ? (corners == 5 ? kApartRising : kApartFalling) : kCuts[corners];
-            const Cut cut = all[static_cast<std::size_t>(k)];
-            pieces.push_back({key(x, y, cut.from), key(x, y, cut.to), point(x, y, cut.from, value)});
-        }
-    }
-
-    [[nodiscard]] std::uint64_t key(int x, int y, Side side) const
-    {
-        const auto columns = static_cast<std::uint64_t>(field_.columns + 1) * static_cast<std::uint64_t>(field_.side);
-        const auto node = [&](int i, int j) {
-            return static_cast<std::uint64_t>(j) * columns + static_cast<std::uint64_t>(i);
-        };
-        switch (side) {
-            case kBottom:
-                return 2 * node(x, y);
-            case kTop:
-                return 2 * node(x, y + 1);
-            case kLeft:
-                return 2 * node(x, y) + 1;
-            default:
-                return 2 * node(x + 1, y) + 1;
-        }
-    }
-
-    [[nodiscard]] Vec2 point(int x, int y, Side side, const std::array<float, 4>& value) const
-    {
-        // From the node with the smaller coordinates, so that both squares of a side get the same point.
-        const auto crossing = [](float a, float b) {
-            // Away from nodes, so that no two points are equal.
-            return std::clamp((kIso - double{a}) / (double{b} - double{a}), 1e-3, 1.0 - 1e-3);
-        };
-        double u = 0.0;
-        double v = 0.0;
-        switch (side) {
-            case kBottom:
-                u = crossing(value[0], value[1]);
-                break;
-            case kTop:
-                u = crossing(value[3], value[2]);
-                v = 1.0;
-                break;
-            case kLeft:
-                v = crossing(value[0], value[3]);
-                break;
-            default:
-                v = crossing(value[1], value[2]);
-                u = 1.0;
-                break;
-        }
-        return field_.origin + field_.step * Vec2{x + u, y + v};
-    }
-
-    const Field& field_;
+    int side_, stride_;
+    std::vector<float> values_;
 };
 
 }  // namespace
 
 std::vector<Loop> isolines(const Field& field)
 {
-    const Tracer tracer(field);
-    const auto found = mapBlocks<std::vector<Piece>>(
-        static_cast<std::size_t>(field.rows),
-        [&](std::size_t begin, std::size_t end) {
-            std::vector<Piece> pieces;
-            for (std::size_t row = begin; row < end; ++row) {
-                for (int column = 0; column < field.columns; ++column) {
-                    tracer.trace(column, static_cast<int>(row), pieces);
+    const std::size_t tiles = field.tiles.size();
+    const int side = field.side();
+    const std::size_t edges = 2 * field.nodes();
+    std::vector<std::uint32_t> vertex_of(tiles * edges, kNoVertex);
+    std::vector<std::uint32_t> first(tiles + 1, 0);
+    std::vector<std::vector<Cut>> points(tiles);
+    forBlocks(
+        tiles,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                const Patch patch(field, t);
+                const auto cut = [](float a, float c) {
+                    return std::clamp(static_cast<double>((kIsoValue - a) / (c - a)), kMargin, 1.0 - kMargin);
+                };
+                for (int j = 0; j < side; ++j) {
+                    for (int i = 0; i < side; ++i) {
+                        const bool in = patch.inside(i, j);
+                        const Vec2 corner{static_cast<double>(i), static_cast<double>(j)};
+                        const std::size_t node = t * edges + 2 * static_cast<std::size_t>(j * side + i);
+                        if (in != patch.inside(i + 1, j)) {
+                            vertex_of[node] = static_cast<std::uint32_t>(points[t].size());
+                            points[t].push_back({corner, cut(patch.at(i, j), patch.at(i + 1, j)), false});
+                        }
+                        if (in != patch.inside(i, j + 1)) {
+                            vertex_of[node + 1] = static_cast<std::uint32_t>(points[t].size());
+                            points[t].push_back({corner, cut(patch.at(i, j), patch.at(i, j + 1)), true});
+                        }
+                    }
+                }
+                first[t + 1] = static_cast<std::uint32_t>(points[t].size());
+            }
+        },
+        16);
+    for (std::size_t t = 0; t < tiles; ++t) {
+        first[t + 1] += first[t];
+    }
+    std::vector<Cut> place(first.back());
+    std::vector<std::uint32_t> next(first.back(), kNoVertex);
+    forBlocks(
+        tiles,
+        [&](std::size_t b, std::size_t e) {
+            for (std::size_t t = b; t < e; ++t) {
+                for (std::size_t k = 0; k < points[t].size(); ++k) {
+                    Cut cut = points[t][k];
+                    cut.corner = cut.corner + Vec2{static_cast<double>(side) * field.tiles[t].x,
+                                                   static_cast<double>(side) * field.tiles[t].y};
+                    place[first[t] + k] = cut;
+                }
+                const Patch patch(field, t);
+                for (int j = 0; j < side; ++j) {
+                    for (int i = 0; i < side; ++i) {
+                        const unsigned kind = (patch.inside(i, j) ? 1U : 0U) | (patch.inside(i + 1, j) ? 2U : 0U) |
+                                              (patch.inside(i + 1, j + 1) ? 4U : 0U) |
+                                              (patch.inside(i, j + 1) ? 8U : 0U);
+                        if (kind == 0 || kind == 15) {
+                            continue;
+                        }
+                        // Edges of the square: below, right, above, left.
+                        const auto vertex = [&](unsigned edge) {
+                            const int x = edge == 1 ? i + 1 : i;
+                            const int y = edge == 2 ? j + 1 : j;
+                            const auto k = static_cast<std::size_t>(4 + (x == side ? 1 : 0) + (y == side ? 3 : 0));
+                            const std::int32_t owner = field.around[t][k];
+                            const std::size_t node = static_cast<std::size_t>(owner) * edges +
+                                                     2 * static_cast<std::size_t>(y % side * side + x % side);
+                            return owner < 0 ? kNoVertex
+                                             : first[static_cast<std::size_t>(owner)] + vertex_of[node + edge % 2];
+                        };
+                        const auto join = [&](unsigned from, unsigned to) {
+                            const std::uint32_t a = vertex(from);
+                            if (a != kNoVertex) {
+                                next[a] = vertex(to);
+                            }
+                        };
+                        const auto corner_in = [&](unsigned c) { return (kind >> (c % 4) & 1U) != 0; };
+                        const float middle =
+                            patch.at(i, j) + patch.at(i + 1, j) + patch.at(i, j + 1) + patch.at(i + 1, j + 1);
+                        const bool joined = middle > 4.0F * kIsoValue;
+                        for (unsigned from = 0; from < 4; ++from) {
+                            if (!corner_in(from) || corner_in(from + 1)) {
+                                continue;
+                            }
+                            // The line leaves where liquid lies before it, and ends at the next or the last such edge.
+                            unsigned to = 0;
+                            if (kind == 5 || kind == 10) {
+                                to = joined ? from + 1 : from + 3;
+                            } else {
+                                to = from + 1;
+                                while (corner_in(to) || !corner_in(to + 1)) {
+                                    ++to;
+                                }
+                            }
+                            join(from, to % 4);
+                        }
+                    }
                 }
             }
-            return pieces;
         },
-        2);
-    std::vector<Piece> pieces;
-    for (const std::vector<Piece>& block : found) {
-        pieces.insert(pieces.end(), block.begin(), block.end());
-    }
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.from < b.from; });
-    std::vector<std::uint8_t> is_used(pieces.size());
+        16);
+
+    const double cell = field.spacing / field.nodes_per_cell;
     std::vector<Loop> loops;
-    for (std::size_t start = 0; start < pieces.size(); ++start) {
-        if (is_used[start] != 0) {
-            continue;
+    std::vector<Cut> cuts;
+    for (std::uint32_t start = 0; start < next.size(); ++start) {
+        cuts.clear();
+        std::uint32_t at = start;
+        while (at != kNoVertex && next[at] != kNoVertex) {
+            cuts.push_back(place[at]);
+            at = std::exchange(next[at], kNoVertex);
         }
-        Loop loop;
-        for (std::size_t k = start; is_used[k] == 0;) {
-            is_used[k] = 1;
-            loop.points.push_back(pieces[k].point);
-            k = static_cast<std::size_t>(
-                std::lower_bound(pieces.begin(), pieces.end(), pieces[k].to,
-                                 [](const Piece& piece, std::uint64_t from) { return piece.from < from; }) -
-                pieces.begin());
+        if (at == start && cuts.size() >= 3) {
+            loops.push_back({withoutChordLoss(cuts, cell, kThin * field.nodes_per_cell),
+                             std::vector<std::uint8_t>(cuts.size(), 0)});
         }
-        loop.corner.resize(loop.points.size());
-        loops.push_back(std::move(loop));
     }
     return loops;
 }

@@ -70,11 +70,10 @@ TEST(Expression, ClustersHaveTheAreaOfTheirParticles)
 {
     ExpressionOptions fine;
     fine.resolution = 0.2;
-    // A polygon within a circle, which has 3 % less.
-    EXPECT_NEAR(shapeOf(frameOf(0.0, cluster(1)), fine).area(), areaOf(1), 0.03 * areaOf(1));
+    EXPECT_NEAR(shapeOf(frameOf(0.0, cluster(1)), fine).area(), areaOf(1), 0.02 * areaOf(1));
     for (const std::size_t count : {2U, 3U, 7U, 19U, 61U, 2000U}) {
         const LiquidShape shape = shapeOf(frameOf(0.0, cluster(count)), {});
-        EXPECT_NEAR(shape.area(), areaOf(count), 0.08 * areaOf(count)) << count;
+        EXPECT_NEAR(shape.area(), areaOf(count), 0.05 * areaOf(count)) << count;
         EXPECT_EQ(shape.liquid.size() + shape.droplets.size(), 1U) << count;
     }
     EXPECT_NEAR(shapeOf(frameOf(0.0, cluster(5000)), {}).area(), areaOf(5000), 0.01 * areaOf(5000));
