@@ -34,8 +34,8 @@ Rows rowsAround(const ParticleCells& cells, std::size_t tile, const std::vector<
     for (int k = 0; k < 9; ++k) {
         if (const std::int32_t t = cells.around[tile][static_cast<std::size_t>(k)]; t >= 0) {
             for (int y = 0; y < kTileSide; ++y) {
-                rows[static_cast<std::size_t>(k / 3 * kTileSide + y)] |= byteOf(bits[static_cast<std::size_t>(t)], y)
-                                                                         << static_cast<unsigned>(k % 3 * kTileSide);
+                rows[indexOf(k / 3 * kTileSide + y)] |= byteOf(bits[static_cast<std::size_t>(t)], y)
+                                                        << static_cast<unsigned>(k % 3 * kTileSide);
             }
         }
     }
@@ -57,7 +57,7 @@ std::uint64_t dilated(const Rows& rows, int reach)
     for (int y = 0; y < kTileSide; ++y) {
         std::uint32_t r = 0;
         for (int k = -reach; k <= reach; ++k) {
-            r |= wide[static_cast<std::size_t>(kTileSide + y + k)];
+            r |= wide[indexOf(kTileSide + y + k)];
         }
         result |= static_cast<std::uint64_t>(r >> 8U & 0xFFU) << static_cast<unsigned>(8 * y);
     }
@@ -74,12 +74,12 @@ std::uint64_t fullCells(const ParticleCells& cells, std::size_t tile, const std:
         for (int x = 0; x < kSide; ++x) {
             const int cx = x - kMargin;
             const int cy = y - kMargin;
-            const auto k = static_cast<std::size_t>((cy + kTileSide) / kTileSide * 3 + (cx + kTileSide) / kTileSide);
+            const auto k = indexOf((cy + kTileSide) / kTileSide * 3 + (cx + kTileSide) / kTileSide);
             const std::int32_t t = cells.around[tile][k];
             if (t < 0) {
                 continue;
             }
-            const auto cell = static_cast<std::size_t>((cy & 7) * kTileSide + (cx & 7));
+            const auto cell = indexOf((cy & 7) * kTileSide + (cx & 7));
             const std::size_t at = static_cast<std::size_t>(t) * kTileCells + cell;
             const bool is_open = (opened[static_cast<std::size_t>(t)] >> cell & 1U) != 0;
             counts[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
@@ -106,7 +106,7 @@ std::uint64_t fullCells(const ParticleCells& cells, std::size_t tile, const std:
     for (int y = 0; y < kTileSide; ++y) {
         std::uint32_t row = ~0U;
         for (int k = -1; k <= 1; ++k) {
-            const std::uint32_t d = dense[static_cast<std::size_t>(y + kMargin + k)];
+            const std::uint32_t d = dense[indexOf(y + kMargin + k)];
             row &= d & d << 1U & d >> 1U;
         }
         full |= static_cast<std::uint64_t>(row >> static_cast<unsigned>(kMargin) & 0xFFU)

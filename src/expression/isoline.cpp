@@ -80,13 +80,13 @@ public:
                 float value = t == Field::kLiquid ? 1.0F : 0.0F;
                 if (t >= 0) {
                     value = field.values[static_cast<std::size_t>(t) * field.nodes() +
-                                         static_cast<std::size_t>(j % side_ * side_ + i % side_)];
+                                         indexOf((j == side_ ? 0 : j) * side_ + (i == side_ ? 0 : i))];
                 }
-                values_[static_cast<std::size_t>(j * stride_ + i)] = value;
+                values_[indexOf(j * stride_ + i)] = value;
             }
         }
     }
-    [[nodiscard]] float at(int i, int j) const { return values_[static_cast<std::size_t>(j * stride_ + i)]; }
+    [[nodiscard]] float at(int i, int j) const { return values_[indexOf(j * stride_ + i)]; }
     [[nodiscard]] bool inside(int i, int j) const { return at(i, j) > kIsoValue; }
 
 private:
@@ -116,7 +116,7 @@ std::vector<Loop> isolines(const Field& field)
                     for (int i = 0; i < side; ++i) {
                         const bool in = patch.inside(i, j);
                         const Vec2 corner{static_cast<double>(i), static_cast<double>(j)};
-                        const std::size_t node = t * edges + 2 * static_cast<std::size_t>(j * side + i);
+                        const std::size_t node = t * edges + 2 * indexOf(j * side + i);
                         if (in != patch.inside(i + 1, j)) {
                             vertex_of[node] = static_cast<std::uint32_t>(points[t].size());
                             points[t].push_back({corner, cut(patch.at(i, j), patch.at(i + 1, j)), false});
@@ -159,10 +159,10 @@ std::vector<Loop> isolines(const Field& field)
                         const auto vertex = [&](unsigned edge) {
                             const int x = edge == 1 ? i + 1 : i;
                             const int y = edge == 2 ? j + 1 : j;
-                            const auto k = static_cast<std::size_t>(4 + (x == side ? 1 : 0) + (y == side ? 3 : 0));
+                            const auto k = indexOf(4 + (x == side ? 1 : 0) + (y == side ? 3 : 0));
                             const std::int32_t owner = field.around[t][k];
-                            const std::size_t node = static_cast<std::size_t>(owner) * edges +
-                                                     2 * static_cast<std::size_t>(y % side * side + x % side);
+                            const std::size_t node =
+                                static_cast<std::size_t>(owner) * edges + 2 * indexOf(y % side * side + x % side);
                             return owner < 0 ? kNoVertex
                                              : first[static_cast<std::size_t>(owner)] + vertex_of[node + edge % 2];
                         };

@@ -17,6 +17,13 @@ namespace droplet {
 inline constexpr int kTileSide = 8;
 inline constexpr int kTileCells = kTileSide * kTileSide;
 
+/// Index in an array.
+/// @param k  ≥ 0
+inline std::size_t indexOf(int k)
+{
+    return static_cast<std::size_t>(k);
+}
+
 /// Place of a tile in the plane.
 struct TilePlace {
     std::int32_t x = 0;
@@ -71,7 +78,7 @@ struct ParticleCells {
                 if (from > to) {
                     break;
                 }
-                const std::int32_t other = around[tile][static_cast<std::size_t>(ty * 3 + tx)];
+                const std::int32_t other = around[tile][indexOf(ty * 3 + tx)];
                 if (other == kNone) {
                     continue;
                 }

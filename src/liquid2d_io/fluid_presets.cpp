@@ -97,8 +97,8 @@ FluidPreset pour()
 
 const std::vector<FluidPreset>& fluidPresets()
 {
-    static const std::vector<FluidPreset> kPresets{splash(), wave(), dam(), pour()};
-    return kPresets;
+    static const std::vector<FluidPreset> presets{splash(), wave(), dam(), pour()};
+    return presets;
 }
 
 const FluidPreset& fluidPresetNamed(std::string_view name)

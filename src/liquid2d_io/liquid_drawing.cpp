@@ -46,6 +46,7 @@ std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& vi
 std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
 {
     std::vector<BezierPath> paths;
+    paths.reserve(loops.size());
     for (const Loop& loop : loops) {
         paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
     }
@@ -258,7 +259,7 @@ private:
 
 const std::vector<LiquidLook>& liquidLooks()
 {
-    static const std::vector<LiquidLook> kLooks{
+    static const std::vector<LiquidLook> looks{
         {"flat", {58, 134, 200}, {58, 134, 200}, Colour{214, 236, 250}, {}, 0.0, {92, 84, 78}, std::nullopt},
         {"comic",
          {66, 152, 214},
@@ -271,7 +272,7 @@ const std::vector<LiquidLook>& liquidLooks()
         {"ink", {255, 255, 255}, {255, 255, 255}, std::nullopt, {20, 20, 24}, 2.0, {60, 60, 64}, Colour{255, 255, 255}},
         {"night", {38, 190, 206}, {140, 232, 232}, Colour{16, 92, 116}, {}, 0.0, {44, 52, 76}, Colour{12, 18, 40}},
     };
-    return kLooks;
+    return looks;
 }
 
 const LiquidLook& liquidLookNamed(std::string_view name)

@@ -141,7 +141,7 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
         owner[partner[i]] = i;
     }
     bool changed = true;
-    const auto tryPair = [&](std::uint32_t i, std::uint32_t j) {
+    const auto exchange_two = [&](std::uint32_t i, std::uint32_t j) {
         // Of |a − p|² + |b − q|² against |a − q|² + |b − p|² only the mixed products differ.
         const Vec2 way = targets[partner[j]] - targets[partner[i]];
         const Vec2 aside = sources[j] - sources[i];
@@ -153,7 +153,7 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
         }
     };
     // Moves the target of j to i, of k to j, of i to k.
-    const auto tryThree = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const auto exchange_three = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
         if (k == i || k == j || i == j) {
             return;
         }
@@ -183,9 +183,9 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
                 candidates.push_back(owner[t]);
             }
             for (const std::uint32_t j : candidates) {
-                tryPair(i, j);
+                exchange_two(i, j);
                 for (std::size_t n = 0; threes && n < std::min(kThird, near_source[j].size()); ++n) {
-                    tryThree(i, j, near_source[j][n]);
+                    exchange_three(i, j, near_source[j][n]);
                 }
             }
         }

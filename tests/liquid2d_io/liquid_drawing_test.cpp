@@ -187,8 +187,16 @@ TEST(LiquidLayer, ShowsWhatTheMaskCovers)
 TEST(LiquidDrawing, RefusesUnknownLooksAndEmptyViews)
 {
     EXPECT_THAT([] { droplet::liquidLookNamed("oil"); }, ThrowsMessage<Error>(HasSubstr("flat, comic, ink, night")));
-    EXPECT_THAT([] { droplet::liquidMask({}, {{1.0, 1.0}, 0, 10}); }, ThrowsMessage<Error>(HasSubstr("view.width is 0")));
-    EXPECT_THAT([] { droplet::liquidMask({}, {{0.0, 1.0}, 10, 10}); }, ThrowsMessage<Error>(HasSubstr("view.size.x is 0")));
+    EXPECT_THAT(
+        [] {
+            droplet::liquidMask({}, {{1.0, 1.0}, 0, 10});
+        },
+        ThrowsMessage<Error>(HasSubstr("view.width is 0")));
+    EXPECT_THAT(
+        [] {
+            droplet::liquidMask({}, {{0.0, 1.0}, 10, 10});
+        },
+        ThrowsMessage<Error>(HasSubstr("view.size.x is 0")));
 }
 
 }  // namespace

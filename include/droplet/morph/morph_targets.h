@@ -23,7 +23,7 @@ std::vector<Vec2> sampleRegion(const Region& region, std::size_t count);
 /// Partners of two sets of points of the same size, one to one, so that the sum of squared distances is near its
 /// minimum.
 ///
-/// Sliced optimal transport (Rabin, Peyré, Delon, Bernot 2012; Bonneel, Rabin, Peyré, Pfister 2015): points are moved
+/// Sliced optimal transport (Rabin, Peyré, Delon, Bernot 2011; Bonneel, Rabin, Peyré, Pfister 2015): points are moved
 /// along directions in turn until their projections are those of the targets. What remains is paired by halving both
 /// sets alike, and pairs are exchanged among neighbours while that shortens the sum. Both papers match distributions;
 /// the pairing is this project's. Takes O(n log n) for each direction. A translation is found exactly. The same input
