@@ -132,7 +132,7 @@ TEST(Readme, ShowsTheBuildOfTheConsumerTest)
 TEST(Readme, EveryCommandHasAPage)
 {
     const std::string help = runDroplet({"--help"}).output;
-    static const std::regex kCommand("\n  ([a-z-]+) {2,}[^\n]*");
+    static const std::regex kCommand("\n  ([a-z0-9-]+) {2,}[^\n]*");
     const auto begin = help.find("\nCommands");
     const std::string list = begin == std::string::npos ? "" : help.substr(begin, help.find("\n\n", begin) - begin);
     for (std::sregex_iterator entry(list.begin(), list.end(), kCommand), end; entry != end; ++entry) {
@@ -233,6 +233,11 @@ TEST(Readme, PageHasTheKeysOfReports)
     for (const char* key : {"id", "from", "volume_m3", "pressure_pa", "height_max_m", "holes"}) {
         EXPECT_TRUE(sequence["frames"][0]["droplets"][0].contains(key)) << key;
     }
+    const auto liquid = runDroplet({"liquid2d", (scratch.path() / "dam.svg").string(), "--scene", "dam", "--time",
+                                    "0.1s", "--particle-count", "100", "--json", "-", "--quiet"});
+    EXPECT_EQ(liquid.exit_code, 0) << liquid.error;
+    EXPECT_THAT(codeBlocks(page, "liquid2d-report"),
+                ElementsAre(keysOf(nlohmann::ordered_json::parse(liquid.output), "frames")));
 }
 
 TEST(Readme, FirstPictureShowsTheFirstCommand)

@@ -58,15 +58,23 @@ struct ExpressionState {
     std::uint64_t frames = 0;          ///< number of frames
 };
 
-/// Takes up a frame: ways, flights and air.
+/// Updates the memory of the particles with the next frame: their paths, flights and air.
+/// @param state    from this function; empty before the first frame
 /// @param frame    valid, later than the one before
-/// @throws Error   InvalidInput: the frame is invalid, not later than the last one, or spread too far
+/// @param options  valid, the same for all frames
+/// @return         the new state
+/// @throws Error   InvalidInput: the frame is invalid, not later than the last one, or spread too far; InvalidArgument
+///                 for options
 ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& frame, const ExpressionOptions& options);
 
-/// Outlines of the liquid at the frame that `state` took up last.
+/// Outlines of the liquid at the last frame that `state` has seen.
 ///
 /// Guarantees: loops are closed and do not cross; an isolated droplet has the area of its particles, with its tail; the
 /// same bytes at any number of threads.
+/// @param state    from advanceExpression() with this frame
+/// @param frame    the same frame
+/// @param options  valid
+/// @throws Error   InvalidArgument for options
 LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options);
 
 /// State as bytes, for resuming.

@@ -63,6 +63,7 @@ FluidState startFluid(const FluidScene& scene);
 /// @param state    from startFluid() or this function, for the same scene
 /// @param scene    valid
 /// @param until    time to advance to [s]; the last step ends there
+/// @param options  in their ranges: accuracy, further accelerations
 /// @throws Error   InvalidArgument
 FluidState advanceFluid(FluidState state, const FluidScene& scene, double until, const FluidOptions& options = {});
 

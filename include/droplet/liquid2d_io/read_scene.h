@@ -11,7 +11,7 @@
 
 namespace droplet {
 
-/// Reads a scene from a TOML file; docs/formats.md describes its keys.
+/// Reads a scene from a TOML file; docs/cli/liquid2d.md describes its keys.
 /// @param path   of the file; paths of masks in it are relative to its folder
 /// @return       valid scene, whose emitters are free of walls
 /// @throws Error InvalidInput, one line that begins with file and line: not TOML, unknown keys, values out of range,
