@@ -14,7 +14,6 @@
 #include <sstream>
 #include <utility>
 
-#include "animate_options.h"
 #include "droplet/error.h"
 #include "droplet/io/animation.h"
 #include "droplet/io/page.h"
@@ -24,7 +23,6 @@
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
-#include "frames.h"
 #include "progress_display.h"
 #include "shape_command.h"
 #include "stage_clock.h"
@@ -513,15 +511,8 @@ void printSummary(const droplet::SequenceReport& report, const RunOptions& run)
 
 }  // namespace
 
-int runAnimate(int argc, const char* const* argv)
+void makeAnimation(const AnimateOptions& options, Frames& frames)
 {
-    const auto parsed = parseAnimate(argc, argv);
-    if (const auto* text = std::get_if<std::string>(&parsed)) {
-        print(*text);
-        return 0;
-    }
-    const auto& options = std::get<AnimateOptions>(parsed);
-    Frames frames(options.inputs);
     check(options, frames);
     if (options.preview && !options.preview_files) {
         const std::string& path = options.preview->path;
@@ -537,6 +528,18 @@ int runAnimate(int argc, const char* const* argv)
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
     progress.finish();
     printSummary(report, options.run);
+}
+
+int runAnimate(int argc, const char* const* argv)
+{
+    const auto parsed = parseAnimate(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
+        return 0;
+    }
+    const auto& options = std::get<AnimateOptions>(parsed);
+    Frames frames(options.inputs);
+    makeAnimation(options, frames);
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "common_options.h"
 #include "files.h"
@@ -23,38 +24,12 @@ const CommandText& commandText()
             "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
             "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
-            "  droplet-shape liquid2d --scene dam --masks - | droplet-shape animate - dam.glb\n"
+            "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
             "\n"
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
             "  4 output cannot be written; 5 no such droplet exists"};
     return text;
-}
-
-void declareAnimate(CommandLine& line)
-{
-    line.addArguments("FILES",
-                      "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
-                      "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb "
-                      "that plays, or a pattern for one file per frame "
-                      "such as out/%04d.glb, .gltf, .obj, .ply or .stl");
-    line.add("Sequence", "--volume-mode", "total|track",
-             "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
-             "through merging and splitting [total]");
-    line.add("Sequence", "--fps", "N", "Frames per second [24, or the video's]");
-    line.add("Sequence", "--contact-sheet", "FILE",
-             "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");
-    line.add("Picture", "--preview", "FILE",
-             "Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which "
-             "needs ffmpeg");
-    declareView(line);
-    declareFootprint(line);
-    declareLiquid(line);
-    declareGround(line);
-    declareSurface(line);
-    declareHtml(line);
-    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
-    declareRun(line);
 }
 
 void readOutput(const CommandLine& line, AnimateOptions& options)
@@ -138,14 +113,29 @@ void readSequence(const CommandLine& line, AnimateOptions& options)
 
 }  // namespace
 
-std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* const* argv)
+void declareAnimation(CommandLine& line)
 {
-    CommandLine line(commandText());
-    declareAnimate(line);
-    line.parse(argc, argv);
-    if (const auto text = requestedText(line)) {
-        return *text;
-    }
+    line.add("Sequence", "--volume-mode", "total|track",
+             "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
+             "through merging and splitting [total]");
+    line.add("Sequence", "--fps", "N", "Frames per second [24, or the video's]");
+    line.add("Sequence", "--contact-sheet", "FILE",
+             "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");
+    line.add("Picture", "--preview", "FILE",
+             "Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which "
+             "needs ffmpeg");
+    declareView(line);
+    declareFootprint(line);
+    declareLiquid(line);
+    declareGround(line);
+    declareSurface(line);
+    declareHtml(line);
+    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
+    declareRun(line);
+}
+
+AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> inputs, std::string output)
+{
     AnimateOptions options;
     options.footprint = readFootprint(line);
     options.footprint.mask.allow_dry = true;
@@ -162,19 +152,37 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         }
         options.contact_sheet = sheet->text;
     }
+    options.inputs = std::move(inputs);
+    options.output = std::move(output);
+    readSequence(line, options);
+    readSequencePreview(line, options);
+    readOutput(line, options);
+    return options;
+}
+
+std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    line.addArguments("FILES",
+                      "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
+                      "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb "
+                      "that plays, or a pattern for one file per frame "
+                      "such as out/%04d.glb, .gltf, .obj, .ply or .stl");
+    declareAnimation(line);
+    line.parse(argc, argv);
+    if (const auto text = requestedText(line)) {
+        return *text;
+    }
     const std::vector<Given> files = line.values("FILES");
     if (files.size() < 2) {
         refuse(std::string(files.empty() ? "INPUT" : "OUTPUT") + " is missing; usage: " + commandText().name + " " +
                commandText().usage);
     }
+    std::vector<std::string> inputs;
     for (std::size_t i = 0; i + 1 < files.size(); ++i) {
-        options.inputs.push_back(files[i].text);
+        inputs.push_back(files[i].text);
     }
-    options.output = files.back().text;
-    readSequence(line, options);
-    readSequencePreview(line, options);
-    readOutput(line, options);
-    return options;
+    return readAnimation(line, std::move(inputs), files.back().text);
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "command_line.h"
 #include "droplet/io/output.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet_options.h"
@@ -31,6 +32,15 @@ struct AnimateOptions {
     DropletSettings settings;
     RunOptions run;
 };
+
+/// Declares the options of an animation: all of `animate` but its files.
+void declareAnimation(CommandLine& line);
+
+/// Reads the options of declareAnimation().
+/// @param inputs          paths of the frames
+/// @param output          path of the animation
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> inputs, std::string output);
 
 /// Reads the command line and the configuration file that it names.
 /// @return                the options, or the text that --help or --version prints

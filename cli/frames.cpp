@@ -107,6 +107,7 @@ Frames::Frames(const std::vector<std::string>& inputs)
         std::error_code ignored;
         if (isStream(input)) {
             stream_ = std::make_unique<PictureStream>(std::cin);
+            stream_name_ = "standard input";
             return;
         }
         if (const auto pattern = NumberedPath::of(input, "INPUT")) {
@@ -127,6 +128,11 @@ Frames::Frames(const std::vector<std::string>& inputs)
     for (std::size_t k = 0; k < names.size(); ++k) {
         pictures_.emplace_back(k + 1, names[k]);
     }
+}
+
+Frames::Frames(std::istream& pictures, std::string name)
+    : stream_(std::make_unique<PictureStream>(pictures)), stream_name_(std::move(name))
+{
 }
 
 void Frames::decide(const droplet::MaskOptions& options)
@@ -200,7 +206,7 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
     FramePicture frame;
     if (stream_) {
         frame.number = done_ + 1;
-        frame.name = "standard input, frame " + std::to_string(frame.number);
+        frame.name = stream_name_ + ", frame " + std::to_string(frame.number);
         try {
             const auto bytes = nextOfStream();
             if (!bytes && done_ == 0) {

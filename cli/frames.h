@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ public:
     ///                        for pictures on standard input
     /// @throws droplet::Error InvalidArgument, InvalidInput
     explicit Frames(const std::vector<std::string>& inputs);
+    /// @param pictures  as PictureStream reads them; used until the last frame
+    /// @param name      of the stream, for messages
+    Frames(std::istream& pictures, std::string name);
 
     /// Reads the next frame; returns nothing after the last one.
     /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size
@@ -66,6 +70,7 @@ private:
     std::string video_path_;
     std::unique_ptr<Video> video_;
     std::unique_ptr<PictureStream> stream_;
+    std::string stream_name_;
     std::deque<std::vector<std::byte>> kept_;  ///< pictures of the stream that were read for the decision
     bool keeps_ = false;                       ///< whether pictures that are read now are kept
     std::size_t done_ = 0;

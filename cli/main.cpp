@@ -23,6 +23,7 @@
 #include "glyphs_command.h"
 #include "interruption.h"
 #include "liquid2d_command.h"
+#include "morph_command.h"
 #include "option_values.h"
 #include "shape_command.h"
 #include "terminal.h"
@@ -70,10 +71,11 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"animate", cli::runAnimate},        {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},        {"flow", cli::runFlow},
-                                          {"glyphs", cli::runGlyphs},          {"liquid2d", cli::runLiquid2d},
-                                          {"wind-tunnel", cli::runWindTunnel}, {"windshield", cli::runWindshield}};
+    static const std::vector<Command> all{{"animate", cli::runAnimate},      {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},      {"flow", cli::runFlow},
+                                          {"glyphs", cli::runGlyphs},        {"liquid2d", cli::runLiquid2d},
+                                          {"morph", cli::runMorph},          {"wind-tunnel", cli::runWindTunnel},
+                                          {"windshield", cli::runWindshield}};
     return all;
 }
 

@@ -22,6 +22,7 @@ const CommandText& commandText()
         "  flow         Let droplets run over a mesh\n"
         "  glyphs       Make droplets from type\n"
         "  liquid2d     Draw an animation of liquid in the plane\n"
+        "  morph        Let liquid flow from one footprint to the next\n"
         "  wind-tunnel  Compute how droplets move in the wind\n"
         "  windshield   Show rain on the windshield of a moving car\n"
         "\n" +

@@ -55,7 +55,7 @@ TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
 TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 {
     for (const std::string command :
-         {"", "animate", "batch", "compare", "flow", "glyphs", "liquid2d", "wind-tunnel", "windshield"}) {
+         {"", "animate", "batch", "compare", "flow", "glyphs", "liquid2d", "morph", "wind-tunnel", "windshield"}) {
         std::istringstream help(
             run(command.empty() ? std::vector<std::string>{"--help"} : std::vector<std::string>{command, "--help"})
                 .output);

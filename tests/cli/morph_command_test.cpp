@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `droplet-shape morph`: kinds of output, footprints from pictures, drawings and text, errors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/mask.h"
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::runDroplet;
+using ::testing::StartsWith;
+using testing::writeFile;
+
+class MorphCommand : public ::testing::Test {
+protected:
+    MorphCommand()
+    {
+        writeFile(path("square.pgm"), squareOf(20, 60, 40));
+        writeFile(path("disc.svg"),
+                  "<svg xmlns='http://www.w3.org/2000/svg' width='50' height='50'>"
+                  "<circle cx='25' cy='25' r='20'/></svg>");
+    }
+
+    /// Bright square in the middle of a dark picture of 60 × `height` pixels.
+    static std::string squareOf(int side, int width, int height)
+    {
+        std::string text = "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+        for (int k = 0; k < width * height; ++k) {
+            const int x = k % width - (width - side) / 2;
+            const int y = k / width - (height - side) / 2;
+            text += x >= 0 && y >= 0 && x < side && y < side ? '\xff' : '\0';
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    [[nodiscard]] CommandResult flow(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.begin(), "morph");
+        arguments.insert(arguments.end(), {"--frames", "5", "--particle-count", "4k", "--quiet"});
+        return runDroplet(arguments);
+    }
+
+    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message) const
+    {
+        const CommandResult result = flow(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.error;
+        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+    }
+
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(MorphCommand, MakesDropletsOfTheFlow)
+{
+    const CommandResult run = flow({path("square.pgm"), path("disc.svg"), path("out.glb"), "--triangles", "500",
+                                    "--json", path("out.json"), "--width", "30mm"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(readFile(path("out.glb")), StartsWith("glTF"));
+    const auto report = nlohmann::json::parse(readFile(path("out.json")));
+    const auto& frames = report.at("frames");
+    ASSERT_EQ(frames.size(), 5U);
+    const auto volume = [&](std::size_t k) { return frames.at(k).at("total").at("volume_m3").get<double>(); };
+    EXPECT_NEAR(volume(4) / volume(0), 1.0, 1e-9);
+    // The square covers 20 of 60 pixels of 30 mm; the disc is as high as 0.8 of the window.
+    EXPECT_NEAR(frames.at(0).at("total").at("area_m2").get<double>(), 1e-4, 1e-6);
+    EXPECT_NEAR(frames.at(4).at("total").at("area_m2").get<double>(), 3.14159 * 8e-3 * 8e-3, 2e-6);
+}
+
+TEST_F(MorphCommand, WritesMasksDrawingsAndAStream)
+{
+    const std::vector<std::string> inputs{path("square.pgm"), path("disc.svg")};
+    const auto to = [&](const std::string& output) { return flow({inputs[0], inputs[1], output}); };
+    ASSERT_EQ(to(path("%02d.png")).exit_code, 0);
+    const Mask mask = readMask(path("05.png"));
+    EXPECT_EQ(mask.width, 60);
+    EXPECT_EQ(mask.height, 40);
+    EXPECT_EQ(mask.at(30, 20), 65535);
+    ASSERT_EQ(to(path("%02d.svg")).exit_code, 0);
+    EXPECT_THAT(readFile(path("03.svg")), HasSubstr("id=\"liquid\""));
+    const CommandResult stream = to("-");
+    ASSERT_EQ(stream.exit_code, 0) << stream.error;
+    EXPECT_THAT(stream.output, StartsWith(readFile(path("01.png")) + readFile(path("02.png"))));
+}
+
+TEST_F(MorphCommand, BeginsWithAText)
+{
+    const CommandResult run = flow({"--text", "A & B", path("disc.svg"), path("%d.png"), "--mask-width", "200"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const Mask first = readMask(path("1.png"));
+    EXPECT_EQ(first.width, 200);
+    EXPECT_EQ(first.height, 100);
+    // The letters fill 0.8 of the width.
+    int left = first.width;
+    int right = 0;
+    for (int y = 0; y < first.height; ++y) {
+        for (int x = 0; x < first.width; ++x) {
+            if (first.at(x, y) > 32767) {
+                left = std::min(left, x);
+                right = std::max(right, x);
+            }
+        }
+    }
+    EXPECT_NEAR(left, 20, 2);
+    EXPECT_NEAR(right, 180, 2);
+}
+
+TEST_F(MorphCommand, RefusesWhatCannotFlow)
+{
+    const std::string square = path("square.pgm");
+    const std::string out = path("out.glb");
+    writeFile(path("other.pgm"), squareOf(10, 30, 30));
+    writeFile(path("dry.pgm"), squareOf(0, 60, 40));
+    expectRefused({square, path("other.pgm"), out}, 3, "all pictures must have one size");
+    expectRefused({square, path("dry.pgm"), out}, 3, "dry.pgm");
+    expectRefused({square, path("none.pgm"), out}, 3, "none.pgm");
+    expectRefused({square, out}, 2, "fewer than two footprints");
+    expectRefused({square, "-", out}, 2, "a picture in a file");
+    expectRefused({square, square, path("x.png")}, 2, "a file for every frame, such as out/%04d.png");
+    expectRefused({square, square, path("%d.png"), "--volume", "3uL"}, 2, "--volume needs droplets as OUTPUT");
+    expectRefused({square, square, square, square, out}, 2, "3 transitions need at least 7 frames");
+    expectRefused({square, square, out, "--look", "ink"}, 2, "--look needs drawings as OUTPUT");
+    expectRefused({square, square, out, "--font", "serif"}, 2, "--font needs --text");
+    expectRefused({square, square, out, "--rounding", "11"}, 2, "--rounding: '11' must be a number from 0 to 10");
+    EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace droplet

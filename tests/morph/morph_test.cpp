@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/morph/morph.h"
+
+#include <gmock/gmock.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "droplet/error.h"
+#include "liquid2d/region.h"
+#include "morph/morph_field.h"
+
+namespace {
+
+using droplet::LiquidShape;
+using droplet::Loop;
+using droplet::morph;
+using droplet::MorphField;
+using droplet::MorphOptions;
+using droplet::Region;
+using droplet::Vec2;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Region ring()
+{
+    Region region = droplet::circle({0.5, 0.5}, 0.3);
+    region.loops.push_back(droplet::circle({0.5, 0.5}, 0.1).loops[0]);
+    return region;
+}
+
+Region twoDiscs()
+{
+    Region region = droplet::circle({0.25, 0.5}, 0.15);
+    region.loops.push_back(droplet::circle({0.75, 0.5}, 0.12).loops[0]);
+    return region;
+}
+
+MorphOptions quick(std::size_t frames)
+{
+    MorphOptions options;
+    options.size = {1.0, 1.0};
+    options.frames = frames;
+    options.particles = 4000;
+    return options;
+}
+
+std::vector<LiquidShape> framesOf(const std::vector<Region>& footprints, const MorphOptions& options)
+{
+    std::vector<LiquidShape> all;
+    morph(footprints, options, [&](std::size_t frame, const LiquidShape& shape) {
+        EXPECT_EQ(frame, all.size());
+        all.push_back(shape);
+    });
+    EXPECT_EQ(all.size(), options.frames);
+    return all;
+}
+
+std::vector<std::vector<Vec2>> pointsOf(const std::vector<Loop>& loops)
+{
+    std::vector<std::vector<Vec2>> points;
+    for (const Loop& loop : loops) {
+        points.push_back(loop.points);
+    }
+    return points;
+}
+
+TEST(Morph, AreaChangesEvenlyAndTheEndsAreTheFootprints)
+{
+    const std::vector<Region> footprints{ring(), twoDiscs(), droplet::circle({0.5, 0.5}, 0.3)};
+    const std::vector<LiquidShape> frames = framesOf(footprints, quick(21));
+    const double disc = std::numbers::pi * 0.3 * 0.3;
+    const double hollow = std::numbers::pi * (0.3 * 0.3 - 0.1 * 0.1);
+    const double two = std::numbers::pi * (0.15 * 0.15 + 0.12 * 0.12);
+    for (std::size_t k = 0; k <= 10; ++k) {
+        const double t = static_cast<double>(k) / 10.0;
+        EXPECT_NEAR(frames[k].area() / (hollow + t * (two - hollow)), 1.0, 1e-3) << k;
+        EXPECT_NEAR(frames[10 + k].area() / (two + t * (disc - two)), 1.0, 1e-3) << k;
+    }
+    EXPECT_EQ(frames[10].liquid.size(), 2U);
+    EXPECT_EQ(pointsOf(frames[20].liquid), footprints[2].loops);
+    // The hole runs the other way round.
+    ASSERT_EQ(frames[0].liquid.size(), 2U);
+    EXPECT_LT(droplet::signedArea(frames[0].liquid[1]), 0.0);
+}
+
+TEST(Morph, OutlinesNextToTheEndsAreCloseToTheFootprints)
+{
+    const Region disc = droplet::circle({0.5, 0.5}, 0.3);
+    const Region square = droplet::rectangle({0.2, 0.2}, {0.8, 0.8});
+    const std::vector<LiquidShape> frames = framesOf({disc, square}, quick(41));
+    const double area = std::numbers::pi * 0.3 * 0.3;
+    const double spacing = std::sqrt(area / 4000.0);
+    ASSERT_EQ(frames[1].liquid.size(), 1U);
+    const double radius = std::sqrt(frames[1].area() / std::numbers::pi);
+    for (const Vec2 p : frames[1].liquid[0].points) {
+        EXPECT_NEAR(droplet::length(p - Vec2{0.5, 0.5}), radius, 0.3 * spacing);
+    }
+    ASSERT_EQ(frames[39].liquid.size(), 1U);
+    const double half = 0.5 * std::sqrt(frames[39].area());
+    for (const Vec2 p : frames[39].liquid[0].points) {
+        EXPECT_NEAR(std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)), half, 0.5 * spacing);
+    }
+}
+
+TEST(Morph, SameBytesAtAnyNumberOfThreads)
+{
+    const std::vector<Region> footprints{ring(), twoDiscs()};
+    std::vector<std::vector<std::vector<Vec2>>> results;
+    for (const std::size_t threads : {1U, 4U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        results.push_back(pointsOf(framesOf(footprints, quick(5))[2].liquid));
+    }
+    EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(Morph, RefusesWhatCannotFlow)
+{
+    const Region disc = droplet::circle({0.5, 0.5}, 0.3);
+    const auto run = [](const std::vector<Region>& footprints, const MorphOptions& options) {
+        return [=] { morph(footprints, options, [](std::size_t, const LiquidShape&) {}); };
+    };
+    EXPECT_THAT(run({disc}, quick(10)), ThrowsMessage<droplet::Error>(HasSubstr("footprints is 1")));
+    EXPECT_THAT(run({disc, disc, disc}, quick(4)), ThrowsMessage<droplet::Error>(HasSubstr("frames is 4")));
+    EXPECT_THAT(run({disc, {}}, quick(10)), ThrowsMessage<droplet::Error>(HasSubstr("area of a footprint is 0")));
+    MorphOptions few = quick(10);
+    few.particles = 100;
+    EXPECT_THAT(run({disc, disc}, few), ThrowsMessage<droplet::Error>(HasSubstr("particles is 100")));
+}
+
+TEST(MorphField, LoopsOfARegionAreItsRim)
+{
+    MorphField field({-0.2, -0.2}, {1.2, 1.2}, 0.01);
+    field.add(ring(), 0.04, 1.0);
+    const std::vector<Loop> loops = field.loops(0.5, 0.0);
+    ASSERT_EQ(loops.size(), 2U);
+    double area = 0.0;
+    for (const Loop& loop : loops) {
+        area += droplet::signedArea(loop);
+    }
+    EXPECT_NEAR(area, std::numbers::pi * (0.09 - 0.01), 1e-4);
+}
+
+TEST(MorphField, ParticlesOnALatticeCoverTheirArea)
+{
+    const double spacing = 0.02;
+    const std::vector<Vec2> points = droplet::latticeIn(droplet::circle({0.5, 0.5}, 0.4), spacing);
+    MorphField field({0.0, 0.0}, {1.0, 1.0}, 0.5 * spacing);
+    field.add({points, spacing * spacing, 2.2 * spacing}, 1.0);
+    const double area = static_cast<double>(points.size()) * spacing * spacing;
+    const std::vector<Loop> loops = field.loops(0.5, 0.0);
+    ASSERT_EQ(loops.size(), 1U);
+    EXPECT_NEAR(droplet::signedArea(loops[0]) / area, 1.0, 0.02);
+    const std::vector<Loop> exact = field.loopsOfArea(area, 0.0);
+    ASSERT_EQ(exact.size(), 1U);
+    EXPECT_NEAR(droplet::signedArea(exact[0]) / area, 1.0, 1e-5);
+}
+
+}  // namespace
