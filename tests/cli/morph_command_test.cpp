@@ -74,11 +74,11 @@ TEST_F(MorphCommand, MakesDropletsOfTheFlow)
     const auto report = nlohmann::json::parse(readFile(path("out.json")));
     const auto& frames = report.at("frames");
     ASSERT_EQ(frames.size(), 5U);
-    const auto volume = [&](std::size_t k) { return frames.at(k).at("total").at("volume_m3").get<double>(); };
+    const auto volume = [&](std::size_t k) { return frames.at(k).at("volume_m3").get<double>(); };
     EXPECT_NEAR(volume(4) / volume(0), 1.0, 1e-9);
     // The square covers 20 of 60 pixels of 30 mm; the disc is as high as 0.8 of the window.
-    EXPECT_NEAR(frames.at(0).at("total").at("area_m2").get<double>(), 1e-4, 1e-6);
-    EXPECT_NEAR(frames.at(4).at("total").at("area_m2").get<double>(), 3.14159 * 8e-3 * 8e-3, 2e-6);
+    EXPECT_NEAR(frames.at(0).at("footprint_area_m2").get<double>(), 1e-4, 1e-6);
+    EXPECT_NEAR(frames.at(4).at("footprint_area_m2").get<double>(), 3.14159 * 8e-3 * 8e-3, 2e-6);
 }
 
 TEST_F(MorphCommand, WritesMasksDrawingsAndAStream)
