@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common_options.h"
@@ -169,6 +170,9 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     for (std::size_t i = 0; i + 1 < files.size(); ++i) {
         options.inputs.push_back(files[i].text);
+    }
+    if (options.inputs.size() > 1 && std::any_of(options.inputs.begin(), options.inputs.end(), isStream)) {
+        refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     options.output = files.back().text;
     readSequence(line, options);
