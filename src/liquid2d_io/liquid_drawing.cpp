@@ -9,58 +9,16 @@
 #include <memory>
 #include <ostream>
 
-#include "bezier.h"
 #include "coverage.h"
 #include "droplet/error.h"
-#include "require.h"
+#include "liquid_paths.h"
 
 namespace droplet {
 namespace {
 
-/// Greatest distance of curves from the shape [px].
-constexpr double kTolerance = 0.3;
-
-void validate(const LiquidView& view)
-{
-    requireWithin("view.width", view.width, 1, 32767);
-    requireWithin("view.height", view.height, 1, 32767);
-    require(view.size.x > 0.0 && std::isfinite(view.size.x), "view.size.x", view.size.x, "finite and more than 0 m");
-    require(view.size.y > 0.0 && std::isfinite(view.size.y), "view.size.y", view.size.y, "finite and more than 0 m");
-}
-
-/// Place in pixels, y down.
-Vec2 toPixels(Vec2 x, const LiquidView& view)
-{
-    return {x.x * view.width / view.size.x, (view.size.y - x.y) * view.height / view.size.y};
-}
-
-std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& view)
-{
-    std::vector<Vec2> result;
-    result.reserve(points.size());
-    for (const Vec2 point : points) {
-        result.push_back(toPixels(point, view));
-    }
-    return result;
-}
-
-std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
-{
-    std::vector<BezierPath> paths;
-    for (const Loop& loop : loops) {
-        paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
-    }
-    return paths;
-}
-
 std::string hex(Colour colour)
 {
     return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
-}
-
-double lineWidth(const LiquidLook& look, const LiquidView& view)
-{
-    return look.line_width * 1e-3 * view.width;
 }
 
 /// Number with two digits after the point, without trailing zeros.
@@ -108,11 +66,11 @@ std::string dataOf(const Region& region, const LiquidView& view)
     std::string data;
     for (const std::vector<Vec2>& loop : region.loops) {
         data += 'M';
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const Vec2 x = toPixels(loop[k], view);
+        const std::vector<Vec2> points = toPixels(loop, view);
+        for (std::size_t k = 0; k < points.size(); ++k) {
             data += k == 1 ? "L" : "";
-            put(data, x.x);
-            put(data, x.y);
+            put(data, points[k].x);
+            put(data, points[k].y);
         }
         data += 'z';
     }
