@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -181,6 +182,9 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     std::vector<std::string> inputs;
     for (std::size_t i = 0; i + 1 < files.size(); ++i) {
         inputs.push_back(files[i].text);
+    }
+    if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), isStream)) {
+        refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     return readAnimation(line, std::move(inputs), files.back().text);
 }

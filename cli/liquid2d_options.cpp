@@ -53,6 +53,7 @@ const CommandText& commandText()
                                   "Examples:\n"
                                   "  droplet-shape liquid2d --scene splash 'out/%04d.svg'\n"
                                   "  droplet-shape liquid2d --scene wave --particle-count 20k wave.mp4\n"
+                                  "  droplet-shape liquid2d --scene dam --look flat dam.json\n"
                                   "  droplet-shape liquid2d --particles 'sim/%04d.vtp' --style wave 'out/%04d.png'\n"
                                   "  droplet-shape liquid2d --scene dam --masks - | droplet-shape animate - out.glb\n"
                                   "\n"
@@ -66,7 +67,8 @@ void declare(CommandLine& line)
 {
     line.addArgument("OUTPUT",
                      "Drawings of all frames, such as out/%04d.svg or out/%04d.png; an .svg or .png of the last frame; "
-                     "or a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks");
+                     "a .json with all frames as a Lottie animation, for web pages, apps and animation programs; or a "
+                     "video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks");
     constexpr const char* kLiquid = "Liquid";
     line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate [splash]");
     line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]");
@@ -237,10 +239,12 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
             options.kind = options.files ? LiquidOutput::Drawings : LiquidOutput::Drawing;
         } else if (!options.files && isVideo(*options.output)) {
             options.kind = LiquidOutput::Video;
+        } else if (!options.files && extension == ".json") {
+            options.kind = LiquidOutput::Lottie;
         } else {
             refuse({*options.output, "OUTPUT"},
-                   "a file for every frame such as out/%04d.svg or .png; a single .svg or .png; or a .mp4, .mkv, .mov "
-                   "or .webm");
+                   "a file for every frame such as out/%04d.svg or .png; a single .svg or .png; a .json with a Lottie "
+                   "animation; or a .mp4, .mkv, .mov or .webm");
         }
     }
     if (const auto width = line.value("--width")) {

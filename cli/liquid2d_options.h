@@ -22,6 +22,7 @@ enum class LiquidOutput {
     Drawings,  ///< an .svg or .png for every frame
     Drawing,   ///< an .svg or .png of the last frame
     Video,
+    Lottie,  ///< a .json with all frames
 };
 
 /// Options of `droplet-shape liquid2d`. All values are in range; no file but the configuration file has been read.

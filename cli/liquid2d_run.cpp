@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
+#include "droplet/liquid2d_io/liquid_lottie.h"
 #include "droplet/liquid2d_io/read_scene.h"
 #include "droplet_report.h"
 #include "files.h"
@@ -252,10 +254,15 @@ public:
             tryVideo(video);
             video_ = std::make_unique<VideoWriter>(video);
         }
+        if (options_.kind == LiquidOutput::Lottie) {
+            lottie_.emplace(view_, options_.look, options_.frames_per_second);
+        }
         run();
         std::vector<OutputFile> files;
         if (video_) {
             files.push_back({*options_.output, [&](std::ostream& out) { video_->finish(out); }});
+        } else if (lottie_) {
+            files.push_back({*options_.output, [&](std::ostream& out) { lottie_->write(out); }});
         } else if (options_.kind == LiquidOutput::Drawing) {
             files.push_back({*options_.output, [&](std::ostream& out) { draw(*options_.output, out); }});
         }
@@ -359,6 +366,9 @@ private:
     {
         if (video_) {
             video_->add(picture());
+        } else if (lottie_) {
+            const std::vector<droplet::Region> walls = source_->walls();
+            lottie_->add({shape_, walls});
         } else if (options_.files) {
             const std::string path = options_.files->at(number);
             droplet::writeAtomically(
@@ -416,6 +426,7 @@ private:
     droplet::ExpressionState surface_;
     droplet::LiquidShape shape_;  ///< of the last frame
     std::unique_ptr<VideoWriter> video_;
+    std::optional<droplet::LiquidLottie> lottie_;
     std::string fingerprint_;
     droplet::LiquidReport report_;
 };

@@ -2,6 +2,7 @@
 // PNG: ISO/IEC 15948, section 5. PNM: the netpbm formats pgm(5) and ppm(5).
 #include "picture_stream.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <istream>
@@ -106,6 +107,9 @@ std::optional<std::vector<std::byte>> PictureStream::next()
     }
     take(picture, 1);
     const auto kind = static_cast<char>(picture[1]);
+    if (kind == '7') {
+        throw Error(ErrorCode::InvalidInput, "is PAM, which is not read; PNG and binary PGM and PPM are");
+    }
     if (kind != '5' && kind != '6') {
         throw Error(ErrorCode::InvalidInput, "is neither PNG nor binary PGM or PPM");
     }

@@ -5,15 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
 namespace droplet {
 namespace {
 
-/// Turn at a point, between the directions to points this far away, that makes it a corner.
+/// Turn that makes a corner, between the directions to the places at the reach before and after it.
 constexpr double kCorner = std::numbers::pi / 3.0;
-constexpr std::size_t kReach = 2;
+
+/// Reach of a corner, in tolerances.
+constexpr double kReach = 5.0;
+
+/// Greatest distance of neighbouring points, in tolerances: a curve is compared with points.
+constexpr double kStep = 4.0;
 
 /// Newton steps for the points' parameters.
 constexpr int kRounds = 4;
@@ -101,17 +107,31 @@ void improve(const Curve& c, std::span<const Vec2> points, std::vector<double>& 
 
 struct Worst {
     double distance = 0.0;
-    std::size_t index = 0;
+    std::size_t index = 0;  ///< of an inner point
 };
 
+/// Bound of the distance between curve and polyline, in both directions.
+///
+/// From a parameter to the next, the polyline's place moves linearly, and the curve leaves the line between its two
+/// places by no more than an eighth of the square of the interval times the greatest second derivative.
 Worst worstOf(const Curve& c, std::span<const Vec2> points, const std::vector<double>& t)
 {
+    const double bend = 6.0 * std::max(length(c[2] - 2.0 * c[1] + c[0]), length(c[3] - 2.0 * c[2] + c[1]));
     Worst worst{0.0, points.size() / 2};
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-        const double distance = length(at(c, t[i]) - points[i]);
-        if (distance > worst.distance) {
-            worst = {distance, i};
+    double before = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double interval = t[i] - t[i - 1];
+        if (interval < 0.0) {
+            // The curve passes the points in another order.
+            return {std::numeric_limits<double>::infinity(), points.size() / 2};
         }
+        const double after = length(at(c, t[i]) - points[i]);
+        const double distance = std::max(before, after) + 0.125 * interval * interval * bend;
+        if (distance > worst.distance) {
+            const bool is_inner = i + 1 < points.size();
+            worst = {distance, is_inner && (after > before || i == 1) ? i : i - 1};
+        }
+        before = after;
     }
     return worst;
 }
@@ -123,8 +143,9 @@ public:
     void fit(std::span<const Vec2> points, Vec2 leaving, Vec2 arriving)
     {
         if (points.size() == 2) {
-            const double third = length(points[1] - points[0]) / 3.0;
-            curves.push_back({points[0] + third * leaving, points[1] + third * arriving, points[1]});
+            // A curve is within the hull of its control points, hence no farther from the side than they are.
+            const double reach = std::min(length(points[1] - points[0]) / 3.0, tolerance_);
+            curves.push_back({points[0] + reach * leaving, points[1] + reach * arriving, points[1]});
             return;
         }
         std::vector<double> t = chordLengths(points);
@@ -153,67 +174,148 @@ private:
     double tolerance_;
 };
 
+/// Closed polyline with points in between where neighbours are farther apart than the step, without repeated points.
+std::vector<Vec2> subdivided(const std::vector<Vec2>& points, double step)
+{
+    std::vector<Vec2> result;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 a = points[i];
+        const Vec2 side = points[(i + 1) % points.size()] - a;
+        const double size = length(side);
+        if (!(size > 0.0)) {
+            continue;
+        }
+        const double parts = std::max(std::ceil(size / step), 1.0);
+        for (double part = 0.0; part < parts; ++part) {
+            result.push_back(a + (part / parts) * side);
+        }
+    }
+    return result;
+}
+
+/// Closed polyline by the length along it.
+class Rim {
+public:
+    explicit Rim(const std::vector<Vec2>& points) : points_(points), along_(points.size() + 1)
+    {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            along_[i + 1] = along_[i] + length(points[(i + 1) % points.size()] - points[i]);
+        }
+    }
+
+    [[nodiscard]] double perimeter() const { return along_.back(); }
+
+    /// Turn at a point, between the directions to the places at the reach before and after it [rad].
+    [[nodiscard]] double turn(std::size_t i, double reach) const
+    {
+        const Vec2 before = points_[i] - placeAt(along_[i] - reach);
+        const Vec2 after = placeAt(along_[i] + reach) - points_[i];
+        return std::abs(std::atan2(cross(before, after), dot(before, after)));
+    }
+
+    /// Length from a point forward to another one.
+    [[nodiscard]] double between(std::size_t from, std::size_t to) const
+    {
+        const double way = along_[to] - along_[from];
+        return way < 0.0 ? way + perimeter() : way;
+    }
+
+private:
+    [[nodiscard]] Vec2 placeAt(double length_along) const
+    {
+        const double s = length_along - std::floor(length_along / perimeter()) * perimeter();
+        const auto next = std::upper_bound(along_.begin() + 1, along_.end() - 1, s);
+        const auto i = static_cast<std::size_t>(next - along_.begin()) - 1;
+        const double size = along_[i + 1] - along_[i];
+        const double part = size > 0.0 ? (s - along_[i]) / size : 0.0;
+        return points_[i] + part * (points_[(i + 1) % points_.size()] - points_[i]);
+    }
+
+    const std::vector<Vec2>& points_;
+    std::vector<double> along_;  ///< length from the first point to each point, and the perimeter
+};
+
+/// Points where the turn is greater than a corner's, and greatest within the reach.
+std::vector<std::size_t> cornersOf(const std::vector<Vec2>& points, double tolerance)
+{
+    const Rim rim(points);
+    // A circle turns by 45° over twice an eighth of its perimeter, so that no circle has corners, however small.
+    const double reach = std::min(kReach * tolerance, 0.125 * rim.perimeter());
+    const std::size_t count = points.size();
+    std::vector<double> turn(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        turn[i] = rim.turn(i, reach);
+    }
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < count; ++i) {
+        bool is_greatest = turn[i] > kCorner;
+        for (std::size_t k = (i + 1) % count; is_greatest && k != i && rim.between(i, k) <= reach;
+             k = (k + 1) % count) {
+            is_greatest = turn[i] > turn[k];
+        }
+        for (std::size_t k = (i + count - 1) % count; is_greatest && k != i && rim.between(k, i) <= reach;
+             k = (k + count - 1) % count) {
+            is_greatest = turn[i] >= turn[k];
+        }
+        if (is_greatest) {
+            corners.push_back(i);
+        }
+    }
+    return corners;
+}
+
 }  // namespace
 
-BezierPath fitBezier(const std::vector<Vec2>& points, double tolerance)
+BezierPath fitBezier(const std::vector<Vec2>& polyline, double tolerance)
 {
+    const std::vector<Vec2> points = subdivided(polyline, kStep * tolerance);
     const std::size_t count = points.size();
-    const auto point = [&](std::size_t k) { return points[k % count]; };
-    // Joints: corners where the turn is greatest nearby, or else three points.
-    std::vector<std::size_t> joints;
-    std::vector<bool> is_corner;
-    if (count > 4 * kReach) {
-        std::vector<double> turn(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec2 before = point(i) - point(i + count - kReach);
-            const Vec2 after = point(i + kReach) - point(i);
-            turn[i] = std::abs(std::atan2(cross(before, after), dot(before, after)));
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            bool is_greatest = turn[i] > kCorner;
-            for (std::size_t k = 1; k <= kReach && is_greatest; ++k) {
-                is_greatest = turn[i] > turn[(i + k) % count] && turn[i] >= turn[(i + count - k) % count];
-            }
-            if (is_greatest) {
-                joints.push_back(i);
-                is_corner.push_back(true);
-            }
-        }
-    }
-    for (std::size_t k = 0; joints.size() < 2 && k < 3; ++k) {
-        const std::size_t i =
-            ((joints.empty() || !is_corner.front() ? 0 : joints.front()) + (k + 1) * count / 3) % count;
-        if (std::find(joints.begin(), joints.end(), i) == joints.end()) {
-            joints.push_back(i);
-            is_corner.push_back(false);
-        }
-    }
-    std::vector<std::size_t> order(joints.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        order[k] = k;
-    }
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return joints[a] < joints[b]; });
-
     BezierPath path;
-    path.start = point(joints[order.front()]);
+    if (count < 2) {
+        // All points are at one place.
+        path.start = polyline.front();
+        path.curves.push_back({path.start, path.start, path.start});
+        return path;
+    }
+    const auto point = [&](std::size_t k) { return points[k % count]; };
+    struct Joint {
+        std::size_t index = 0;
+        bool is_corner = false;
+    };
+    std::vector<Joint> joints;
+    for (const std::size_t corner : cornersOf(points, tolerance)) {
+        joints.push_back({corner, true});
+    }
+    // A curve cannot go once around: without two corners, points at thirds of the way are joints too.
+    if (joints.size() < 2) {
+        const std::size_t first = joints.empty() ? 0 : joints.front().index;
+        for (std::size_t k = joints.size(); k < std::min<std::size_t>(count, 3); ++k) {
+            joints.push_back({(first + k * count / 3) % count, false});
+        }
+        std::sort(joints.begin(), joints.end(), [](Joint a, Joint b) { return a.index < b.index; });
+    }
+
+    path.start = point(joints.front().index);
     Fitter fitter(tolerance);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const std::size_t begin = joints[order[k]];
-        const std::size_t next = order[(k + 1) % order.size()];
-        const std::size_t end = joints[next] > begin ? joints[next] : joints[next] + count;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+        const Joint begin = joints[k];
+        const Joint end = joints[(k + 1) % joints.size()];
+        const std::size_t last = end.index > begin.index ? end.index : end.index + count;
         std::vector<Vec2> piece;
-        for (std::size_t i = begin; i <= end; ++i) {
+        for (std::size_t i = begin.index; i <= last; ++i) {
             piece.push_back(point(i));
         }
-        const auto tangent = [&](std::size_t joint, std::size_t place, bool is_leaving) {
-            const std::size_t i = place % count;
-            if (is_corner[joint]) {
-                return unit(is_leaving ? point(i + 1) - point(i) : point(i + count - 1) - point(i));
+        const auto tangent = [&](Joint joint, bool is_leaving) {
+            const Vec2 here = point(joint.index);
+            const Vec2 next = point(joint.index + 1);
+            const Vec2 previous = point(joint.index + count - 1);
+            if (joint.is_corner) {
+                return unit(is_leaving ? next - here : previous - here);
             }
-            const Vec2 along = unit(point(i + 1) - point(i + count - 1));
+            const Vec2 along = unit(next - previous);
             return is_leaving ? along : -1.0 * along;
         };
-        fitter.fit(piece, tangent(order[k], begin, true), tangent(next, end, false));
+        fitter.fit(piece, tangent(begin, true), tangent(end, false));
     }
     path.curves = std::move(fitter.curves);
     return path;

@@ -22,10 +22,11 @@ struct BezierPath {
 
 /// Fits few curves to a closed polyline.
 ///
-/// Guarantees: no point of the polyline is farther than the tolerance from the path; tangents are continuous except at
-/// corners, where the polyline turns by more than 60° within a few points.
-/// @param points     at least three, the first not repeated
+/// Guarantees: every place of the polyline is within the tolerance of the path, and every place of the path within it
+/// of the polyline; tangents are continuous except at corners, where the polyline turns by more than 60° within five
+/// tolerances.
+/// @param polyline   at least one point, the first not repeated
 /// @param tolerance  > 0
-BezierPath fitBezier(const std::vector<Vec2>& points, double tolerance);
+BezierPath fitBezier(const std::vector<Vec2>& polyline, double tolerance);
 
 }  // namespace droplet

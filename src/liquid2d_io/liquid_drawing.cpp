@@ -9,58 +9,16 @@
 #include <memory>
 #include <ostream>
 
-#include "bezier.h"
+#include "coverage.h"
 #include "droplet/error.h"
-#include "require.h"
+#include "liquid_paths.h"
 
 namespace droplet {
 namespace {
 
-/// Greatest distance of curves from the shape [px].
-constexpr double kTolerance = 0.3;
-
-void validate(const LiquidView& view)
-{
-    requireWithin("view.width", view.width, 1, 32767);
-    requireWithin("view.height", view.height, 1, 32767);
-    require(view.size.x > 0.0 && std::isfinite(view.size.x), "view.size.x", view.size.x, "finite and more than 0 m");
-    require(view.size.y > 0.0 && std::isfinite(view.size.y), "view.size.y", view.size.y, "finite and more than 0 m");
-}
-
-/// Place in pixels, y down.
-Vec2 toPixels(Vec2 x, const LiquidView& view)
-{
-    return {x.x * view.width / view.size.x, (view.size.y - x.y) * view.height / view.size.y};
-}
-
-std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& view)
-{
-    std::vector<Vec2> result;
-    result.reserve(points.size());
-    for (const Vec2 point : points) {
-        result.push_back(toPixels(point, view));
-    }
-    return result;
-}
-
-std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
-{
-    std::vector<BezierPath> paths;
-    paths.reserve(loops.size());
-    for (const Loop& loop : loops) {
-        paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
-    }
-    return paths;
-}
-
 std::string hex(Colour colour)
 {
     return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
-}
-
-double lineWidth(const LiquidLook& look, const LiquidView& view)
-{
-    return look.line_width * 1e-3 * view.width;
 }
 
 /// Number with two digits after the point, without trailing zeros.
@@ -103,20 +61,18 @@ std::string dataOf(const std::vector<BezierPath>& paths)
     return data;
 }
 
-std::string dataOf(const std::vector<Region>& regions, const LiquidView& view)
+std::string dataOf(const Region& region, const LiquidView& view)
 {
     std::string data;
-    for (const Region& region : regions) {
-        for (const std::vector<Vec2>& loop : region.loops) {
-            data += 'M';
-            for (std::size_t k = 0; k < loop.size(); ++k) {
-                const Vec2 x = toPixels(loop[k], view);
-                data += k == 1 ? "L" : "";
-                put(data, x.x);
-                put(data, x.y);
-            }
-            data += 'z';
+    for (const std::vector<Vec2>& loop : region.loops) {
+        data += 'M';
+        const std::vector<Vec2> points = toPixels(loop, view);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            data += k == 1 ? "L" : "";
+            put(data, points[k].x);
+            put(data, points[k].y);
         }
+        data += 'z';
     }
     return data;
 }
@@ -154,106 +110,6 @@ void drawPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fi
     }
     cairo_new_path(context);
 }
-
-/// Sums, row by row, how much of each pixel lies to the right of the sides of polygons, with their signs.
-class Coverage {
-public:
-    Coverage(int width, int height)
-        : width_(width), height_(height), sums_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height))
-    {
-    }
-
-    void addLine(Vec2 a, Vec2 b)
-    {
-        // Cut where the line enters and leaves the picture sideways, so that each part is on one side of both edges.
-        std::vector<double> cuts{0.0, 1.0};
-        for (const double edge : {0.0, static_cast<double>(width_)}) {
-            if ((a.x < edge) != (b.x < edge)) {
-                cuts.push_back((edge - a.x) / (b.x - a.x));
-            }
-        }
-        std::sort(cuts.begin(), cuts.end());
-        const auto clamped = [&](double t) {
-            const Vec2 x = a + t * (b - a);
-            return Vec2{std::clamp(x.x, 0.0, static_cast<double>(width_)), x.y};
-        };
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-            addInside(clamped(cuts[k]), clamped(cuts[k + 1]));
-        }
-    }
-
-    [[nodiscard]] DeepPicture picture() const
-    {
-        DeepPicture picture;
-        picture.width = width_;
-        picture.height = height_;
-        picture.channels = 1;
-        for (int y = 0; y < height_; ++y) {
-            double sum = 0.0;
-            for (int x = 0; x < width_; ++x) {
-                sum += sums_[index(x, y)];
-                picture.levels.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(sum, 0.0, 1.0))));
-            }
-        }
-        return picture;
-    }
-
-private:
-    [[nodiscard]] std::size_t index(int x, int y) const
-    {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
-    }
-
-    void addInside(Vec2 a, Vec2 b)
-    {
-        const double sign = a.y < b.y ? 1.0 : -1.0;
-        if (a.y > b.y) {
-            std::swap(a, b);
-        }
-        const int first = std::max(static_cast<int>(std::floor(a.y)), 0);
-        for (int y = first; y < height_ && y < b.y; ++y) {
-            const double top = std::max(a.y, static_cast<double>(y));
-            const double bottom = std::min(b.y, static_cast<double>(y) + 1.0);
-            if (!(bottom > top)) {
-                continue;
-            }
-            const auto x_at = [&](double at) { return a.x + (b.x - a.x) * (at - a.y) / (b.y - a.y); };
-            addRow(y, std::minmax(x_at(top), x_at(bottom)), sign * (bottom - top));
-        }
-    }
-
-    /// Adds a line through a row: of each pixel the part to the right of it.
-    void addRow(int y, std::pair<double, double> range, double height)
-    {
-        const double left = std::clamp(range.first, 0.0, static_cast<double>(width_));
-        const double right = std::clamp(range.second, 0.0, static_cast<double>(width_));
-        const int begin = std::min(static_cast<int>(left), width_);
-        const int end = std::min(static_cast<int>(right), width_);
-        if (begin == end) {
-            const double beyond = 1.0 - (0.5 * (left + right) - begin);
-            sums_[index(begin, y)] += height * beyond;
-            if (begin < width_) {
-                sums_[index(begin + 1, y)] += height * (1.0 - beyond);
-            }
-            return;
-        }
-        // Within each column the line covers a part of the height; behind it pixels are covered by all of that part.
-        for (int x = begin; x <= end; ++x) {
-            const double from = std::max(left, static_cast<double>(x));
-            const double to = std::min(right, static_cast<double>(x) + 1.0);
-            const double part = height * (to - from) / (right - left);
-            const double beyond = 1.0 - (0.5 * (from + to) - x);
-            sums_[index(x, y)] += part * beyond;
-            if (x < width_) {
-                sums_[index(x + 1, y)] += part * (1.0 - beyond);
-            }
-        }
-    }
-
-    int width_;
-    int height_;
-    std::vector<double> sums_;
-};
 
 }  // namespace
 
@@ -302,16 +158,28 @@ void writeLiquidSvg(const LiquidScene& scene, const LiquidView& view, const Liqu
         line > 0.0
             ? fmt::format(" stroke=\"{}\" stroke-width=\"{:.4g}\" stroke-linejoin=\"round\"", hex(look.line), line)
             : "";
-    const auto group = [&](const char* id, const std::string& data, const std::string& fill, const std::string& lines) {
-        if (!data.empty()) {
-            out << fmt::format("<g id=\"{}\"><path fill-rule=\"evenodd\" fill=\"{}\"{} d=\"{}\"/></g>\n", id, fill,
-                               lines, data);
+    const auto path = [](const std::string& data, Colour fill, const std::string& lines) {
+        return data.empty()
+                   ? ""
+                   : fmt::format("<path fill-rule=\"evenodd\" fill=\"{}\"{} d=\"{}\"/>", hex(fill), lines, data);
+    };
+    const auto group = [&](const char* id, const std::string& paths) {
+        if (!paths.empty()) {
+            out << fmt::format("<g id=\"{}\">{}</g>\n", id, paths);
         }
     };
-    group("liquid", dataOf(pathsOf(scene.shape.liquid, view)), hex(look.water), stroke);
-    group("droplets", dataOf(pathsOf(scene.shape.droplets, view)), hex(look.droplet), stroke);
-    group("foam", dataOf(pathsOf(scene.shape.foam, view)), look.foam ? hex(*look.foam) : "none", stroke);
-    group("walls", dataOf(scene.walls, view), hex(look.wall), "");
+    group("liquid", path(dataOf(pathsOf(scene.shape.liquid, view)), look.water, stroke));
+    group("droplets", path(dataOf(pathsOf(scene.shape.droplets, view)), look.droplet, stroke));
+    // Without a colour, foam is a hole of the liquid, whose line is drawn already.
+    if (look.foam) {
+        group("foam", path(dataOf(pathsOf(scene.shape.foam, view)), *look.foam, stroke));
+    }
+    // Walls may overlap, which would be holes in one path.
+    std::string walls;
+    for (const Region& region : scene.walls) {
+        walls += path(dataOf(region, view), look.wall, "");
+    }
+    group("walls", walls);
     out << "</svg>\n";
 }
 
@@ -386,7 +254,14 @@ DeepPicture liquidMask(const LiquidShape& shape, const LiquidView& view)
             }
         }
     }
-    return coverage.picture();
+    DeepPicture picture;
+    picture.width = view.width;
+    picture.height = view.height;
+    picture.channels = 1;
+    for (const double share : coverage.shares()) {
+        picture.levels.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0))));
+    }
+    return picture;
 }
 
 }  // namespace droplet

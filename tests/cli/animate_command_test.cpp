@@ -506,6 +506,8 @@ TEST_F(AnimateTest, RefusesWrongOptions)
     expectFailure({"frames", "/proc/nowhere/%d.glb"}, 4, {"/proc/nowhere cannot be created"});
     expectFailure({"frames/f%04d.pgm", "frames/f%04d.pgm"}, 2, {"f%04d.pgm"});
     expectFailure({"frames", "old.glb", "--no-clobber"}, 4, {"old.glb", "exists"});
+    expectFailure({"-", "frames/f0008.pgm", "old.glb"}, 2, {"INPUT: - must stand alone"});
+    expectFailure({"frames/f0008.pgm", "-", "old.glb"}, 2, {"INPUT: - must stand alone"});
 }
 
 }  // namespace

@@ -70,6 +70,23 @@ TEST_F(Liquid2dCommand, WritesDrawingsMasksAndAReport)
     EXPECT_FALSE(fs::exists(path("out/checkpoint.state")));
 }
 
+TEST_F(Liquid2dCommand, WritesALottieAnimation)
+{
+    const CommandResult run = liquid({path("dam.json"), "--json", path("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto file = nlohmann::json::parse(readFile(path("dam.json")));
+    EXPECT_EQ(file.at("op"), 8);
+    EXPECT_EQ(file.at("fr"), 8);
+    EXPECT_EQ(file.at("w"), 160);
+    EXPECT_GE(file.at("layers").size(), 8U);
+    EXPECT_EQ(nlohmann::json::parse(readFile(path("r.json"))).at("frames").size(), 8U);
+
+    expectRefused({"liquid2d", path("dam.json"), "--no-clobber"}, 4, "dam.json");
+    expectRefused({"liquid2d", path("dam.json"), "--resume"}, 2, "--resume needs a file for every frame");
+    expectRefused({"liquid2d", path("dam.json"), "--json", path("dam.json")}, 2, "are the same");
+    expectRefused({"liquid2d", path("dam%d.json")}, 2, "a .json with a Lottie animation");
+}
+
 TEST_F(Liquid2dCommand, ResumesToTheSameBytes)
 {
     const auto run = [&](const std::string& folder, const std::vector<std::string>& more) {
