@@ -115,7 +115,7 @@ void drawPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fi
 
 const std::vector<LiquidLook>& liquidLooks()
 {
-    static const std::vector<LiquidLook> kLooks{
+    static const std::vector<LiquidLook> looks{
         {"flat", {58, 134, 200}, {58, 134, 200}, Colour{214, 236, 250}, {}, 0.0, {92, 84, 78}, std::nullopt},
         {"comic",
          {66, 152, 214},
@@ -128,7 +128,7 @@ const std::vector<LiquidLook>& liquidLooks()
         {"ink", {255, 255, 255}, {255, 255, 255}, std::nullopt, {20, 20, 24}, 2.0, {60, 60, 64}, Colour{255, 255, 255}},
         {"night", {38, 190, 206}, {140, 232, 232}, Colour{16, 92, 116}, {}, 0.0, {44, 52, 76}, Colour{12, 18, 40}},
     };
-    return kLooks;
+    return looks;
 }
 
 const LiquidLook& liquidLookNamed(std::string_view name)
