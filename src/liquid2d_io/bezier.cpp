@@ -185,9 +185,9 @@ std::vector<Vec2> subdivided(const std::vector<Vec2>& points, double step)
         if (!(size > 0.0)) {
             continue;
         }
-        const double parts = std::max(std::ceil(size / step), 1.0);
-        for (double part = 0.0; part < parts; ++part) {
-            result.push_back(a + (part / parts) * side);
+        const auto parts = static_cast<std::size_t>(std::ceil(size / step));
+        for (std::size_t part = 0; part < parts; ++part) {
+            result.push_back(a + (static_cast<double>(part) / static_cast<double>(parts)) * side);
         }
     }
     return result;

@@ -9,9 +9,9 @@
 #include <memory>
 #include <ostream>
 
-#include "coverage.h"
 #include "droplet/error.h"
 #include "liquid_paths.h"
+#include "pixel_coverage.h"
 
 namespace droplet {
 namespace {
@@ -245,7 +245,7 @@ Layer liquidLayer(const LiquidScene& scene, const LiquidView& view, const Liquid
 DeepPicture liquidMask(const LiquidShape& shape, const LiquidView& view)
 {
     validate(view);
-    Coverage coverage(view.width, view.height);
+    PixelCoverage coverage(view.width, view.height);
     for (const auto* loops : {&shape.liquid, &shape.droplets}) {
         for (const Loop& loop : *loops) {
             const std::vector<Vec2> points = toPixels(loop.points, view);

@@ -34,6 +34,7 @@ std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& vi
 std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
 {
     std::vector<BezierPath> paths;
+    paths.reserve(loops.size());
     for (const Loop& loop : loops) {
         paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
     }

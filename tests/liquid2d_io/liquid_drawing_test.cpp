@@ -17,7 +17,7 @@
 
 #include "droplet/error.h"
 #include "liquid2d_io/bezier.h"
-#include "liquid2d_io/coverage.h"
+#include "liquid2d_io/pixel_coverage.h"
 
 namespace {
 
@@ -61,7 +61,7 @@ std::vector<Vec2> inPixels(std::vector<Vec2> points)
     return points;
 }
 
-void addLoop(droplet::Coverage& coverage, const std::vector<Vec2>& points)
+void addLoop(droplet::PixelCoverage& coverage, const std::vector<Vec2>& points)
 {
     for (std::size_t k = 0; k < points.size(); ++k) {
         coverage.addLine(points[k], points[(k + 1) % points.size()]);
@@ -73,7 +73,7 @@ TEST(LiquidMask, CoversExactlyTheArea)
     LiquidShape shape;
     shape.liquid = {ellipse({0.9, 0.5}, {0.612, 0.333}, 237), ellipse({0.8, 0.45}, {0.123, 0.211}, 101, true)};
     shape.droplets = {ellipse({1.77, 0.8}, {0.011, 0.007}, 13)};
-    droplet::Coverage coverage(kView.width, kView.height);
+    droplet::PixelCoverage coverage(kView.width, kView.height);
     for (const auto* loops : {&shape.liquid, &shape.droplets}) {
         for (const Loop& loop : *loops) {
             addLoop(coverage, inPixels(loop.points));
@@ -381,7 +381,7 @@ TEST(LiquidLayer, ShowsThePathsOfTheSvg)
     std::size_t paths = 0;
     for (std::size_t begin = svg.find("<path "); begin != std::string::npos; begin = svg.find("<path ", begin + 1)) {
         const std::string element = svg.substr(begin, svg.find("/>", begin) - begin);
-        droplet::Coverage coverage(kView.width, kView.height);
+        droplet::PixelCoverage coverage(kView.width, kView.height);
         for (const std::vector<Vec2>& polyline : polylinesOf(attribute(element, "d"))) {
             addLoop(coverage, polyline);
         }

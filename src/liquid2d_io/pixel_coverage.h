@@ -10,11 +10,11 @@
 namespace droplet {
 
 /// Exact coverage of pixels by polygons whose sides do not cross.
-class Coverage {
+class PixelCoverage {
 public:
     /// @param width   of the picture [px], ≥ 1
     /// @param height  of the picture [px], ≥ 1
-    Coverage(int width, int height);
+    PixelCoverage(int width, int height);
 
     /// Adds a side of a polygon. Seen with y down, rims run counter-clockwise and holes clockwise.
     void addLine(Vec2 a, Vec2 b);

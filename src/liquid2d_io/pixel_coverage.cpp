@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coverage.h"
+#include "pixel_coverage.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace droplet {
 
-Coverage::Coverage(int width, int height)
+PixelCoverage::PixelCoverage(int width, int height)
     : width_(width), height_(height), sums_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height))
 {
 }
 
-void Coverage::addLine(Vec2 a, Vec2 b)
+void PixelCoverage::addLine(Vec2 a, Vec2 b)
 {
     // Cut where the line enters and leaves the picture sideways, so that each part is on one side of both edges.
     std::vector<double> cuts{0.0, 1.0};
@@ -30,7 +30,7 @@ void Coverage::addLine(Vec2 a, Vec2 b)
     }
 }
 
-std::vector<double> Coverage::shares() const
+std::vector<double> PixelCoverage::shares() const
 {
     std::vector<double> shares;
     shares.reserve(sums_.size());
@@ -44,12 +44,12 @@ std::vector<double> Coverage::shares() const
     return shares;
 }
 
-std::size_t Coverage::index(int x, int y) const
+std::size_t PixelCoverage::index(int x, int y) const
 {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
 }
 
-void Coverage::addInside(Vec2 a, Vec2 b)
+void PixelCoverage::addInside(Vec2 a, Vec2 b)
 {
     const double sign = a.y < b.y ? 1.0 : -1.0;
     if (a.y > b.y) {
@@ -69,7 +69,7 @@ void Coverage::addInside(Vec2 a, Vec2 b)
 }
 
 /// Adds a line through a row: of each pixel the part to the right of it.
-void Coverage::addRow(int y, std::pair<double, double> range, double height)
+void PixelCoverage::addRow(int y, std::pair<double, double> range, double height)
 {
     const double left = std::clamp(range.first, 0.0, static_cast<double>(width_));
     const double right = std::clamp(range.second, 0.0, static_cast<double>(width_));
