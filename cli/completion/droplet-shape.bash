@@ -19,11 +19,12 @@ _droplet_shape()
         flow) options='--preset --scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --streaks --maps --map-width --droplets --json --preview --view --camera --preview-size --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --width --look --line-width --masks --codec --quality --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
+        morph) options='--text --font --frames --particle-count --rounding --mask-width --look --quality --volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
         windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
         *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
-    [[ ' animate batch compare flow glyphs liquid2d wind-tunnel windshield ' == *" $command "* ]] || command=
+    [[ ' animate batch compare flow glyphs liquid2d morph wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
         *:--width) return ;;
         *:--pixel-size) return ;;
@@ -140,6 +141,7 @@ _droplet_shape()
         *:--droplets) files=1 ;;
         *:--codec) return ;;
         *:--quality) return ;;
+        morph:--font) return ;;
         *:--font) files=1 ;;
         *:--face-index) return ;;
         *:--axis) return ;;
@@ -169,6 +171,9 @@ _droplet_shape()
         *:--look) choices='flat comic ink night' ;;
         *:--line-width) return ;;
         *:--masks) files=1 ;;
+        *:--frames) return ;;
+        *:--rounding) return ;;
+        *:--mask-width) return ;;
         *:--slope) return ;;
         *:--sliding-angle) return ;;
         *:--sliding-volume) choices='every' ;;
@@ -207,7 +212,7 @@ _droplet_shape()
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         if ((COMP_CWORD == 1)); then
-            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs liquid2d wind-tunnel windshield' -- "$word")
+            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs liquid2d morph wind-tunnel windshield' -- "$word")
         fi
     fi
 }
