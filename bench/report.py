@@ -372,6 +372,13 @@ Droplets that run down a slope from edge to edge; frames of 1/24 s with droplets
 triangles. Motion includes merging and streaks; shapes are the meshes of all droplets.
 
 {flow}
+
+## Liquids in the plane
+
+Steps of a breaking dam, with the outlines of a frame; frames of 1/24 s of the scenes, with outlines in their own style. Errors: mean
+compression that steps leave; area of the outlines over that of the particles.
+
+{liquid2d}
 """
 
 PROFILE_BEGINS = "<!-- begin: written by scripts/bench -->\n"
@@ -393,7 +400,8 @@ def write(data, folder):
                        difference=small(max(both["difference"] for both in data["freefem"].values())),
                        other=other_stages(results), pixels=pixel_growth(results),
                        threads=threads_and_instructions(results), tunnel=data["tunnel"],
-                       windshield=data["windshield"], view=data["view"], flow=data["flow"])
+                       windshield=data["windshield"], view=data["view"], flow=data["flow"],
+                       liquid2d=data["liquid2d"])
     if table_of_grading := grading(results):
         text += "\n" + GRADING.format(grading=table_of_grading)
     (folder / "RESULTS.md").write_text(text)
