@@ -480,7 +480,9 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
     const auto wet = std::find_if(report.frames.begin(), report.frames.end(),
                                   [](const droplet::FrameReport& frame) { return !frame.droplets.empty(); });
     text << inMicrolitres(report.volume_mode == droplet::VolumeMode::Total ? wet->total.volume : first.total.volume);
-    if (report.volume_mode == droplet::VolumeMode::Track) {
+    if (report.volume_mode == droplet::VolumeMode::Fill) {
+        text << " in the first frame, " << inMicrolitres(last.total.volume) << " in the last";
+    } else if (report.volume_mode == droplet::VolumeMode::Track) {
         double gained = 0.0;
         double lost = 0.0;
         for (const droplet::FrameReport& frame : report.frames) {

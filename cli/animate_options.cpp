@@ -87,7 +87,8 @@ void readSequence(const CommandLine& line, AnimateOptions& options)
 {
     using droplet::VolumeMode;
     if (const auto mode = line.value("--volume-mode")) {
-        options.volume_mode = choice<VolumeMode>(*mode, {{"total", VolumeMode::Total}, {"track", VolumeMode::Track}});
+        options.volume_mode = choice<VolumeMode>(
+            *mode, {{"total", VolumeMode::Total}, {"track", VolumeMode::Track}, {"fill", VolumeMode::Fill}});
     }
     if (const auto rate = line.value("--fps")) {
         const auto number = finiteNumber(rate->text);
@@ -116,9 +117,10 @@ void readSequence(const CommandLine& line, AnimateOptions& options)
 
 void declareAnimation(CommandLine& line)
 {
-    line.add("Sequence", "--volume-mode", "total|track",
+    line.add("Sequence", "--volume-mode", "total|track|fill",
              "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
-             "through merging and splitting [total]");
+             "through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height "
+             "[total]");
     line.add("Sequence", "--fps", "N", "Frames per second [24, or the video's]");
     line.add("Sequence", "--contact-sheet", "FILE",
              "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");

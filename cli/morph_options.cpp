@@ -43,7 +43,7 @@ void declare(CommandLine& line)
     line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures");
     line.add(kMorph, "--font", "FAMILY", "Font of the text, by the name that the system knows [sans-serif]");
     line.add(kMorph, "--frames", "N", "Number of frames of the whole, up to 100k [120]");
-    line.add(kMorph, "--particle-count", "N", "Number of particles of the liquid, 4k to 200k [8k]");
+    line.add(kMorph, "--particle-count", "N", "Number of particles of the liquid, 1k to 200k [8k]");
     line.add(kMorph, "--rounding", "NUMBER", "How fast surface tension rounds the liquid on its way, 0 to 10 [1]");
     line.add(kMorph, "--mask-width", "N",
              "Width of masks and drawings in pixels, up to 16384 [that of the first picture, or 1024]");
@@ -132,8 +132,8 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
     }
     if (const auto particles = line.value("--particle-count")) {
         options.particles = count(*particles, 200'000, "200k");
-        if (options.particles < 4000) {
-            refuse(*particles, "a whole number from 4k to 200k");
+        if (options.particles < 1000) {
+            refuse(*particles, "a whole number from 1k to 200k");
         }
     }
     if (const auto rounding = line.value("--rounding")) {

@@ -83,7 +83,7 @@ _droplet_shape()
         *:--threads) return ;;
         *:--progress) choices='auto none json' ;;
         *:--config) files=1 ;;
-        *:--volume-mode) choices='total track' ;;
+        *:--volume-mode) choices='total track fill' ;;
         *:--fps) return ;;
         *:--contact-sheet) files=1 ;;
         *:-o) files=1 ;;

@@ -288,7 +288,7 @@ void MorphOptions::validate() const
     require(size.x > 0.0 && std::isfinite(size.x), "size.x", size.x, "a finite number above 0");
     require(size.y > 0.0 && std::isfinite(size.y), "size.y", size.y, "a finite number above 0");
     require(frames >= 3, "frames", frames, "at least 3");
-    require(particles >= 4000 && particles <= 200000, "particles", particles, "from 4000 to 200000");
+    require(particles >= 1000 && particles <= 200000, "particles", particles, "from 1000 to 200000");
     require(surface_tension >= 0.0 && surface_tension <= 10.0, "surface_tension", surface_tension, "from 0 to 10");
 }
 

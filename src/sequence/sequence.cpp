@@ -553,6 +553,14 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         }
     }
     finish(frame.droplet, frame_options, lineage->bases, progress);
+    if (options.volume_mode == VolumeMode::Fill) {
+        for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
+            frame.droplets[k].volume = frame.droplet.figures[k].volume;
+        }
+        const double growth = volumeOf(frame.droplets) - volumeOf(before.droplets);
+        frame.volume_gained = std::max(growth, 0.0);
+        frame.volume_lost = std::max(-growth, 0.0);
+    }
     if (options.volume_mode == VolumeMode::Total) {
         const double scale = reservoir.value_or(frame.droplet.total.volume) / frame.droplet.total.volume;  // no drift
         for (std::size_t k = 0; k < frame.droplets.size(); ++k) {

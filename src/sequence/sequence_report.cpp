@@ -60,7 +60,9 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
         report.closed = true;
         return report;
     }
-    if (options.volume_mode == VolumeMode::Total || droplet.meshes.size() == 1) {
+    const bool has_one_pressure =
+        options.volume_mode != VolumeMode::Track && options.droplet.solve.fill.sharing == FillSharing::Total;
+    if (has_one_pressure || droplet.meshes.size() == 1) {
         report.pressure = droplet.solution.droplets.front().pressure;
     }
     report.vertices = droplet.surface.positions.size();
@@ -115,7 +117,9 @@ void writeSequenceReport(std::ostream& out, const SequenceReport& report)
     json["ground"] = groundSection(report.ground);
     json["no_penetration"] = report.physics.no_penetration;
     json["fill"] = fillSection(report.physics.fill, {});
-    json["volume_mode"] = report.volume_mode == VolumeMode::Total ? "total" : "track";
+    json["volume_mode"] = report.volume_mode == VolumeMode::Total   ? "total"
+                          : report.volume_mode == VolumeMode::Track ? "track"
+                                                                    : "fill";
     const std::size_t transitions = report.frames.empty() ? 0 : report.frames.size() - 1;
     json["transitions"] = {{"count", transitions},
                            {"vertices_kept", report.kept()},

@@ -153,6 +153,16 @@ TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
     EXPECT_EQ(result["input"]["width_px"], 64);
 }
 
+TEST_F(AnimateTest, FillsEveryFrame)
+{
+    const json result = report({"frames/f%04d.pgm", "film.glb", "--volume-mode", "fill", "--height", "1mm"});
+    EXPECT_EQ(result["volume_mode"], "fill");
+    for (const json& frame : result["frames"]) {
+        EXPECT_NEAR(frame["height_max_m"].get<double>(), 1e-3, 1e-9);
+        EXPECT_TRUE(frame["closed"].get<bool>());
+    }
+}
+
 TEST_F(AnimateTest, TracksDropletsWhenTheyMerge)
 {
     const json result = report({"frames/f%04d.pgm", "film.glb", "--volume-mode", "track"});
@@ -489,7 +499,7 @@ TEST_F(AnimateTest, RefusesWrongOptions)
         arguments.insert(arguments.begin(), {"frames", "old.glb"});
         expectFailure(arguments, 2, words);
     };
-    refused({"--volume-mode", "some"}, {"--volume-mode", "'some'", "total, track"});
+    refused({"--volume-mode", "some"}, {"--volume-mode", "'some'", "total, track, fill"});
     refused({"--fps", "0"}, {"--fps", "'0'", "0.001 to 1000"});
     refused({"--fps", "fast"}, {"--fps", "'fast'"});
     refused({"--fill", "each"}, {"--fill each and --volume-mode total exclude each other"});

@@ -245,7 +245,7 @@ TEST(Documentation, ZshCompletesOptionsAndTheirValues)
 {
     EXPECT_THAT(offeredByZsh(""), AllOf(HasSubstr("animate:"), HasSubstr("\n--model["), HasSubstr(":(linear exact)\n"),
                                         Not(HasSubstr("--volume-mode["))));
-    EXPECT_THAT(offeredByZsh("animate"), AllOf(HasSubstr("--volume-mode["), HasSubstr(":(total track)\n")));
+    EXPECT_THAT(offeredByZsh("animate"), AllOf(HasSubstr("--volume-mode["), HasSubstr(":(total track fill)\n")));
 }
 
 TEST(Documentation, ManualIsCleanRoff)

@@ -51,7 +51,7 @@ protected:
     [[nodiscard]] CommandResult flow(std::vector<std::string> arguments) const
     {
         arguments.insert(arguments.begin(), "morph");
-        arguments.insert(arguments.end(), {"--frames", "5", "--particle-count", "4k", "--quiet"});
+        arguments.insert(arguments.end(), {"--frames", "5", "--particle-count", "1k", "--quiet"});
         return runDroplet(arguments);
     }
 

@@ -135,6 +135,25 @@ TEST(Sequence, TotalKeepsTheVolumeOfTheFirstFrameIfNoneIsGiven)
     }
 }
 
+TEST(Sequence, FillGivesEveryFrameItsContactAngle)
+{
+    SequenceOptions options = optionsFor(VolumeMode::Fill);
+    options.droplet.solve.fill = {FillBy::ContactAngle, 35 * kDegree, FillSharing::Each};
+    std::vector<Outline> outlines = closingHole();
+    outlines.push_back(outlineOf(disc({32, 32}, 30), 64, 64));
+    outlines.push_back(outlineOf(disc({32, 32}, 15), 64, 64));
+    const std::vector<Frame> frames = framesOf(outlines, options);
+    expectVolumesAddUp(frames);
+    for (const Frame& frame : frames) {
+        EXPECT_NEAR(frame.droplet.total.contact_angle.mean, 35 * kDegree, 1e-6);
+    }
+    // Small droplets of one angle are similar: volumes go as the cubes of their radii, which gravity lessens.
+    const auto volume_of = [&](std::size_t back) { return frames[frames.size() - back].droplet.total.volume; };
+    const double ratio = volume_of(2) / volume_of(1);
+    EXPECT_GT(ratio, 6.0);
+    EXPECT_LT(ratio, 8.0);
+}
+
 TEST(Sequence, PressureFallsWhileAHoleCloses)
 {
     const std::vector<Frame> frames = framesOf(closingHole(), optionsFor(VolumeMode::Total));

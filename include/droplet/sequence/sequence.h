@@ -15,11 +15,13 @@ enum class VolumeMode {
     Total,  ///< total volume of all droplets, which share it as one reservoir (thesis 4.2.4); it is 0 in frames without
             ///< liquid and restored after them
     Track,  ///< volume of each droplet, through merging and splitting
+    Fill,   ///< none: the fill applies to every frame, so that liquid grows and shrinks with its footprint
 };
 
 /// Options of a sequence.
 struct SequenceOptions {
-    DropletOptions droplet;  ///< options of every frame; the fill applies to the first frame and to new droplets
+    DropletOptions
+        droplet;  ///< options of every frame; the fill applies to the first frame and to new droplets, or to all
     VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
     bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
                                 ///< where possible; if false, triangulate every frame
@@ -46,8 +48,10 @@ struct Frame {
     bool continues = false;          ///< the surface has the triangles of the frame before; only its vertices moved
     std::optional<double> vertices_kept;  ///< share of the meshes' vertices that the frame before had, in place or
                                           ///< moved; empty if there is no frame before, or one of the two is dry
-    double volume_gained = 0.0;  ///< volume of new droplets [m³]; with VolumeMode::Total only after a dry frame
-    double volume_lost = 0.0;    ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame
+    double volume_gained = 0.0;  ///< volume of new droplets [m³]; with VolumeMode::Total only after a dry frame; with
+                                 ///< VolumeMode::Fill how much the total volume grew
+    double volume_lost = 0.0;  ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame; with
+                               ///< VolumeMode::Fill how much the total volume shrank
     std::shared_ptr<const FrameLineage> lineage;  ///< set by firstFrame() and nextFrame(), read by nextFrame()
 };
 
