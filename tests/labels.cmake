@@ -5,6 +5,7 @@
 string(JOIN "|" slow
   ConstrainedSolver.Solves
   Exact.NamesTheDroplet Exact.NearlyAHemisphere Exact.NewtonSteps Exact.RefusesMoreThan Exact.SteepCaps
+  FluidPresets.NothingPops
   Grading.MeshesAreValid Grading.NumberOfTriangles
   Hanging.FallsBeyond
   LatticeCore.EveryEdge

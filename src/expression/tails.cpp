@@ -19,20 +19,21 @@ constexpr std::size_t kPoints = 12;
 /// Length of a tail, in radii of its droplet, below which it is none.
 constexpr double kLeastTail = 0.05;
 
-/// Area of the discs along a straight skeleton, over the square of the head's radius.
+/// Area of discs along a straight skeleton and the strips between them, over the square of the head's radius.
 /// @param length  of the skeleton, in radii of the head
-double sweptArea(double length, double slope)
+double sweptArea(double length, const Taper& taper)
 {
     constexpr int kSteps = 40;
     const double begin = -1.0;
-    const double end = length + taper(1.0, slope);
+    const double end = length + taper(1.0);
     double area = 0.0;
     for (int k = 0; k < kSteps; ++k) {
         const double x = begin + (end - begin) * (k + 0.5) / kSteps;
-        double square = 0.0;
+        const double strip = x >= 0.0 && x <= length ? taper(x / length) : 0.0;
+        double square = strip * strip;
         for (int m = 0; m <= kSteps; ++m) {
             const double u = static_cast<double>(m) / kSteps;
-            const double r = taper(u, slope);
+            const double r = taper(u);
             const double away = x - u * length;
             square = std::max(square, r * r - away * away);
         }
@@ -77,13 +78,13 @@ double taper(double along, double slope)
     return 1.0 - 3.0 * t * t + 2.0 * t * t * t - slope * (t - 2.0 * t * t + t * t * t);
 }
 
-double headRadius(double length, double slope)
+double headRadius(double length, const Taper& taper)
 {
     double low = 0.0;
     double high = 1.0;
     for (int k = 0; k < 24; ++k) {
         const double middle = 0.5 * (low + high);
-        (middle * middle * sweptArea(length / middle, slope) > std::numbers::pi ? high : low) = middle;
+        (middle * middle * sweptArea(length / middle, taper) > std::numbers::pi ? high : low) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -108,7 +109,8 @@ std::vector<Tail> tailsOf(const ExpressionState& state, const ParticleFrame& fra
     constexpr std::size_t kEntries = 9;
     std::array<double, kEntries> radii{};
     for (std::size_t k = 0; k < kEntries; ++k) {
-        radii[k] = headRadius(options.max_tail * static_cast<double>(k) / (kEntries - 1), options.tail_slope);
+        radii[k] = headRadius(options.max_tail * static_cast<double>(k) / (kEntries - 1),
+                              [&](double along) { return taper(along, options.tail_slope); });
     }
     const auto radius_at = [&](double size) {
         const double place = std::min(size / options.max_tail, 1.0) * (kEntries - 1);

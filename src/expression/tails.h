@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "droplet/expression/expression.h"
@@ -18,8 +19,11 @@ struct Tail {
 /// @param slope  0.2 (thick) … 1.2 (thin)
 double taper(double along, double slope);
 
+/// Radius along a skeleton, from 0 to 1, over that of the head.
+using Taper = std::function<double(double along)>;
+
 /// Radius of the head of a tail of a length that has the area of a disc, both over the disc's radius.
-double headRadius(double length, double slope);
+double headRadius(double length, const Taper& taper);
 
 /// Tails of the particles in flight, by index in the frame; those without a tail have no points.
 std::vector<Tail> tailsOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options);

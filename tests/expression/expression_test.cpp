@@ -89,8 +89,27 @@ TEST(Expression, TaperFallsFromOneToZeroAndSteeperOnesAreThinner)
         }
     }
     EXPECT_GT(droplet::taper(0.5, 0.2), droplet::taper(0.5, 1.2));
-    EXPECT_NEAR(droplet::headRadius(0.0, 0.7), 1.0, 0.01);
-    EXPECT_LT(droplet::headRadius(8.0, 0.2), droplet::headRadius(8.0, 1.2));
+}
+
+TEST(Expression, HeadsOfCapsulesAndConesHaveTheirExactRadii)
+{
+    const auto capsule = [](double) { return 1.0; };
+    const auto cone = [](double along) { return 1.0 - along; };
+    for (const double length : {0.0, 1.0, 2.0, 4.0, 8.0}) {
+        // Equation 1, mended: πr² + 2Lr = πR².
+        const double pi = std::numbers::pi;
+        EXPECT_NEAR(droplet::headRadius(length, capsule), (std::hypot(length, pi) - length) / pi, 0.005) << length;
+        if (length > 1.0) {
+            // The disc and its tangents to a point: r²(π − acos(r/L)) + r√(L² − r²) = πR².
+            const double r = droplet::headRadius(length, cone);
+            const double area = r * r * (pi - std::acos(r / length)) + r * std::sqrt(length * length - r * r);
+            EXPECT_NEAR(area / pi, 1.0, 0.01) << length;
+        }
+        for (const double slope : {0.2, 1.2}) {
+            const double r = droplet::headRadius(length, [=](double u) { return droplet::taper(u, slope); });
+            EXPECT_GE(r + 0.005, droplet::headRadius(length, capsule));
+        }
+    }
 }
 
 /// Particles that fly to the right for a second.
@@ -121,8 +140,8 @@ TEST(Expression, TailsKeepTheAreaOfTheirDroplets)
             const ExpressionState state = flown(cluster(count), 2.0, options, frame);
             const LiquidShape shape = liquidShape(state, frame, options);
             ASSERT_EQ(shape.droplets.size(), 1U);
-            // Tails are hardly wider than the cells of the grid.
-            EXPECT_NEAR(shape.area(), areaOf(count), 0.3 * areaOf(count)) << slope << " " << count;
+            // The tail of a single particle is hardly wider than the cells of the grid; those of several overlap.
+            EXPECT_NEAR(shape.area(), areaOf(count), (count == 1 ? 0.3 : 0.15) * areaOf(count)) << slope << count;
             // The tail is as long as the way of a quarter of a second, and points backwards.
             const auto [left, right] =
                 std::minmax_element(shape.droplets[0].points.begin(), shape.droplets[0].points.end(),

@@ -7,7 +7,6 @@
 
 #include "droplet/error.h"
 #include "droplet/liquid2d/fluid.h"
-#include "droplet/liquid2d_io/fluid_presets.h"
 #include "liquid2d/region.h"
 #include "support/paths.h"
 
@@ -114,22 +113,6 @@ TEST(ReadScene, ErrorsNameFileLineAndFault)
         "a.toml:4: ", "opens in wall 1");
     refused("[[emitter]]\nposition = [\"1m\", \"2m\"]\nvelocity = [\"0m/s\", \"0m/s\"]\nwidth = \"10cm\"\n",
             "a.toml:1: ", "velocity is 0");
-}
-
-TEST(FluidPresets, AreValidAndHoldLiquid)
-{
-    for (const droplet::FluidPreset& preset : droplet::fluidPresets()) {
-        SCOPED_TRACE(preset.name);
-        EXPECT_NO_THROW(preset.scene.validate());
-        EXPECT_NO_THROW(droplet::checkEmitters(preset.scene));
-        EXPECT_EQ(&droplet::fluidPresetNamed(preset.name), &preset);
-        FluidScene coarse = preset.scene;
-        coarse.spacing = 0.05;
-        const droplet::FluidState state = droplet::advanceFluid(droplet::startFluid(coarse), coarse, 0.2);
-        EXPECT_GT(state.position.size(), 10U);
-        EXPECT_EQ(state.counts.removed, 0U);
-    }
-    EXPECT_THAT([] { droplet::fluidPresetNamed("rain"); }, ThrowsMessage<Error>(HasSubstr("splash, wave, dam, pour")));
 }
 
 }  // namespace

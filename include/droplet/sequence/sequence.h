@@ -20,8 +20,7 @@ enum class VolumeMode {
 
 /// Options of a sequence.
 struct SequenceOptions {
-    DropletOptions
-        droplet;  ///< options of every frame; the fill applies to the first frame and to new droplets, or to all
+    DropletOptions droplet;  ///< options of every frame; the fill is that of new droplets, or of all
     VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
     bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
                                 ///< where possible; if false, triangulate every frame
