@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// Surface of a liquid as triangles in space, pinned along its rim; it may hang over the rim.
+///
+/// Invariants: a manifold whose boundary is the rim; rim vertices come first, in the order of the footprint's loops;
+/// triangles are counter-clockwise from outside.
+struct SheetMesh {
+    std::vector<Vec3> places;         ///< vertices [m]
+    std::vector<Triangle> triangles;  ///< indices of three vertices
+    std::uint32_t rim = 0;            ///< number of rim vertices, which stay in place
+};
+
+}  // namespace droplet
