@@ -62,6 +62,13 @@ double crest(Vec2 velocity, Vec2 outward, double fast)
     return smoothStep(0.6, 0.9, speed / fast) * smoothStep(0.3, 0.7, dot(velocity, outward) / (speed * size));
 }
 
+/// How much a particle lies on the back of a wave, in [0, 1]: its surface moves inwards.
+double back(Vec2 velocity, Vec2 outward)
+{
+    const double size = length(velocity) * length(outward);
+    return size > 0.0 ? smoothStep(0.1, 0.5, -dot(velocity, outward) / size) : 0.0;
+}
+
 /// Whether a particle may hold air: a share of all, spread evenly over the ids.
 bool mayHoldAir(std::uint32_t id, double share)
 {
@@ -137,9 +144,12 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
                                      : 0.0;
             // On a crest the surface stretches evenly, which the criterion hardly sees; so the gate itself counts.
             const double entering = is_surface ? (options.crest_gate ? gate * (0.5 + 0.5 * churn) : churn) : 0.0;
-            const double leaving = 1.0 - smoothStep(0.3, 1.0, length(frame.velocity[i]) / state.speed);
+            const double slow = 1.0 - smoothStep(0.3, 1.0, length(frame.velocity[i]) / state.speed);
+            // A crest that has passed leaves no holes behind: air goes as fast as it came.
+            const double behind = options.crest_gate && is_surface ? back(frame.velocity[i], around.outward[i]) : 0.0;
+            const double leaving = std::max(options.release * slow, options.air * behind);
             double& air = state.air[frame.id[i]];
-            air = std::clamp(air + (options.air * entering - options.release * leaving) * dt, 0.0, options.max_air);
+            air = std::clamp(air + (options.air * entering - leaving) * dt, 0.0, options.max_air);
             state.aeration[i] = entering;
         }
     }
