@@ -17,9 +17,8 @@ using droplet::Dimension;
 
 constexpr Range kArea{Dimension::Area, 0.0, 1e6, "from 0mm2 to 1e6m2"};
 constexpr Range kVolume{Dimension::Volume, 1e-27, 1e9, "from 1e-18uL to 1e9m3"};
-// Below 90°, where the height's slope is finite.
-constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 89.999 * droplet::kDegree,
-                       "from 0.001deg to 89.999deg"};
+// At 180° liquid touches the ground all around, and does not stay in place.
+constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 179.0 * droplet::kDegree, "from 0.001deg to 179deg"};
 constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
 constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
@@ -61,6 +60,10 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
     if (const auto model = line.value("--model")) {
         solve.model =
             choice<droplet::Model>(*model, {{"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
+    }
+    if (const auto angle = line.value("--contact-angle");
+        angle && solve.model == droplet::Model::Linear && solve.fill.amount >= 0.5 * std::numbers::pi) {
+        refuse(*angle, "below 90deg with --model linear; use --model exact");
     }
 }
 
@@ -312,7 +315,8 @@ void declareLiquid(CommandLine& line)
 {
     constexpr const char* kGroup = "Liquid";
     line.add(kGroup, "--contact-angle", "ANGLE",
-             "Amount of liquid, by the mean contact angle along the rim, under 90deg [40deg]");
+             "Amount of liquid, by the mean contact angle along the rim, under 90deg, or with --model exact up to "
+             "179deg [40deg]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
     line.add(kGroup, "--height", "LENGTH", "Amount of liquid, by its largest height");
     line.add(kGroup, "--fill", "each|total",

@@ -60,7 +60,7 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& n
 double quantity(const Given& given, const Range& range)
 {
     const double value = forOption(given.subject, [&] { return droplet::parseQuantity(given.text, range.dimension); });
-    // Conversion of units rounds, and 89.999deg itself must pass.
+    // Conversion of units rounds, and 179deg itself must pass.
     const double slack = 4 * std::numeric_limits<double>::epsilon();
     if (value < range.min - slack * std::abs(range.min) || value > range.max + slack * std::abs(range.max)) {
         refuse(given, range.allowed);

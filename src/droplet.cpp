@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/droplet.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "droplet/error.h"
@@ -42,12 +46,17 @@ std::string percent(double share)
 /// of both models differ by 2 % if this share is 14 % of a letter.
 constexpr double kVisiblySteep = 0.05;
 
+/// Rims that stand so upright that a height field is not the true shape any more [rad].
+constexpr double kUpright = 89.0 * kDegree;
+
 /// Share of all rims, by length, with a contact angle of at least 89°.
 double uprightShare(const Droplet& droplet)
 {
-    constexpr double kUpright = 89.0 * kDegree;
     double upright = 0.0;
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        if (!droplet.sheets.empty() && droplet.sheets[k]) {
+            continue;  // sheets may lean over
+        }
         const PlanarMesh& mesh = droplet.meshes[k];
         const std::vector<double>& angle = droplet.solution.droplets[k].contact_angle;
         for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
@@ -156,6 +165,134 @@ std::string refusal(const SolveReport& report, const Droplet& droplet, const Fil
            "); try another number of --triangles";
 }
 
+/// Why a droplet is no sheet, and what to change.
+std::string refusal(const SheetResult& result, const std::string& which)
+{
+    const std::string at = numberText(result.volume / kMicrolitre, 4) + " uL";
+    switch (result.end) {
+        case SheetEnd::NoAngle:
+            return which + "no such droplet exists on this footprint: the mean contact angle is at most " +
+                   rounded(result.contact_angle / kDegree) + " degrees, at " + at + "; --volume goes on beyond it";
+        case SheetEnd::NoHeight:
+            return which + "no such droplet exists on this footprint: it is highest at " + at + "; ask for less";
+        case SheetEnd::Unstable:
+        case SheetEnd::Reached:
+            break;
+    }
+    return which + "no stable droplet was found on this footprint with more than " + at + " (mean contact angle " +
+           rounded(result.contact_angle / kDegree) + " degrees); ask for less";
+}
+
+/// Solves every droplet: as a height field, or, in the exact model, as a sheet that hangs over its rim where there is
+/// none.
+void solveShapes(Droplet& droplet, const SolveOptions& options, const Progress& progress)
+{
+    const std::size_t count = droplet.meshes.size();
+    const bool may_hang = options.model == Model::Exact && options.ground.flat() && !options.no_penetration &&
+                          options.fill.sharing == FillSharing::Each;
+    const bool must_hang = options.volumes.empty() && options.fill.by == FillBy::ContactAngle &&
+                           options.fill.amount >= 0.5 * std::numbers::pi;
+    Solution& solution = droplet.solution;
+    if (!may_hang || !must_hang) {
+        solution = solve(droplet.meshes, options, progress);
+    } else if (progress) {
+        progress(Stage::Solve);
+    }
+    const auto is_upright = [](const HeightField& field) {
+        return std::any_of(field.contact_angle.begin(), field.contact_angle.end(),
+                           [](double angle) { return angle >= kUpright; });
+    };
+    const bool has_field = solution.report.usable();
+    const bool has_none = solution.report.termination == Termination::NoHeightField ||
+                          solution.report.termination == Termination::OutOfSteps;
+    if (!may_hang || (!must_hang && !has_none &&
+                      !(has_field && std::any_of(solution.droplets.begin(), solution.droplets.end(), is_upright)))) {
+        if (!has_field) {
+            throw Error(ErrorCode::NoSuchDroplet, refusal(solution.report, droplet, options.fill));
+        }
+        return;
+    }
+    std::vector<HeightField> fields(count);
+    std::vector<SheetResult> results(count);
+    droplet.sheets.resize(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        SolveOptions own = options;
+        if (!options.volumes.empty()) {
+            own.volumes.clear();
+            own.fill = {FillBy::Volume, options.volumes[k], FillSharing::Each};
+        }
+        if (has_field) {
+            fields[k] = std::move(solution.droplets[k]);
+        } else if (!must_hang && count > 1) {
+            Solution one = solve({droplet.meshes[k]}, own);
+            if (one.report.usable()) {
+                fields[k] = std::move(one.droplets.front());
+            }
+        }
+        const bool has_own = !fields[k].height.empty();
+        if (has_own && !is_upright(fields[k])) {
+            return;
+        }
+        results[k] = solveSheet(droplet.meshes[k], own);
+        if (results[k].end == SheetEnd::Reached) {
+            droplet.sheets[k] = std::move(results[k].sheet);
+            fields[k] = {};
+            fields[k].contact_angle = droplet.sheets[k]->contact_angle;
+            fields[k].pressure = droplet.sheets[k]->pressure;
+        } else if (has_own) {
+            results[k].end = SheetEnd::Reached;  // the height field stands
+        }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+        if (results[k].end != SheetEnd::Reached) {
+            throw Error(
+                ErrorCode::NoSuchDroplet,
+                refusal(results[k],
+                        count == 1 ? "" : "droplet " + std::to_string(k + 1) + " of " + std::to_string(count) + ": "));
+        }
+        solution.report.newton_steps = std::max(solution.report.newton_steps, results[k].newton_steps);
+        solution.report.unknowns += droplet.sheets[k] && !has_field ? droplet.sheets[k]->places.size() : 0;
+    }
+    solution.droplets = std::move(fields);
+    solution.report.termination = Termination::Converged;
+    if (solution.report.method.empty()) {
+        solution.report.method = "simplicial-ldlt";
+    }
+}
+
+/// Surfaces of all droplets: of height fields first.
+Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
+{
+    if (droplet.sheets.empty()) {
+        return loft(droplet.meshes, droplet.solution.droplets, options);
+    }
+    LoftOptions some = options;
+    some.bases.clear();
+    std::vector<PlanarMesh> meshes;
+    std::vector<HeightField> fields;
+    Surface sheets;
+    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        if (droplet.sheets[k]) {
+            LoftOptions own = options;
+            own.bases.clear();
+            if (!options.bases.empty()) {
+                own.bases.push_back(options.bases[k]);
+            }
+            append(sheets, loft(droplet.meshes[k], *droplet.sheets[k], own));
+        } else {
+            meshes.push_back(droplet.meshes[k]);
+            fields.push_back(droplet.solution.droplets[k]);
+            if (!options.bases.empty()) {
+                some.bases.push_back(options.bases[k]);
+            }
+        }
+    }
+    Surface surface = meshes.empty() ? Surface{} : loft(meshes, fields, some);
+    append(surface, sheets);
+    surface.mean_height = droplet.total.volume / (droplet.total.footprint_area - droplet.total.dry_area);
+    return surface;
+}
+
 }  // namespace
 
 void validateStages(const DropletOptions& options)
@@ -187,15 +324,14 @@ std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& opt
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress)
 {
-    droplet.solution = solve(droplet.meshes, options.solve, progress);
-    if (!droplet.solution.report.usable()) {
-        throw Error(ErrorCode::NoSuchDroplet, refusal(droplet.solution.report, droplet, options.solve.fill));
-    }
+    solveShapes(droplet, options.solve, progress);
     if (progress) {
         progress(Stage::Loft);
     }
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        droplet.figures.push_back(measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
+        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
+        droplet.figures.push_back(is_sheet ? measure(droplet.meshes[k], *droplet.sheets[k], options.solve)
+                                           : measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
     }
     droplet.total = combine(droplet.figures);
     LoftOptions lofting{
@@ -203,7 +339,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     if (options.fill_range) {
         lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, options.solve)};
     }
-    droplet.surface = loft(droplet.meshes, droplet.solution.droplets, lofting);
+    droplet.surface = surfaceOf(droplet, lofting);
     droplet.warnings = warningsOf(droplet, options);
     if (std::string tall = heightWarning(droplet, options.solve.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));

@@ -13,6 +13,7 @@
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
 #include "droplet/shape/refill.h"
+#include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/loft.h"
 #include "droplet/surface/surface.h"
@@ -32,10 +33,13 @@ struct DropletOptions {
 
 /// Results of all stages.
 struct Droplet {
-    Outline outline;                    ///< rims of the mask
-    Domain domain;                      ///< footprints
-    std::vector<PlanarMesh> meshes;     ///< one per droplet
-    Solution solution;                  ///< height fields
+    Outline outline;                 ///< rims of the mask
+    Domain domain;                   ///< footprints
+    std::vector<PlanarMesh> meshes;  ///< one per droplet
+    Solution solution;               ///< height fields
+    std::vector<std::optional<ParametricSheet>>
+        sheets;                         ///< one per droplet, where liquid hangs over its rim; its height
+                                        ///< field then has a pressure and angles alone. Empty: none
     std::vector<ShapeFigures> figures;  ///< one per droplet
     ShapeFigures total;                 ///< figures of all droplets together
     Surface surface;                    ///< surface in space

@@ -230,6 +230,7 @@ Json shapeSection(const ShapeFigures& figures, const Json& pressure, const std::
             {"height_max_m", figures.height_max},
             {"height_bound_m", orNull(figures.height_bound)},
             {"depth_max_m", figures.depth_max},
+            {"overhang_m", figures.overhang},
             {"dry_area_m2", figures.dry_area},
             {"liquid_area_m2", figures.liquid_area},
             {"linear_area_m2", figures.linear_area},

@@ -571,7 +571,9 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         }
     }
     lineage->reservoir = reservoir.value_or(volumeOf(frame.droplets));
-    frame.continues = followed && !anyDry(frame.droplet);
+    // Sheets that hang over their rims have triangles of their own in every frame.
+    frame.continues =
+        followed && !anyDry(frame.droplet) && frame.droplet.sheets.empty() && before.droplet.sheets.empty();
     frame.lineage = std::make_shared<const FrameLineage>(*std::move(lineage));
     return frame;
 }

@@ -182,6 +182,7 @@ ShapeFigures combine(const std::vector<ShapeFigures>& droplets)
         total.height_max = std::max(total.height_max, d.height_max);
         total.height_bound = std::max(total.height_bound, d.height_bound);  // stays empty if no droplet has one
         total.depth_max = std::max(total.depth_max, d.depth_max);
+        total.overhang = std::max(total.overhang, d.overhang);
         total.liquid_area += d.liquid_area;
         total.linear_area += d.linear_area;
         total.steep_area += d.steep_area;

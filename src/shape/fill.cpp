@@ -29,8 +29,8 @@ void Fill::validate() const
             }
             break;
         case FillBy::ContactAngle:
-            if (!positive || amount >= 0.5 * std::numbers::pi) {
-                fail("contact_angle", " rad", "between 0 and 90 degrees: steeper rims are no height field");
+            if (!positive || amount >= std::numbers::pi) {
+                fail("contact_angle", " rad", "between 0 and 180 degrees");
             }
             break;
     }

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/units.h"
 #include "mesh/lattice.h"
 #include "number_text.h"
 #include "shape/constrained.h"
@@ -211,6 +212,13 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         }
     }
     checkVolumes(meshes, options);
+    if (options.fill.by == FillBy::ContactAngle && options.fill.amount >= 0.5 * std::numbers::pi) {
+        throw Error(
+            ErrorCode::InvalidArgument,
+            fmt::format("contact_angle {} degrees must be below 90: liquid hangs over its rim in the exact model "
+                        "alone, on flat ground, with an amount of its own for every droplet",
+                        numberText(options.fill.amount / kDegree)));
+    }
     requireGround(meshes, options.ground);
     if (progress) {
         progress(Stage::Assemble);

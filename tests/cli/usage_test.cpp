@@ -165,7 +165,8 @@ TEST_F(UsageTest, RefusesQuantitiesOutOfRange)
     for (const char* depth : {"0mm", "-1mm", "1e300m", "nan", "4uL"}) {
         expectRefused({"--surface-depth", depth}, {"--surface-depth", depth});
     }
-    expectRefused({"--contact-angle", "91deg"}, {"to 89.999deg"});
+    expectRefused({"--contact-angle", "91deg"}, {"below 90deg with --model linear; use --model exact"});
+    expectRefused({"--contact-angle", "180deg"}, {"to 179deg"});
     expectRefused({"--width", "0mm"}, {"from 1nm to 1000m"});
 }
 

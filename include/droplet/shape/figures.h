@@ -26,6 +26,7 @@ struct ShapeFigures {
     double volume = 0.0;           ///< ∫(u − h) [m³]
     double height_max = 0.0;       ///< largest u − h [m]
     double depth_max = 0.0;        ///< largest h − u: how far the surface sinks into the ground [m]
+    double overhang = 0.0;         ///< how far the liquid leans out over its rim, seen from above [m]
     double liquid_area = 0.0;      ///< ∫√(1+|∇u|²) where it is wet: true area of the liquid's surface [m²]
     double linear_area = 0.0;      ///< ∫(1 + ½|∇u|²) where it is wet: that area in the linear model [m²]
     double surface_energy = 0.0;   ///< σ · liquid_area [J]

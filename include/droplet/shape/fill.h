@@ -21,7 +21,8 @@ enum class FillSharing {
 /// Amount of liquid.
 struct Fill {
     FillBy by = FillBy::ContactAngle;         ///< quantity that is given
-    double amount = 40.0 * kDegree;           ///< its value, in SI units, > 0; an angle < 90°
+    double amount = 40.0 * kDegree;           ///< its value, in SI units, > 0; an angle < 180°, for height fields
+                                              ///< < 90°
     FillSharing sharing = FillSharing::Each;  ///< for each droplet, or for all together
 
     /// Checks the amount.

@@ -7,6 +7,7 @@
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/shape/refill.h"
+#include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/surface.h"
 
@@ -43,5 +44,16 @@ struct LoftOptions {
 /// @throws Error   InvalidArgument: counts differ; a field or gain does not fit its mesh or the ground; all is dry; or
 ///                 anything is dry and there are gains
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
+
+/// Closes a sheet that hangs over its rim with a flat base. Normals on the rim come from the contact angle; texture
+/// coordinates are those of the place above or below in the picture.
+/// @param footprint  that of the sheet
+/// @param options    open or closed, extent of the image, a base if known; the ground is flat; no refill
+/// @return           surface without a mean height
+/// @throws Error     InvalidArgument: options, or the rims differ
+Surface loft(const PlanarMesh& footprint, const ParametricSheet& sheet, const LoftOptions& options);
+
+/// Adds a surface to another one.
+void append(Surface& surface, const Surface& more);
 
 }  // namespace droplet

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/shape/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "blocks.h"
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "shape/sheet_energy.h"
+#include "shape/sheet_path.h"
+
+namespace droplet {
+namespace {
+
+/// Largest edges of the final sheet and of the sheets on the way, over the mean edge of the footprint's mesh.
+constexpr double kFinalEdge = 1.5;
+constexpr double kPathEdge = 5.0;
+
+/// Gradient of gravity's potential over the surface tension [1/m²].
+Vec3 weightOf(const SolveOptions& options)
+{
+    const double scale = options.liquid.density / options.liquid.surface_tension;
+    const PlaneGravity gravity = planeGravity(options);
+    return scale * Vec3{-gravity.along.x, -gravity.along.y, gravity.normal};
+}
+
+double meanEdge(const PlanarMesh& mesh)
+{
+    return std::sqrt(4.0 / std::numbers::sqrt3 * area(mesh) / static_cast<double>(mesh.triangles.size()));
+}
+
+/// Angles along the rim, weighted by its length.
+ContactAngle anglesOf(const ParametricSheet& sheet, const RimAngles& rim)
+{
+    ContactAngle angle;
+    const auto [min, max] = std::minmax_element(sheet.contact_angle.begin(), sheet.contact_angle.end());
+    const auto place_of = [&](auto at) {
+        const Vec3& p = sheet.places[static_cast<std::size_t>(at - sheet.contact_angle.begin())];
+        return Vec2{p.x, p.y};
+    };
+    angle.min = *min;
+    angle.max = *max;
+    angle.min_at = place_of(min);
+    angle.max_at = place_of(max);
+    angle.mean = rim.mean();
+    return angle;
+}
+
+/// Distance of a place to the footprint, 0 inside [m].
+double distanceTo(const PlanarMesh& footprint, Vec2 place)
+{
+    bool is_inside = false;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
+        for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
+            const Vec2 a = footprint.vertices[v];
+            const Vec2 b = footprint.vertices[nextOnRim(footprint, loop, v)];
+            const Vec2 side = b - a;
+            if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / side.y * side.x) {
+                is_inside = !is_inside;
+            }
+            const double along = std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0);
+            const Vec2 arm = place - a - along * side;
+            nearest = std::min(nearest, dot(arm, arm));
+        }
+    }
+    return is_inside ? 0.0 : std::sqrt(nearest);
+}
+
+/// How far a sheet leans out over its rim [m].
+double overhangOf(const PlanarMesh& footprint, const ParametricSheet& sheet)
+{
+    double overhang = 0.0;
+    for (const double part :
+         mapBlocks<double>(sheet.places.size() - sheet.rim, [&](std::size_t begin, std::size_t end) {
+             double farthest = 0.0;
+             for (std::size_t i = begin; i < end; ++i) {
+                 const Vec3& p = sheet.places[sheet.rim + i];
+                 farthest = std::max(farthest, distanceTo(footprint, {p.x, p.y}));
+             }
+             return farthest;
+         })) {
+        overhang = std::max(overhang, part);
+    }
+    return overhang;
+}
+
+}  // namespace
+
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
+{
+    options.liquid.validate();
+    options.fill.validate();
+    if (!options.ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
+    }
+    const Vec3 weight = weightOf(options);
+    const double edge = meanEdge(footprint);
+    const FilledSheet filled =
+        fillSheet(footprint, {options.fill.by, options.fill.amount}, {weight, kFinalEdge * edge, kPathEdge * edge});
+    SheetResult result;
+    result.end = filled.end;
+    result.volume = filled.volume;
+    result.contact_angle = filled.angle;
+    result.newton_steps = static_cast<std::size_t>(filled.newton_steps);
+    result.sheet = {filled.mesh.places, filled.mesh.triangles, filled.mesh.rim,
+                    rimAngles(filled.mesh, weight, filled.pressure).angle,
+                    options.liquid.surface_tension * filled.pressure};
+    return result;
+}
+
+ShapeFigures measure(const PlanarMesh& footprint, const ParametricSheet& sheet, const SolveOptions& options)
+{
+    const Vec3 weight = weightOf(options);
+    const SheetMesh mesh{sheet.places, sheet.triangles, sheet.rim};
+    const SheetIntegrals sums = integrate(mesh, weight);
+    const double sigma = options.liquid.surface_tension;
+    const PlaneGravity gravity = planeGravity(options);
+    ShapeFigures figures;
+    figures.footprint_area = area(footprint);
+    figures.rim_length = rimLength(footprint);
+    figures.volume = sums.volume;
+    figures.liquid_area = sums.area;
+    figures.surface_energy = sigma * sums.area;
+    figures.gravity_energy = sigma * sums.gravity;
+    for (const Vec3& p : sheet.places) {
+        figures.height_max = std::max(figures.height_max, p.z);
+        figures.depth_max = std::max(figures.depth_max, -p.z);
+    }
+    for (const Triangle& t : sheet.triangles) {
+        const Vec3 normal = cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]]);
+        figures.slope_max = std::max(figures.slope_max, std::atan2(std::hypot(normal.x, normal.y), normal.z));
+    }
+    figures.overhang = overhangOf(footprint, sheet);
+    figures.bond_number =
+        options.liquid.density * std::abs(options.gravity) * figures.footprint_area / (std::numbers::pi * sigma);
+    const double along = length(gravity.along);
+    if (along > 0.0) {
+        for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
+            for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
+                const Vec2 side = footprint.vertices[nextOnRim(footprint, loop, v)] - footprint.vertices[v];
+                figures.projected_width += 0.5 * std::abs(cross(side, gravity.along)) / along;
+            }
+        }
+    }
+    figures.contact_angle = anglesOf(sheet, rimAngles(mesh, weight, sheet.pressure / sigma));
+    if (along == 0.0 && gravity.normal > 0.0) {
+        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
+            figures.height_bound = 2.0 * *unit * std::sin(0.5 * figures.contact_angle.mean);
+        }
+    }
+    return figures;
+}
+
+}  // namespace droplet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+#include "shape/sheet_mesh.h"
+
+namespace droplet {
+
+/// Integrals over the liquid under a sheet; its base lies in z = 0.
+struct SheetIntegrals {
+    double area = 0.0;     ///< of the sheet [m²]
+    double gravity = 0.0;  ///< ∫ w·x over the liquid [m²]
+    double volume = 0.0;   ///< of the liquid [m³]
+
+    /// Energy over the surface tension [m²].
+    [[nodiscard]] double energy() const { return area + gravity; }
+};
+
+/// Integrates over a sheet.
+/// @param weight  w = ρ(g⊥e_z − g∥)/σ, gradient of gravity's potential over the surface tension [1/m²]
+SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight);
+
+/// Derivatives by the place of every vertex.
+struct SheetGradients {
+    std::vector<Vec3> energy;  ///< of area and gravity [m]
+    std::vector<Vec3> volume;  ///< [m²]; twice a third of the area around the vertex, along its normal
+};
+
+/// Gradients at all vertices, on the rim too: there they are forces.
+SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight);
+
+/// Entries of a sheet's matrices: one unknown for every vertex inside, its way along a direction of its own.
+class SheetPattern {
+public:
+    explicit SheetPattern(const SheetMesh& sheet);
+
+    /// ∂²(area + gravity − λ volume) by the unknowns, lower triangle.
+    /// @param directions  of all vertices, unit length; those of the rim do not count
+    /// @param pressure    λ over the surface tension [1/m]
+    [[nodiscard]] Eigen::SparseMatrix<double> hessian(const SheetMesh& sheet, const std::vector<Vec3>& directions,
+                                                      Vec3 weight, double pressure) const;
+
+private:
+    Eigen::SparseMatrix<double> empty_;
+    std::vector<std::array<std::int32_t, 6>> entries_;  ///< of a triangle's pairs of corners; −1 on the rim
+};
+
+}  // namespace droplet

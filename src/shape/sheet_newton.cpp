@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Newton's method on area and gravity under a volume constraint, along normals as Surface Evolver's hessian_normal
+// does (K. A. Brakke). The inertia of one factorisation tells minima from saddles: N. Gould, "On practical conditions
+// for the existence and uniqueness of solutions to the general equality quadratic programming problem" (1985). The
+// ground is a bound on heights, by a primal-dual active set: M. Hintermüller, K. Ito, K. Kunisch, SIAM J. Optim. 13
+// (2002).
+#include "shape/sheet_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace droplet {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+/// Rounds of the active set in a step, and those in which vertices may leave the ground.
+constexpr int kGroundRounds = 12;
+constexpr int kReleaseRounds = 6;
+/// Downward part of a direction from which on a step is bounded by the ground.
+constexpr double kDownward = 0.1;
+
+/// Relative refinements of the bordered system.
+constexpr int kRefinements = 2;
+
+}  // namespace
+
+bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits)
+{
+    return std::all_of(before.triangles.begin(), before.triangles.end(), [&](const Triangle& t) {
+        const auto normal = [&](const SheetMesh& sheet) {
+            return cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]]);
+        };
+        const Vec3 a = normal(before);
+        const Vec3 b = normal(after);
+        const double old_area = length(a);
+        const double new_area = length(b);
+        return dot(a, b) >= limits.min_cosine * old_area * new_area && new_area >= limits.min_area * old_area &&
+               new_area <= limits.max_area * old_area;
+    });
+}
+
+SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight)
+    : rim_(sheet.rim),
+      weight_(weight),
+      pattern_(sheet),
+      held_(sheet.places.size() - sheet.rim, 0),
+      held_motion_(sheet.places.size() - sheet.rim, 0.0)
+{
+    factor_.analyzePattern(
+        pattern_.hessian(sheet, std::vector<Vec3>(sheet.places.size(), {0.0, 0.0, 1.0}), weight, 0.0));
+}
+
+void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
+{
+    const SheetGradients gradients = gradientsOf(sheet, weight_);
+    const std::size_t count = sheet.places.size() - rim_;
+    const auto size = static_cast<Eigen::Index>(count);
+    linear_.gradient.resize(size);
+    linear_.volume.resize(size);
+    linear_.mass.resize(size);
+    linear_.directions.assign(sheet.places.size(), {});
+    std::vector<double> area(sheet.places.size(), 0.0);
+    for (const Triangle& t : sheet.triangles) {
+        const double third =
+            length(cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]])) / 6.0;
+        for (const std::uint32_t v : t) {
+            area[v] += third;
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t v = rim_ + i;
+        const auto k = static_cast<Eigen::Index>(i);
+        const double size_of = length(gradients.volume[v]);
+        Vec3 direction = size_of > 0.0 ? (1.0 / size_of) * gradients.volume[v] : Vec3{0.0, 0.0, 1.0};
+        if (sheet.places[v].z <= 0.0 && direction.z < 0.0) {
+            direction = {0.0, 0.0, -1.0};
+        } else {
+            held_[i] = 0;
+        }
+        linear_.directions[v] = direction;
+        linear_.gradient[k] = dot(direction, gradients.energy[v]);
+        linear_.volume[k] = dot(direction, gradients.volume[v]);
+        linear_.mass[k] = area[v];
+    }
+    linear_.full = pattern_.hessian(sheet, linear_.directions, weight_, pressure);
+}
+
+bool SheetSolver::factor(double shift)
+{
+    shift_ = shift;
+    linear_.matrix = linear_.full;
+    Eigen::SparseMatrix<double>& matrix = linear_.matrix;
+    for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
+        for (Eigen::SparseMatrix<double>::InnerIterator at(matrix, column); at; ++at) {
+            const bool is_held =
+                held_[static_cast<std::size_t>(at.row())] != 0 || held_[static_cast<std::size_t>(column)] != 0;
+            if (at.row() == column) {
+                at.valueRef() = is_held ? 1.0 : at.value() + shift * linear_.mass[column];
+            } else if (is_held) {
+                at.valueRef() = 0.0;
+            }
+        }
+    }
+    factor_.factorize(matrix);
+    if (factor_.info() != Eigen::Success) {
+        return false;
+    }
+    Vector border = linear_.volume;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        if (held_[i] != 0) {
+            border[static_cast<Eigen::Index>(i)] = 0.0;
+        }
+    }
+    response_ = factor_.solve(border);
+    return response_.allFinite();
+}
+
+int SheetSolver::negatives() const
+{
+    return static_cast<int>((factor_.vectorD().array() < 0.0).count()) + (linear_.volume.dot(response_) > 0.0 ? 1 : 0);
+}
+
+SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume_change) const
+{
+    // Held unknowns have a motion of their own; what they push goes to the right side.
+    const Eigen::Index size = forces.size();
+    Vector given = Vector::Zero(size);
+    Vector free_volume = linear_.volume;
+    Vector right = forces;
+    bool any = false;
+    for (Eigen::Index i = 0; i < size; ++i) {
+        if (held_[static_cast<std::size_t>(i)] != 0) {
+            given[i] = held_motion_[static_cast<std::size_t>(i)];
+            any = true;
+        }
+    }
+    if (any) {
+        right -= linear_.full.selfadjointView<Eigen::Lower>() * given;
+        volume_change -= linear_.volume.dot(given);
+        for (Eigen::Index i = 0; i < size; ++i) {
+            if (held_[static_cast<std::size_t>(i)] != 0) {
+                right[i] = 0.0;
+                free_volume[i] = 0.0;
+            }
+        }
+    }
+    Step step;
+    step.motion = Vector::Zero(size);
+    const double across = free_volume.dot(response_);
+    Vector rest = right;
+    double rest_volume = volume_change;
+    for (int round = 0; round <= kRefinements; ++round) {
+        const Vector part = factor_.solve(rest);
+        const double change = (rest_volume - free_volume.dot(part)) / across;
+        step.motion += part + change * response_;
+        step.pressure += change;
+        rest = right - linear_.matrix.selfadjointView<Eigen::Lower>() * step.motion + step.pressure * free_volume;
+        rest_volume = volume_change - free_volume.dot(step.motion);
+    }
+    step.motion += given;
+    return step;
+}
+
+double SheetSolver::residual(double pressure) const
+{
+    double rest = 0.0;
+    double scale = 0.0;
+    double area = 0.0;
+    for (Eigen::Index i = 0; i < linear_.gradient.size(); ++i) {
+        area += linear_.mass[i];
+        if (held_[static_cast<std::size_t>(i)] != 0) {
+            continue;
+        }
+        const double r = linear_.gradient[i] - pressure * linear_.volume[i];
+        rest += r * r / linear_.mass[i];
+        scale += linear_.volume[i] * linear_.volume[i] / linear_.mass[i];
+    }
+    return std::sqrt(rest / scale) / std::max(std::abs(pressure), 2.0 / std::sqrt(area));
+}
+
+bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
+{
+    const SheetMesh before = sheet;
+    const double energy = integrate(before, weight_).energy();
+    // Slope of the energy along the step at fixed volume.
+    const double slope = std::min(0.0, linear_.gradient.dot(step.motion));
+    const double across = linear_.volume.dot(response_);
+    const Vector along = (1.0 / across) * response_;
+    constexpr int kHalvings = 12;
+    double part = 1.0;
+    for (int k = 0; k < kHalvings; ++k, part *= 0.5) {
+        sheet.places = before.places;
+        const auto move = [&](const Vector& motion, double size) {
+            for (Eigen::Index i = 0; i < motion.size(); ++i) {
+                const std::size_t v = rim_ + static_cast<std::size_t>(i);
+                sheet.places[v] = sheet.places[v] + (size * motion[i]) * linear_.directions[v];
+            }
+        };
+        move(step.motion, part);
+        bool is_full = false;
+        for (int round = 0; round < 8 && !is_full; ++round) {
+            for (std::size_t v = rim_; v < sheet.places.size(); ++v) {
+                // A sheet that leans over does not sink into the ground.
+                if (sheet.places[v].z < 0.0 && linear_.directions[v].z <= 0.0) {
+                    sheet.places[v].z = 0.0;
+                }
+            }
+            const double missing = volume - integrate(sheet, weight_).volume;
+            is_full = std::abs(missing) <= 1e-13 * volume;
+            if (!is_full) {
+                move(along, missing);
+            }
+        }
+        const SheetIntegrals now = integrate(sheet, weight_);
+        if (std::abs(now.volume - volume) > 1e-10 * volume || !isGentle(before, sheet, {})) {
+            continue;
+        }
+        if (now.energy() <= energy + 1e-4 * part * slope + 1e-12 * std::abs(energy) + (k == 0 ? 0.0 : 0.0)) {
+            return true;
+        }
+        // A step that first has to reach the volume may cost energy.
+        if (std::abs(integrate(before, weight_).volume - volume) > 1e-9 * volume) {
+            return true;
+        }
+    }
+    sheet.places = before.places;
+    return false;
+}
+
+void SheetSolver::finish()
+{
+    const double across = linear_.volume.dot(response_);
+    pressure_slope_ = 1.0 / across;
+    tangent_.assign(linear_.directions.size(), {});
+    for (Eigen::Index i = 0; i < response_.size(); ++i) {
+        const std::size_t v = rim_ + static_cast<std::size_t>(i);
+        tangent_[v] = (response_[i] / across) * linear_.directions[v];
+    }
+}
+
+NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
+{
+    NewtonResult result;
+    std::fill(held_.begin(), held_.end(), std::uint8_t{0});
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;  // linearise() releases those that face upwards
+    }
+    int shifted = 0;
+    double last = std::numeric_limits<double>::infinity();
+    for (;; ++result.steps) {
+        linearise(sheet, pressure);
+        std::fill(held_motion_.begin(), held_motion_.end(), 0.0);
+        for (std::size_t i = 0; i < held_.size(); ++i) {
+            // Vertices on the ground are held while the energy presses them down.
+            const auto k = static_cast<Eigen::Index>(i);
+            if (held_[i] != 0) {
+                held_motion_[i] = sheet.places[rim_ + i].z;
+                if (linear_.gradient[k] - pressure * linear_.volume[k] > 0.0) {
+                    held_[i] = 0;
+                }
+            }
+        }
+        result.residual = residual(pressure);
+        const bool is_full = std::abs(integrate(sheet, weight_).volume - volume) <= 1e-10 * volume;
+        const double area = linear_.mass.sum();
+        const double least = 0.05 * std::max(pressure * pressure, 4.0 * std::numbers::pi / area);
+        const bool is_done = is_full && (result.residual <= limits.tolerance ||
+                                         (result.residual <= limits.stagnated && result.residual > 0.3 * last));
+        if (is_done) {
+            result.converged = factor(0.0) && negatives() == 1;
+            if (result.converged) {
+                finish();
+            }
+            return result;
+        }
+        if (result.steps >= limits.steps) {
+            return result;
+        }
+        last = is_full ? result.residual : last;
+
+        Step step;
+        for (int round = 0;; ++round) {
+            double shift = 0.0;
+            while (!factor(shift) || negatives() != 1) {
+                shift = shift == 0.0 ? least : 3.0 * shift;
+                if (shift > 1e12 * least) {
+                    return result;
+                }
+            }
+            shifted += shift > 0.0 && round == 0 ? 1 : 0;
+            const Vector forces = pressure * linear_.volume - linear_.gradient;
+            step = solveBordered(forces, volume - integrate(sheet, weight_).volume);
+            if (!step.motion.allFinite()) {
+                return result;
+            }
+            bool has_changed = false;
+            const Vector pushed =
+                linear_.full.selfadjointView<Eigen::Lower>() * step.motion - forces - step.pressure * linear_.volume;
+            for (std::size_t i = 0; i < held_.size(); ++i) {
+                const std::size_t v = rim_ + i;
+                const auto k = static_cast<Eigen::Index>(i);
+                const double down = linear_.directions[v].z;
+                if (held_[i] != 0) {
+                    if (round < kReleaseRounds && pushed[k] > 0.0) {
+                        held_[i] = 0;
+                        has_changed = true;
+                    }
+                } else if (down < -kDownward && sheet.places[v].z + step.motion[k] * down < 0.0) {
+                    held_[i] = 1;
+                    held_motion_[i] = -sheet.places[v].z / down;
+                    has_changed = true;
+                }
+            }
+            if (!has_changed || round == kGroundRounds) {
+                break;
+            }
+        }
+        if (shifted > limits.shifted_steps || !moveWithin(sheet, step, volume)) {
+            return result;
+        }
+        pressure += step.pressure;
+    }
+}
+
+double SheetSolver::stiffness() const
+{
+    // Inverse iteration within b·u = 0.
+    const Eigen::Index size = linear_.mass.size();
+    Vector u(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        u[i] = held_[static_cast<std::size_t>(i)] != 0 ? 0.0 : std::sin(12.9898 * static_cast<double>(i) + 1.0);
+    }
+    const double across = linear_.volume.dot(response_);
+    double value = 0.0;
+    constexpr int kRounds = 20;
+    for (int round = 0; round < kRounds; ++round) {
+        Vector right = linear_.mass.cwiseProduct(u);
+        Vector next = factor_.solve(right);
+        next -= (linear_.volume.dot(next) / across) * response_;
+        for (Eigen::Index i = 0; i < size; ++i) {
+            next[i] = held_[static_cast<std::size_t>(i)] != 0 ? 0.0 : next[i];
+        }
+        const double before = value;
+        value = right.dot(u) / right.dot(next);
+        u = next / std::sqrt(linear_.mass.dot(next.cwiseProduct(next)));
+        if (round > 3 && std::abs(value - before) < 1e-3 * std::abs(value)) {
+            break;
+        }
+    }
+    return value;
+}
+
+}  // namespace droplet

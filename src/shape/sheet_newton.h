@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <cstdint>
+#include <vector>
+
+#include "shape/sheet_energy.h"
+
+namespace droplet {
+
+/// Limits of Newton's method.
+struct NewtonLimits {
+    int steps = 14;           ///< most steps
+    int shifted_steps = 4;    ///< most steps with a matrix that had to be shifted to have a minimum
+    double tolerance = 1e-9;  ///< relative residual at which it ends
+    double stagnated = 1e-7;  ///< relative residual that is good enough when steps no longer lower it
+};
+
+/// Result of Newton's method.
+struct NewtonResult {
+    bool converged = false;  ///< to a minimum of the energy at the given volume
+    int steps = 0;
+    double residual = 0.0;  ///< relative
+};
+
+/// Equilibria of sheets with one topology: area and gravity are least at a given volume, and nothing is below the
+/// ground, z = 0.
+class SheetSolver {
+public:
+    /// @param sheet   gives the topology
+    /// @param weight  as in integrate()
+    SheetSolver(const SheetMesh& sheet, Vec3 weight);
+
+    /// Moves the vertices inside until the sheet is in equilibrium; the volume is exact in every step.
+    /// @param sheet     start, near enough; receives the result, also of a failure
+    /// @param volume    [m³]
+    /// @param pressure  λ over the surface tension, start and result [1/m]
+    NewtonResult solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits = {});
+
+    // Of the equilibrium that solve() found last:
+
+    /// Motion of every vertex per volume [1/m²].
+    [[nodiscard]] const std::vector<Vec3>& tangent() const { return tangent_; }
+    /// Change of the pressure per volume [1/m⁴].
+    [[nodiscard]] double pressureSlope() const { return pressure_slope_; }
+    /// Least eigenvalue of the energy's second derivative, by the mass of vertices, among motions that keep the
+    /// volume [1/m²]: 0 where the equilibrium ends.
+    [[nodiscard]] double stiffness() const;
+
+private:
+    struct Linear {
+        Eigen::VectorXd gradient;  ///< of the energy, g
+        Eigen::VectorXd volume;    ///< of the volume, b
+        Eigen::VectorXd mass;      ///< area around every vertex
+        std::vector<Vec3> directions;
+        Eigen::SparseMatrix<double> matrix;  ///< with rows of held unknowns cleared
+        Eigen::SparseMatrix<double> full;    ///< without shift and holding
+    };
+    struct Step {
+        Eigen::VectorXd motion;
+        double pressure = 0.0;  ///< change
+    };
+
+    void linearise(const SheetMesh& sheet, double pressure);
+    bool factor(double shift);
+    /// Number of negative eigenvalues of the bordered matrix: 1 at a minimum.
+    [[nodiscard]] int negatives() const;
+    [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
+    [[nodiscard]] double residual(double pressure) const;
+    bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
+    void finish();
+
+    std::uint32_t rim_;
+    Vec3 weight_;
+    SheetPattern pattern_;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+    Linear linear_;
+    Eigen::VectorXd response_;  ///< w = L⁻¹b
+    double shift_ = 0.0;
+    std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
+    std::vector<double> held_motion_;  ///< their motion in the current step
+    std::vector<Vec3> tangent_;
+    double pressure_slope_ = 0.0;
+};
+
+/// Whether no triangle turns by more than an angle or changes its area beyond a range.
+struct MotionLimits {
+    double min_cosine = 0.5;
+    double min_area = 0.2;
+    double max_area = 4.0;
+};
+bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits);
+
+}  // namespace droplet

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/sheet.h"
+#include "shape/sheet_mesh.h"
+
+namespace droplet {
+
+/// What a sheet should become.
+struct SheetTarget {
+    FillBy by = FillBy::Volume;  ///< volume, largest height, or mean contact angle along the rim
+    double amount = 0.0;         ///< [m³], [m] or [rad], > 0; an angle ≤ π
+};
+
+/// Liquid and accuracy of a sheet.
+struct SheetOptions {
+    Vec3 weight;             ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
+    double edge = 0.0;       ///< largest edge of a triangle at the end [m], > 0
+    double path_edge = 0.0;  ///< the same on the way; at least edge
+    double min_step = 1e-3;  ///< smallest step of the volume, over the volume
+};
+
+/// Angles between liquid and ground along the rim.
+struct RimAngles {
+    std::vector<double> angle;   ///< at every rim vertex, 0 … π [rad]
+    std::vector<double> weight;  ///< length of the rim that belongs to it [m]
+
+    [[nodiscard]] double mean() const;
+};
+
+/// Angles from the forces that the rim holds; they include the pressure and gravity on the triangles there.
+/// @param pressure  λ over the surface tension [1/m]
+RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure);
+
+/// Equilibrium of a liquid that may hang over its rim.
+struct FilledSheet {
+    SheetMesh mesh;
+    double pressure = 0.0;  ///< λ over the surface tension [1/m]
+    double volume = 0.0;    ///< [m³]
+    double height = 0.0;    ///< [m]
+    double angle = 0.0;     ///< mean along the rim [rad]
+    SheetEnd end = SheetEnd::Reached;
+    int steps = 0;         ///< of the volume
+    int newton_steps = 0;  ///< in all
+};
+
+/// Fills a footprint from dry ground up to a target, by steps of the volume.
+///
+/// Guarantees: the sheet is in equilibrium, a minimum of its energy at its volume, which is met to 1e-10; its rim is
+/// that of the footprint; nothing is below z = 0 but where it faces upwards. If the target is not reached, it is the
+/// last equilibrium before the end.
+FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
+
+}  // namespace droplet

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "shape/sheet_mesh.h"
+
+namespace droplet {
+
+/// Sizes of new triangles.
+struct RemeshOptions {
+    double edge = 0.0;      ///< largest edge inside [m], > 0
+    double min_edge = 0.0;  ///< smallest edge that curvature may ask for [m], > 0
+    int rounds = 4;         ///< of splitting, collapsing, flipping and smoothing
+};
+
+/// Gives a sheet new triangles: as long as the rim's edges at the rim, shorter where the sheet is bent, growing
+/// inwards.
+///
+/// Guarantees: the rim keeps its vertices and edges; no triangle has three rim vertices and no edge inside joins two;
+/// the topology stays; vertices inside move along the sheet alone, up to its curvature; the same input gives the same
+/// bytes.
+SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
+
+/// Smallest angle of any triangle [rad].
+double minAngle(const SheetMesh& sheet);
+
+}  // namespace droplet
