@@ -22,7 +22,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow glyph
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow glyphs liquid2d wind-tunnel windshield' -l keep -x -d 'Keep only the N largest droplets'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow glyphs liquid2d wind-tunnel windshield' -l speck-size -x -d 'Drop spots and holes smaller than F square pixels'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from animate batch compare flow glyphs liquid2d morph wind-tunnel windshield' -l mask-out -r -F -d 'Write the mask that was used, as PNG; - is standard output'
-complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l contact-angle -x -d 'Amount of liquid, by the mean contact angle along the rim, under 90deg'
+complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l contact-angle -x -d 'Amount of liquid, by the mean contact angle along the rim, under 90deg, or with --model exact up to 179deg'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l volume -x -d 'Amount of liquid, by its volume'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l height -x -d 'Amount of liquid, by its largest height'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l fill -x -a 'each total' -d 'each: every droplet gets this amount; total: all droplets share it at one pressure'
