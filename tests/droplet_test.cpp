@@ -700,6 +700,13 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
     const double radius = 100.0 * 0.2 * kMillimetre;
     const double max = 2.0 / 3.0 * std::numbers::pi * radius * radius * radius;
     options.solve.fill = {FillBy::Volume, 1.2 * max, FillSharing::Each};
+    const Droplet bead = makeDroplet(mask, options);
+    expectSound(bead);
+    ASSERT_EQ(bead.sheets.size(), 1U);
+    EXPECT_TRUE(bead.sheets[0]);
+    EXPECT_GT(bead.total.contact_angle.mean, 0.5 * std::numbers::pi);
+    // Droplets that share their liquid are height fields.
+    options.solve.fill.sharing = FillSharing::Total;
     try {
         (void)makeDroplet(mask, options);
         FAIL();
@@ -710,7 +717,7 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
         ASSERT_NE(at, std::string::npos) << message;
         EXPECT_NEAR(std::stod(message.substr(at + 30)) * kMicrolitre / max, 1.0, 0.02) << message;
     }
-    options.solve.fill.amount = 0.9 * max;
+    options.solve.fill = {FillBy::Volume, 0.9 * max, FillSharing::Each};
     EXPECT_EQ(makeDroplet(mask, options).solution.report.termination, Termination::Converged);
     options.solve.gravity = -300.0;
     try {

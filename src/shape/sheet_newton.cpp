@@ -217,7 +217,7 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
         if (std::abs(now.volume - volume) > 1e-10 * volume || !isGentle(before, sheet, {})) {
             continue;
         }
-        if (now.energy() <= energy + 1e-4 * part * slope + 1e-12 * std::abs(energy) + (k == 0 ? 0.0 : 0.0)) {
+        if (now.energy() <= energy + 1e-4 * part * slope + 1e-12 * std::abs(energy)) {
             return true;
         }
         // A step that first has to reach the volume may cost energy.

@@ -121,9 +121,8 @@ private:
         using Entry = std::pair<double, int>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         for (const VertexHandle v : mesh_.vertices()) {
-            double size = options_.edge;
+            double size = 0.0;
             if (onRim(v)) {
-                size = 0.0;
                 for (const EdgeHandle edge : mesh_.ve_range(v)) {
                     size = mesh_.is_boundary(edge) ? std::max(size, lengthOf(edge)) : size;
                 }
@@ -234,7 +233,7 @@ private:
                 continue;
             }
             const Point place = middle(a, b);
-            const VertexHandle v = mesh_.add_vertex(place);
+            const VertexHandle v(mesh_.add_vertex(place).idx());
             sizes_.push_back(wanted(a, b));
             Point normal = normals_[static_cast<std::size_t>(a.idx())] + normals_[static_cast<std::size_t>(b.idx())];
             normals_.push_back(normal.normalize_cond());
@@ -329,7 +328,7 @@ private:
             if (other == kept || !onRim(other)) {
                 continue;
             }
-            const HalfedgeHandle joining = mesh_.find_halfedge(kept, other);
+            const HalfedgeHandle joining(mesh_.find_halfedge(kept, other).idx());
             if (!joining.is_valid() || !mesh_.is_boundary(mesh_.edge_handle(joining))) {
                 return false;
             }

@@ -145,6 +145,10 @@ void SolveOptions::validate() const
 {
     liquid.validate();
     fill.validate();
+    if (model == Model::Linear && fill.by == FillBy::ContactAngle && fill.amount >= 0.5 * std::numbers::pi) {
+        throw Error(ErrorCode::InvalidArgument, "contact_angle " + numberText(fill.amount / kDegree) +
+                                                    " degrees must be below 90 in the linear model");
+    }
     if (!std::isfinite(gravity)) {
         throw Error(ErrorCode::InvalidArgument, "gravity " + numberText(gravity) + " m/s² must be finite");
     }

@@ -47,7 +47,8 @@ TEST(FluidPresets, AreValidAndHoldLiquid)
 int newlyWet(const DeepPicture& before, const DeepPicture& now, double distance, bool is_wet)
 {
     const auto wet = [&](const DeepPicture& picture, int x, int y) {
-        return (picture.levels[static_cast<std::size_t>(y * picture.width + x)] > 32767) == is_wet;
+        return (picture.levels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                               static_cast<std::size_t>(x)] > 32767) == is_wet;
     };
     const int reach = static_cast<int>(std::ceil(distance));
     int count = 0;
