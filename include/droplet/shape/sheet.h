@@ -57,6 +57,8 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
 
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
 /// @param footprint  that of solveSheet
+/// @param sheet      result of solveSheet
+/// @param options    options it was solved with
 ShapeFigures measure(const PlanarMesh& footprint, const ParametricSheet& sheet, const SolveOptions& options);
 
 }  // namespace droplet
