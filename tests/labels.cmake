@@ -9,8 +9,10 @@ string(JOIN "|" slow
   Grading.MeshesAreValid Grading.NumberOfTriangles
   Hanging.FallsBeyond
   LatticeCore.EveryEdge
+  Morph.AreaChangesEvenly
   Multigrid.AutoFactorsIfIt
   Penetration.ExactFilm Penetration.KktHold Penetration.SolversAgree
+  Sheet.Caps Sheet.Gravity
   Solvers.AgreeOnTheZoo
   Walk.IsTheFormulaOnASlope Walk.NeverLeavesTheSurface)
 foreach(test IN LISTS tests)

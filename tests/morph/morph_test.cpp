@@ -111,7 +111,9 @@ TEST(Morph, SameBytesAtAnyNumberOfThreads)
     std::vector<std::vector<std::vector<Vec2>>> results;
     for (const std::size_t threads : {1U, 4U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        results.push_back(pointsOf(framesOf(footprints, quick(5))[2].liquid));
+        MorphOptions options = quick(5);
+        options.particles = 1000;
+        results.push_back(pointsOf(framesOf(footprints, options)[2].liquid));
     }
     EXPECT_EQ(results[0], results[1]);
 }

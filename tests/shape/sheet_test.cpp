@@ -213,7 +213,7 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     // A U: liquid closes its slot from the bottom, on ground that is outside of the footprint.
     const Loop loop =
         polygonLoop({{0, 0}, {1.3, 0}, {1.3, 1.5}, {0.8, 1.5}, {0.8, 0.5}, {0.5, 0.5}, {0.5, 1.5}, {0, 1.5}});
-    const PlanarMesh mesh = triangulate(domainOf(loop), {.edge = 0.06}).front();
+    const PlanarMesh mesh = triangulate(domainOf(loop), {.edge = 0.08}).front();
     const SolveOptions options = unitLiquid(0.0, FillBy::Volume, 1.0);
     const SheetResult result = solveSheet(mesh, options);
     ASSERT_EQ(result.end, SheetEnd::Reached);
@@ -230,11 +230,11 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     EXPECT_GT(grounded, 10U);
     // The finer mesh has less energy.
     const ShapeFigures fine = [&] {
-        const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.04}).front();
+        const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.06}).front();
         return measure(finer, solveSheet(finer, options).sheet, options);
     }();
     EXPECT_LT(fine.surface_energy, figures.surface_energy);
-    EXPECT_NEAR(fine.surface_energy, figures.surface_energy, 5e-3 * figures.surface_energy);
+    EXPECT_NEAR(fine.surface_energy, figures.surface_energy, 1e-2 * figures.surface_energy);
 }
 
 TEST(Sheet, SaysWhereTheMeanAngleHasItsMaximum)
