@@ -405,11 +405,7 @@ private:
     [[nodiscard]] droplet::Picture picture() const
     {
         const std::vector<droplet::Region> walls = source_->walls();
-        droplet::Picture white;
-        white.width = view_.width;
-        white.height = view_.height;
-        white.rgb.assign(3 * static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height), 255);
-        return droplet::over(liquidLayer({shape_, walls}, view_, options_.look), white);
+        return onWhite(liquidLayer({shape_, walls}, view_, options_.look));
     }
 
     void finish()

@@ -205,15 +205,9 @@ public:
                     },
                     options_.animation.run.files);
                 break;
-            case MorphOutput::Video: {
-                droplet::Picture white;
-                white.width = view_.width;
-                white.height = view_.height;
-                white.rgb.assign(3 * static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height),
-                                 255);
-                video_->add(droplet::over(liquidLayer({shape, none}, view_, options_.look), white));
+            case MorphOutput::Video:
+                video_->add(onWhite(liquidLayer({shape, none}, view_, options_.look)));
                 break;
-            }
         }
     }
 

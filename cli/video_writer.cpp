@@ -46,6 +46,13 @@ const Container* containerOf(const std::string& path)
     return nullptr;
 }
 
+droplet::Picture plainPicture(int width, int height, unsigned char level)
+{
+    droplet::Picture picture{width, height, {}};
+    picture.rgb.assign(std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), level);
+    return picture;
+}
+
 Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const std::string& path,
                     std::optional<int> file)
 {
@@ -125,11 +132,14 @@ void checkCodec(const std::string& codec, const std::string& path)
     refuse({codec, "--codec"}, "a video encoder of ffmpeg, listed by ffmpeg -encoders");
 }
 
+droplet::Picture onWhite(const droplet::Layer& layer)
+{
+    return droplet::over(layer, plainPicture(layer.width, layer.height, 255));
+}
+
 void tryVideo(const VideoWriterOptions& options)
 {
-    droplet::Picture black{options.width, options.height, {}};
-    black.rgb.assign(
-        std::size_t{3} * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height), 0);
+    const droplet::Picture black = plainPicture(options.width, options.height, 0);
     try {
         VideoWriter video(options);
         video.add(black);

@@ -36,6 +36,9 @@ void checkCodec(const std::string& codec, const std::string& path);
 /// @throws droplet::Error InvalidArgument, naming --codec, with ffmpeg's message
 void tryVideo(const VideoWriterOptions& options);
 
+/// Layer on white: videos have no transparency.
+droplet::Picture onWhite(const droplet::Layer& layer);
+
 /// Encodes a video by the program ffmpeg into a temporary file, in BT.709 colours, and tagged so.
 class VideoWriter {
 public:

@@ -9,6 +9,7 @@
 #include "droplet/error.h"
 #include "droplet/expression/expression.h"
 #include "require.h"
+#include "surface_kernel.h"
 #include "surroundings.h"
 
 namespace droplet {
@@ -32,12 +33,6 @@ constexpr double kSeen = 30.0;
 /// Maximum number of frames whose positions are kept.
 constexpr std::size_t kMaxPast = 16;
 
-double smoothStep(double from, double to, double x)
-{
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
 /// Speed that one particle in twenty exceeds.
 double highSpeed(const ParticleFrame& frame)
 {
@@ -59,14 +54,14 @@ double crest(Vec2 velocity, Vec2 outward, double fast)
     if (!(speed > 0.0) || !(size > 0.0) || !(fast > 0.0)) {
         return 0.0;
     }
-    return smoothStep(0.6, 0.9, speed / fast) * smoothStep(0.3, 0.7, dot(velocity, outward) / (speed * size));
+    return smoothRamp(speed / fast, 0.6, 0.9) * smoothRamp(dot(velocity, outward) / (speed * size), 0.3, 0.7);
 }
 
 /// How much a particle lies on the back of a wave, in [0, 1]: its surface moves inwards.
 double back(Vec2 velocity, Vec2 outward)
 {
     const double size = length(velocity) * length(outward);
-    return size > 0.0 ? smoothStep(0.1, 0.5, -dot(velocity, outward) / size) : 0.0;
+    return size > 0.0 ? smoothRamp(-dot(velocity, outward) / size, 0.1, 0.5) : 0.0;
 }
 
 /// Whether a particle may hold air: a share of all, spread evenly over the ids.
@@ -144,7 +139,7 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
                                      : 0.0;
             // On a crest the surface stretches evenly, which the criterion hardly sees; so the gate itself counts.
             const double entering = is_surface ? (options.crest_gate ? gate * (0.5 + 0.5 * churn) : churn) : 0.0;
-            const double slow = 1.0 - smoothStep(0.3, 1.0, length(frame.velocity[i]) / state.speed);
+            const double slow = 1.0 - smoothRamp(length(frame.velocity[i]) / state.speed, 0.3, 1.0);
             // A crest that has passed leaves no holes behind: air goes as fast as it came.
             const double behind = options.crest_gate && is_surface ? back(frame.velocity[i], around.outward[i]) : 0.0;
             const double leaving = std::max(options.release * slow, options.air * behind);

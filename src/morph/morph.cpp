@@ -13,6 +13,7 @@
 #include "droplet/error.h"
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/morph/morph_targets.h"
+#include "expression/surface_kernel.h"
 #include "liquid2d/region.h"
 #include "morph_field.h"
 #include "require.h"
@@ -53,11 +54,6 @@ double wayAt(double t)
 double speedAt(double t)
 {
     return 30.0 * t * t * (1.0 - t) * (1.0 - t);
-}
-double smoothStep(double t)
-{
-    t = std::clamp(t, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
 }
 
 /// Velocities averaged over a radius, on a grid.
@@ -189,10 +185,10 @@ public:
     {
         const double d = scene_.spacing;
         const double t = state_.time;
-        const double coarse = smoothStep(2.0 * std::min(t, 1.0 - t));
+        const double coarse = smoothRamp(2.0 * std::min(t, 1.0 - t), 0.0, 1.0);
         const double radius = d * (kFine + (kCoarse - kFine) * coarse);
-        const double of_from = 1.0 - smoothStep(t / kBlend);
-        const double of_to = 1.0 - smoothStep((1.0 - t) / kBlend);
+        const double of_from = 1.0 - smoothRamp(t / kBlend, 0.0, 1.0);
+        const double of_to = 1.0 - smoothRamp((1.0 - t) / kBlend, 0.0, 1.0);
         Vec2 lower = state_.position.front();
         Vec2 upper = lower;
         const auto include = [&](const std::vector<Vec2>& points) {
@@ -238,7 +234,7 @@ private:
         for (std::size_t i = 0; i < asked.size(); ++i) {
             asked[i] = rate * (goal_[state.id[i]] - state.position[i]);
         }
-        const double together = smoothStep((1.0 - t) / kAlone);
+        const double together = smoothRamp((1.0 - t) / kAlone, 0.0, 1.0);
         const VelocityAverage average(state.position, kTogether * scene_.spacing);
         const std::vector<Vec2> common = average.of(state.position, asked);
         const double firmness = 1.0 / std::max(together * kLoose + (1.0 - together) * kFirm, 2.0 * state.step);

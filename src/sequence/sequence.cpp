@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -21,6 +20,7 @@
 #include "droplet/mesh/follow.h"
 #include "droplet/mesh/patch.h"
 #include "droplet/units.h"
+#include "mesh/mean_edge.h"
 #include "pipeline.h"
 
 namespace droplet {
@@ -335,7 +335,7 @@ FrameLineage triangulateAnew(const Domain& domain, const DropletOptions& options
             covered += area(mesh);
             triangles += mesh.triangles.size();
         }
-        lineage.edge = std::sqrt(4.0 / std::numbers::sqrt3 * covered / static_cast<double>(triangles));
+        lineage.edge = meanEdge(covered, triangles);
     }
     if (needBases(options)) {
         lineage.bases.resize(meshes.size());

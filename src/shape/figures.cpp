@@ -14,6 +14,7 @@
 #include "droplet/units.h"
 #include "number_text.h"
 #include "shape/gradient.h"
+#include "shape/rim_figures.h"
 
 namespace droplet {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 /// Square of the slope up to which the linear model's area is within 10 % (thesis, section 4.1.2): tan² 50°.
 constexpr double kSteep = 1.4202766254612063;
 
-void measureRim(const PlanarMesh& mesh, const HeightField& field, Vec2 downhill, ShapeFigures& figures)
+void measureRim(const PlanarMesh& mesh, const std::vector<double>& contact_angle, Vec2 downhill, ShapeFigures& figures)
 {
     ContactAngle& angle = figures.contact_angle;
     angle.min = std::numeric_limits<double>::infinity();
@@ -32,8 +33,8 @@ void measureRim(const PlanarMesh& mesh, const HeightField& field, Vec2 downhill,
             const std::uint32_t next = nextOnRim(mesh, loop, v);
             const Vec2 along = mesh.vertices[next] - mesh.vertices[v];
             const double edge = length(along);
-            const double here = field.contact_angle[v];
-            sum += 0.5 * edge * (here + field.contact_angle[next]);
+            const double here = contact_angle[v];
+            sum += 0.5 * edge * (here + contact_angle[next]);
             figures.rim_length += edge;
             figures.projected_width += 0.5 * std::abs(cross(along, downhill));
             if (here < angle.min) {
@@ -122,6 +123,22 @@ Retention retention(const ShapeFigures& figures, const SolveOptions& options, co
                 (std::cos(hysteresis.receding) - std::cos(hysteresis.advancing))};
 }
 
+void addRimFigures(const PlanarMesh& mesh, const std::vector<double>& contact_angle, const SolveOptions& options,
+                   ShapeFigures& figures)
+{
+    const PlaneGravity gravity = planeGravity(options);
+    figures.bond_number = options.liquid.density * std::abs(options.gravity) * figures.footprint_area /
+                          (std::numbers::pi * options.liquid.surface_tension);
+    const double along = length(gravity.along);
+    measureRim(mesh, contact_angle, along > 0.0 ? (1.0 / along) * gravity.along : Vec2{}, figures);
+    const double angle = figures.contact_angle.mean;
+    if (options.ground.flat() && along == 0.0 && gravity.normal > 0.0 && angle > 0.0) {
+        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
+            figures.height_bound = 2.0 * *unit * std::sin(0.5 * angle);
+        }
+    }
+}
+
 ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options)
 {
     Sums total;
@@ -156,15 +173,7 @@ ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const Sol
     figures.surface_energy = sigma * figures.liquid_area;
     figures.gravity_energy = density * (0.5 * gravity.normal * total.squares - dot(gravity.along, total.moment));
     figures.slope_max = std::atan(std::sqrt(total.steepest));
-    figures.bond_number = density * std::abs(options.gravity) * total.area / (std::numbers::pi * sigma);
-    const double along = length(gravity.along);
-    measureRim(mesh, field, along > 0.0 ? (1.0 / along) * gravity.along : Vec2{}, figures);
-    const double angle = figures.contact_angle.mean;
-    if (options.ground.flat() && along == 0.0 && gravity.normal > 0.0 && angle > 0.0) {
-        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
-            figures.height_bound = 2.0 * *unit * std::sin(0.5 * angle);
-        }
-    }
+    addRimFigures(mesh, field.contact_angle, options, figures);
     return figures;
 }
 

@@ -16,6 +16,7 @@
 
 #include "blocks.h"
 #include "mesh/lattice.h"
+#include "mesh/mean_edge.h"
 
 namespace droplet {
 namespace {
@@ -148,12 +149,6 @@ void fillRows(SparseRows& rows, const Make& make)
             rows.values[at++] = entry.value;
         }
     });
-}
-
-/// Edge of an equilateral triangle of the mesh's mean area.
-double meanEdge(const PlanarMesh& mesh)
-{
-    return std::sqrt(4.0 / std::numbers::sqrt3 * area(mesh) / static_cast<double>(mesh.triangles.size()));
 }
 
 /// Triangle of the lattice that contains a point.
@@ -670,7 +665,7 @@ Hierarchy buildHierarchy(const PlanarMesh& mesh, const Operator& whole)
     Operator op = whole;
     op.mass_weight = std::max(op.mass_weight, 0.0);
     Hierarchy hierarchy;
-    hierarchy.edge = mesh.lattice ? mesh.lattice->edge : meanEdge(mesh);
+    hierarchy.edge = mesh.lattice ? mesh.lattice->edge : meanEdge(area(mesh), mesh.triangles.size());
     double edge = hierarchy.edge;
     const LatticeRegion free = freePoints(mesh, op.held);
     const OffLattice off = findOffLattice(mesh, op.held, 2.0 * edge);

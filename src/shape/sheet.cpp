@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "blocks.h"
 #include "droplet/error.h"
-#include "droplet/units.h"
+#include "mesh/mean_edge.h"
+#include "shape/rim_figures.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_path.h"
 
@@ -25,28 +25,6 @@ Vec3 weightOf(const SolveOptions& options)
     const double scale = options.liquid.density / options.liquid.surface_tension;
     const PlaneGravity gravity = planeGravity(options);
     return scale * Vec3{-gravity.along.x, -gravity.along.y, gravity.normal};
-}
-
-double meanEdge(const PlanarMesh& mesh)
-{
-    return std::sqrt(4.0 / std::numbers::sqrt3 * area(mesh) / static_cast<double>(mesh.triangles.size()));
-}
-
-/// Angles along the rim, weighted by its length.
-ContactAngle anglesOf(const ParametricSheet& sheet, const RimAngles& rim)
-{
-    ContactAngle angle;
-    const auto [min, max] = std::minmax_element(sheet.contact_angle.begin(), sheet.contact_angle.end());
-    const auto place_of = [&](auto at) {
-        const Vec3& p = sheet.places[static_cast<std::size_t>(at - sheet.contact_angle.begin())];
-        return Vec2{p.x, p.y};
-    };
-    angle.min = *min;
-    angle.max = *max;
-    angle.min_at = place_of(min);
-    angle.max_at = place_of(max);
-    angle.mean = rim.mean();
-    return angle;
 }
 
 /// Distance of a place to the footprint, 0 inside [m].
@@ -98,7 +76,7 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
         throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
     }
     const Vec3 weight = weightOf(options);
-    const double edge = meanEdge(footprint);
+    const double edge = meanEdge(area(footprint), footprint.triangles.size());
     const FilledSheet filled =
         fillSheet(footprint, {options.fill.by, options.fill.amount}, {weight, kFinalEdge * edge, kPathEdge * edge});
     SheetResult result;
@@ -114,14 +92,10 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
 
 ShapeFigures measure(const PlanarMesh& footprint, const ParametricSheet& sheet, const SolveOptions& options)
 {
-    const Vec3 weight = weightOf(options);
-    const SheetMesh mesh{sheet.places, sheet.triangles, sheet.rim};
-    const SheetIntegrals sums = integrate(mesh, weight);
+    const SheetIntegrals sums = integrate({sheet.places, sheet.triangles, sheet.rim}, weightOf(options));
     const double sigma = options.liquid.surface_tension;
-    const PlaneGravity gravity = planeGravity(options);
     ShapeFigures figures;
     figures.footprint_area = area(footprint);
-    figures.rim_length = rimLength(footprint);
     figures.volume = sums.volume;
     figures.liquid_area = sums.area;
     figures.surface_energy = sigma * sums.area;
@@ -131,27 +105,11 @@ ShapeFigures measure(const PlanarMesh& footprint, const ParametricSheet& sheet, 
         figures.depth_max = std::max(figures.depth_max, -p.z);
     }
     for (const Triangle& t : sheet.triangles) {
-        const Vec3 normal = cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]]);
+        const Vec3 normal = areaVector(sheet.places, t);
         figures.slope_max = std::max(figures.slope_max, std::atan2(std::hypot(normal.x, normal.y), normal.z));
     }
     figures.overhang = overhangOf(footprint, sheet);
-    figures.bond_number =
-        options.liquid.density * std::abs(options.gravity) * figures.footprint_area / (std::numbers::pi * sigma);
-    const double along = length(gravity.along);
-    if (along > 0.0) {
-        for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
-            for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
-                const Vec2 side = footprint.vertices[nextOnRim(footprint, loop, v)] - footprint.vertices[v];
-                figures.projected_width += 0.5 * std::abs(cross(side, gravity.along)) / along;
-            }
-        }
-    }
-    figures.contact_angle = anglesOf(sheet, rimAngles(mesh, weight, sheet.pressure / sigma));
-    if (along == 0.0 && gravity.normal > 0.0) {
-        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
-            figures.height_bound = 2.0 * *unit * std::sin(0.5 * figures.contact_angle.mean);
-        }
-    }
+    addRimFigures(footprint, sheet.contact_angle, options, figures);
     return figures;
 }
 

@@ -20,7 +20,7 @@ struct Facet {
     Vec3 normal;  ///< N, as long as the area
 
     Facet(const SheetMesh& sheet, const Triangle& t)
-        : x{sheet.places[t[0]], sheet.places[t[1]], sheet.places[t[2]]}, normal(0.5 * cross(x[1] - x[0], x[2] - x[0]))
+        : x{sheet.places[t[0]], sheet.places[t[1]], sheet.places[t[2]]}, normal(areaVector(sheet.places, t))
     {
     }
 };

@@ -19,4 +19,10 @@ struct SheetMesh {
     std::uint32_t rim = 0;            ///< number of rim vertices, which stay in place
 };
 
+/// Half the cross product of two edges: outward, as long as the triangle's area.
+inline Vec3 areaVector(const std::vector<Vec3>& places, const Triangle& t)
+{
+    return 0.5 * cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
+}
+
 }  // namespace droplet

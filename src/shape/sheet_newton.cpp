@@ -29,11 +29,8 @@ constexpr int kRefinements = 2;
 bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits)
 {
     return std::all_of(before.triangles.begin(), before.triangles.end(), [&](const Triangle& t) {
-        const auto normal = [&](const SheetMesh& sheet) {
-            return cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]]);
-        };
-        const Vec3 a = normal(before);
-        const Vec3 b = normal(after);
+        const Vec3 a = areaVector(before.places, t);
+        const Vec3 b = areaVector(after.places, t);
         const double old_area = length(a);
         const double new_area = length(b);
         return dot(a, b) >= limits.min_cosine * old_area * new_area && new_area >= limits.min_area * old_area &&
@@ -63,8 +60,7 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
     linear_.directions.assign(sheet.places.size(), {});
     std::vector<double> area(sheet.places.size(), 0.0);
     for (const Triangle& t : sheet.triangles) {
-        const double third =
-            length(cross(sheet.places[t[1]] - sheet.places[t[0]], sheet.places[t[2]] - sheet.places[t[0]])) / 6.0;
+        const double third = length(areaVector(sheet.places, t)) / 3.0;
         for (const std::uint32_t v : t) {
             area[v] += third;
         }
@@ -89,7 +85,6 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
 
 bool SheetSolver::factor(double shift)
 {
-    shift_ = shift;
     linear_.matrix = linear_.full;
     Eigen::SparseMatrix<double>& matrix = linear_.matrix;
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
@@ -183,7 +178,9 @@ double SheetSolver::residual(double pressure) const
 bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
 {
     const SheetMesh before = sheet;
-    const double energy = integrate(before, weight_).energy();
+    const SheetIntegrals start = integrate(before, weight_);
+    // A step that first has to reach the volume may cost energy.
+    const bool has_volume = std::abs(start.volume - volume) <= 1e-9 * volume;
     // Slope of the energy along the step at fixed volume.
     const double slope = std::min(0.0, linear_.gradient.dot(step.motion));
     const double across = linear_.volume.dot(response_);
@@ -217,11 +214,7 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
         if (std::abs(now.volume - volume) > 1e-10 * volume || !isGentle(before, sheet, {})) {
             continue;
         }
-        if (now.energy() <= energy + 1e-4 * part * slope + 1e-12 * std::abs(energy)) {
-            return true;
-        }
-        // A step that first has to reach the volume may cost energy.
-        if (std::abs(integrate(before, weight_).volume - volume) > 1e-9 * volume) {
+        if (!has_volume || now.energy() <= start.energy() + 1e-4 * part * slope + 1e-12 * std::abs(start.energy())) {
             return true;
         }
     }
@@ -229,21 +222,21 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
     return false;
 }
 
-void SheetSolver::finish()
+void SheetSolver::describe(NewtonResult& result) const
 {
     const double across = linear_.volume.dot(response_);
-    pressure_slope_ = 1.0 / across;
-    tangent_.assign(linear_.directions.size(), {});
+    result.converged = true;
+    result.pressure_slope = 1.0 / across;
+    result.tangent.assign(linear_.directions.size(), {});
     for (Eigen::Index i = 0; i < response_.size(); ++i) {
         const std::size_t v = rim_ + static_cast<std::size_t>(i);
-        tangent_[v] = (response_[i] / across) * linear_.directions[v];
+        result.tangent[v] = (response_[i] / across) * linear_.directions[v];
     }
 }
 
 NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
 {
     NewtonResult result;
-    std::fill(held_.begin(), held_.end(), std::uint8_t{0});
     for (std::size_t i = 0; i < held_.size(); ++i) {
         held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;  // linearise() releases those that face upwards
     }
@@ -263,15 +256,15 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             }
         }
         result.residual = residual(pressure);
-        const bool is_full = std::abs(integrate(sheet, weight_).volume - volume) <= 1e-10 * volume;
+        const double missing = volume - integrate(sheet, weight_).volume;
+        const bool is_full = std::abs(missing) <= 1e-10 * volume;
         const double area = linear_.mass.sum();
         const double least = 0.05 * std::max(pressure * pressure, 4.0 * std::numbers::pi / area);
         const bool is_done = is_full && (result.residual <= limits.tolerance ||
                                          (result.residual <= limits.stagnated && result.residual > 0.3 * last));
         if (is_done) {
-            result.converged = factor(0.0) && negatives() == 1;
-            if (result.converged) {
-                finish();
+            if (factor(0.0) && negatives() == 1) {
+                describe(result);
             }
             return result;
         }
@@ -291,7 +284,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             }
             shifted += shift > 0.0 && round == 0 ? 1 : 0;
             const Vector forces = pressure * linear_.volume - linear_.gradient;
-            step = solveBordered(forces, volume - integrate(sheet, weight_).volume);
+            step = solveBordered(forces, missing);
             if (!step.motion.allFinite()) {
                 return result;
             }
@@ -322,34 +315,6 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
         }
         pressure += step.pressure;
     }
-}
-
-double SheetSolver::stiffness() const
-{
-    // Inverse iteration within b·u = 0.
-    const Eigen::Index size = linear_.mass.size();
-    Vector u(size);
-    for (Eigen::Index i = 0; i < size; ++i) {
-        u[i] = held_[static_cast<std::size_t>(i)] != 0 ? 0.0 : std::sin(12.9898 * static_cast<double>(i) + 1.0);
-    }
-    const double across = linear_.volume.dot(response_);
-    double value = 0.0;
-    constexpr int kRounds = 20;
-    for (int round = 0; round < kRounds; ++round) {
-        Vector right = linear_.mass.cwiseProduct(u);
-        Vector next = factor_.solve(right);
-        next -= (linear_.volume.dot(next) / across) * response_;
-        for (Eigen::Index i = 0; i < size; ++i) {
-            next[i] = held_[static_cast<std::size_t>(i)] != 0 ? 0.0 : next[i];
-        }
-        const double before = value;
-        value = right.dot(u) / right.dot(next);
-        u = next / std::sqrt(linear_.mass.dot(next.cwiseProduct(next)));
-        if (round > 3 && std::abs(value - before) < 1e-3 * std::abs(value)) {
-            break;
-        }
-    }
-    return value;
 }
 
 }  // namespace droplet

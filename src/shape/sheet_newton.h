@@ -21,7 +21,9 @@ struct NewtonLimits {
 struct NewtonResult {
     bool converged = false;  ///< to a minimum of the energy at the given volume
     int steps = 0;
-    double residual = 0.0;  ///< relative
+    double residual = 0.0;        ///< relative
+    std::vector<Vec3> tangent;    ///< if converged: motion of every vertex per volume [1/m²]
+    double pressure_slope = 0.0;  ///< if converged: change of the pressure per volume [1/m⁴]
 };
 
 /// Equilibria of sheets with one topology: area and gravity are least at a given volume, and nothing is below the
@@ -37,16 +39,6 @@ public:
     /// @param volume    [m³]
     /// @param pressure  λ over the surface tension, start and result [1/m]
     NewtonResult solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits = {});
-
-    // Of the equilibrium that solve() found last:
-
-    /// Motion of every vertex per volume [1/m²].
-    [[nodiscard]] const std::vector<Vec3>& tangent() const { return tangent_; }
-    /// Change of the pressure per volume [1/m⁴].
-    [[nodiscard]] double pressureSlope() const { return pressure_slope_; }
-    /// Least eigenvalue of the energy's second derivative, by the mass of vertices, among motions that keep the
-    /// volume [1/m²]: 0 where the equilibrium ends.
-    [[nodiscard]] double stiffness() const;
 
 private:
     struct Linear {
@@ -69,27 +61,26 @@ private:
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
     bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
-    void finish();
+    void describe(NewtonResult& result) const;
 
     std::uint32_t rim_;
     Vec3 weight_;
     SheetPattern pattern_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
     Linear linear_;
-    Eigen::VectorXd response_;  ///< w = L⁻¹b
-    double shift_ = 0.0;
+    Eigen::VectorXd response_;         ///< w = L⁻¹b
     std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
     std::vector<double> held_motion_;  ///< their motion in the current step
-    std::vector<Vec3> tangent_;
-    double pressure_slope_ = 0.0;
 };
 
-/// Whether no triangle turns by more than an angle or changes its area beyond a range.
+/// How far triangles may change.
 struct MotionLimits {
-    double min_cosine = 0.5;
-    double min_area = 0.2;
+    double min_cosine = 0.5;  ///< of the angle by which a triangle turns
+    double min_area = 0.2;    ///< after the motion, over that before
     double max_area = 4.0;
 };
+
+/// Whether no triangle turns or changes its area beyond the limits.
 bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits);
 
 }  // namespace droplet

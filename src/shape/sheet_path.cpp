@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "shape/sheet_energy.h"
 #include "shape/sheet_newton.h"
@@ -33,6 +34,8 @@ constexpr double kCoarser = 1.6;
 constexpr double kSamePressure = 0.1;
 /// Fall of the mean angle from its maximum that proves the maximum [rad].
 constexpr double kFallen = std::numbers::pi / 180.0;
+/// Height over its maximum that proves the maximum.
+constexpr double kLower = 0.99;
 
 double heightOf(const SheetMesh& sheet)
 {
@@ -43,131 +46,139 @@ double heightOf(const SheetMesh& sheet)
     return height;
 }
 
-/// Path of one sheet. Lengths are in roots of the footprint's area over π.
+/// Equilibrium on the path.
+struct State {
+    SheetMesh sheet;
+    double pressure = 0.0;  ///< λ over the surface tension [1/m]
+    double volume = 0.0;    ///< [m³]
+    NewtonResult newton;    ///< how it was reached, and where it leads
+};
+
+/// Place of every vertex after a motion along the tangent, for a change of the volume.
+std::vector<Vec3> movedPlaces(const State& state, double size)
+{
+    std::vector<Vec3> places = state.sheet.places;
+    for (std::size_t v = state.sheet.rim; v < places.size(); ++v) {
+        places[v] = places[v] + size * state.newton.tangent[v];
+    }
+    return places;
+}
+
+/// Path of one sheet.
 class Path {
 public:
     Path(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options)
         : target_(target), options_(options)
     {
-        sheet_.rim = footprint.rimVertexCount();
-        sheet_.triangles = footprint.triangles;
+        now_.sheet.rim = footprint.rimVertexCount();
+        now_.sheet.triangles = footprint.triangles;
         for (const Vec2 p : footprint.vertices) {
-            sheet_.places.push_back({p.x, p.y, 0.0});
+            now_.sheet.places.push_back({p.x, p.y, 0.0});
         }
+        // The flat sheet is in equilibrium with no liquid.
+        use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
+        now_.newton = solver_->solve(now_.sheet, 0.0, now_.pressure);
+        newton_steps_ = now_.newton.steps;
     }
 
     FilledSheet run()
     {
-        FilledSheet result;
-        solver_ = std::make_unique<SheetSolver>(sheet_, options_.weight);
-        // The flat sheet is in equilibrium with no liquid.
-        NewtonResult flat = solver_->solve(sheet_, 0.0, pressure_);
-        newton_steps_ += flat.steps;
-        meshed_area_ = integrate(sheet_, options_.weight).area;
-        meshed_angle_ = minAngle(sheet_);
-        const double base = meshed_area_;
-        const double length_scale = std::sqrt(base / std::numbers::pi);
-        double step = 0.02 * length_scale * length_scale * length_scale;
-        SheetEnd end = SheetEnd::Unstable;
-        double largest_angle = 0.0;
-        double largest_height = 0.0;
-        int settled = 0;
-        for (steps_ = 0; steps_ < kMaxSteps; ++steps_) {
-            const double left = wayTo();
-            if (std::abs(left) <= 1e-12 * std::max(volume_, 1e-300) || settled > kMaxSettling) {
-                end = SheetEnd::Reached;
-                break;
-            }
-            bool is_last = std::abs(left) <= step;
-            double size = is_last ? left : std::copysign(step, left);
-            size = gentle(size);
-            is_last = is_last && size == left;
-            const int steps = advance(size);
-            if (steps < 0) {
-                step = kRefused * std::min(step, std::abs(size));
-                if (step < options_.min_step * std::max(volume_, 1e-3 * length_scale * base)) {
-                    break;
-                }
-                continue;
-            }
-            settled += is_last ? 1 : 0;
-            if (!is_last) {
-                step = std::min(std::abs(size), step) * (steps <= kFew ? kGrow : steps > kMany ? kShrink : 1.0);
-            }
-            if (is_last && target_.by == FillBy::Volume) {
-                volume_ = target_.amount;
-                end = SheetEnd::Reached;
-                break;
-            }
-            const double angle = rimAngles(sheet_, options_.weight, pressure_).mean();
-            largest_angle = std::max(largest_angle, angle);
-            if (target_.by == FillBy::ContactAngle && angle < largest_angle - kFallen) {
-                end = SheetEnd::NoAngle;
-                break;
-            }
-            const double height = heightOf(sheet_);
-            largest_height = std::max(largest_height, height);
-            if (target_.by == FillBy::Height && height < 0.99 * largest_height) {
-                end = SheetEnd::NoHeight;
-                break;
-            }
-        }
+        const SheetEnd end = follow();
         refine(end);
-        result.mesh = sheet_;
-        result.pressure = pressure_;
-        result.volume = volume_;
-        result.height = heightOf(sheet_);
-        result.angle = rimAngles(sheet_, options_.weight, pressure_).mean();
-        result.end = end;
-        result.steps = steps_;
-        result.newton_steps = newton_steps_;
-        return result;
+        return {now_.sheet,
+                now_.pressure,
+                now_.volume,
+                heightOf(now_.sheet),
+                rimAngles(now_.sheet, options_.weight, now_.pressure).mean(),
+                end,
+                newton_steps_};
     }
 
 private:
     static constexpr int kMaxSteps = 400;
     static constexpr int kMaxSettling = 8;
 
+    /// Follows the path up to the target, or to its end.
+    SheetEnd follow()
+    {
+        const double base = meshed_area_;
+        const double length_scale = std::sqrt(base / std::numbers::pi);
+        double step = 0.02 * length_scale * length_scale * length_scale;
+        double largest = 0.0;
+        int settled = 0;
+        for (int k = 0; k < kMaxSteps; ++k) {
+            const double left = wayTo();
+            if (std::abs(left) <= 1e-12 * std::max(now_.volume, 1e-300) || settled > kMaxSettling) {
+                return SheetEnd::Reached;
+            }
+            const double size = gentle(std::abs(left) <= step ? left : std::copysign(step, left));
+            const bool is_last = size == left;
+            if (!advance(size)) {
+                step = kRefused * std::min(step, std::abs(size));
+                if (step < options_.min_step * std::max(now_.volume, 1e-3 * length_scale * base)) {
+                    return SheetEnd::Unstable;
+                }
+                continue;
+            }
+            if (is_last) {
+                ++settled;
+            } else {
+                const int steps = now_.newton.steps;
+                step = std::min(std::abs(size), step) * (steps <= kFew ? kGrow : steps > kMany ? kShrink : 1.0);
+            }
+            if (target_.by == FillBy::Volume) {
+                if (is_last) {
+                    now_.volume = target_.amount;
+                    return SheetEnd::Reached;
+                }
+                continue;
+            }
+            const double amount = amountOf(now_.sheet, now_.pressure);
+            largest = std::max(largest, amount);
+            if (target_.by == FillBy::ContactAngle && amount < largest - kFallen) {
+                return SheetEnd::NoAngle;
+            }
+            if (target_.by == FillBy::Height && amount < kLower * largest) {
+                return SheetEnd::NoHeight;
+            }
+        }
+        return SheetEnd::Unstable;
+    }
+
+    /// Height or mean contact angle, whichever is the target.
+    [[nodiscard]] double amountOf(const SheetMesh& sheet, double pressure) const
+    {
+        return target_.by == FillBy::Height ? heightOf(sheet) : rimAngles(sheet, options_.weight, pressure).mean();
+    }
+
     /// Volume that is missing to the target, by the tangent.
     [[nodiscard]] double wayTo() const
     {
         if (target_.by == FillBy::Volume) {
-            return target_.amount - volume_;
+            return target_.amount - now_.volume;
         }
         // By a motion along the tangent that is small against the sheet.
         const double scale = std::pow(meshed_area_, 1.5);
         const double probe = 1e-6 * scale;
-        SheetMesh moved = sheet_;
-        for (std::size_t v = 0; v < moved.places.size(); ++v) {
-            moved.places[v] = moved.places[v] + probe * solver_->tangent()[v];
-        }
-        const double pressure = pressure_ + probe * solver_->pressureSlope();
-        double now = 0.0;
-        double then = 0.0;
-        if (target_.by == FillBy::Height) {
-            now = heightOf(sheet_);
-            then = heightOf(moved);
-        } else {
-            now = rimAngles(sheet_, options_.weight, pressure_).mean();
-            then = rimAngles(moved, options_.weight, pressure).mean();
-        }
-        const double missing = target_.amount - now;
+        SheetMesh moved = now_.sheet;
+        moved.places = movedPlaces(now_, probe);
+        const double amount = amountOf(now_.sheet, now_.pressure);
+        const double then = amountOf(moved, now_.pressure + probe * now_.newton.pressure_slope);
+        const double missing = target_.amount - amount;
         if (std::abs(missing) <= 1e-9 * target_.amount) {
             return 0.0;
         }
-        const double slope = (then - now) / probe;
+        const double slope = (then - amount) / probe;
         return slope > 0.0 ? missing / slope : std::copysign(scale, missing);
     }
 
     /// Size of a step along the tangent, shortened until no triangle turns too far.
     [[nodiscard]] double gentle(double size) const
     {
-        SheetMesh moved = sheet_;
+        SheetMesh moved = now_.sheet;
         for (int k = 0; k < 30; ++k, size *= 0.6) {
-            for (std::size_t v = 0; v < moved.places.size(); ++v) {
-                moved.places[v] = sheet_.places[v] + size * solver_->tangent()[v];
-            }
-            if (isGentle(sheet_, moved, kPredicted)) {
+            moved.places = movedPlaces(now_, size);
+            if (isGentle(now_.sheet, moved, kPredicted)) {
                 break;
             }
         }
@@ -175,43 +186,39 @@ private:
     }
 
     /// Goes a step of the volume.
-    /// @return  number of Newton's steps; negative if refused
-    int advance(double size)
+    /// @return  false if refused; then nothing has changed
+    bool advance(double size)
     {
-        const SheetMesh before = sheet_;
-        const double pressure_before = pressure_;
-        for (std::size_t v = sheet_.rim; v < sheet_.places.size(); ++v) {
-            sheet_.places[v] = sheet_.places[v] + size * solver_->tangent()[v];
-            if (solver_->tangent()[v].z < 0.0 && sheet_.places[v].z < 0.0) {
-                sheet_.places[v].z = 0.0;
+        State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
+        next.sheet.places = movedPlaces(now_, size);
+        for (std::size_t v = next.sheet.rim; v < next.sheet.places.size(); ++v) {
+            if (now_.newton.tangent[v].z < 0.0 && next.sheet.places[v].z < 0.0) {
+                next.sheet.places[v].z = 0.0;
             }
         }
-        pressure_ += size * solver_->pressureSlope();
-        const NewtonResult newton = solver_->solve(sheet_, volume_ + size, pressure_);
-        newton_steps_ += newton.steps;
-        bool is_good = newton.converged;
-        if (is_good && !is_final_ && needsTriangles()) {
-            is_good = renew(volume_ + size, std::max(options_.edge, options_.path_edge));
+        next.newton = solver_->solve(next.sheet, next.volume, next.pressure);
+        newton_steps_ += next.newton.steps;
+        if (!next.newton.converged) {
+            return false;
         }
-        if (!is_good) {
-            sheet_ = before;
-            pressure_ = pressure_before;
-            solver_ = std::make_unique<SheetSolver>(sheet_, options_.weight);
-            newton_steps_ += solver_->solve(sheet_, volume_, pressure_).steps;
-            return -1;
+        const int steps = next.newton.steps;
+        if (!is_final_ && needsTriangles(next.sheet) &&
+            !renew(next, std::max(options_.edge, options_.path_edge))) {
+            return false;
         }
-        volume_ += size;
-        return newton.steps;
+        now_ = std::move(next);
+        now_.newton.steps = steps;  // those of the step itself set the size of the next one
+        return true;
     }
 
     /// Gives the last sheet its final triangles, and leads it to the target on them.
     void refine(SheetEnd end)
     {
-        const FilledSheet coarse{sheet_, pressure_, volume_, 0.0, 0.0, end, 0, 0};
+        const State coarse = now_;
         // Where a sheet is folded at a corner, small triangles may fail.
-        bool is_fine = renew(volume_, options_.edge);
+        bool is_fine = renew(now_, options_.edge);
         for (double edge = kCoarser * options_.edge; !is_fine && edge < options_.path_edge; edge *= kCoarser) {
-            is_fine = renew(volume_, edge);
+            is_fine = renew(now_, edge);
         }
         if (!is_fine) {
             return;
@@ -219,53 +226,54 @@ private:
         is_final_ = true;
         for (int round = 0; end == SheetEnd::Reached && round < kMaxSettling; ++round) {
             const double left = wayTo();
-            if (std::abs(left) <= 1e-12 * volume_) {
+            if (std::abs(left) <= 1e-12 * now_.volume) {
                 return;
             }
-            if (std::abs(left) > 0.1 * volume_ || advance(left) < 0) {
-                sheet_ = coarse.mesh;
-                pressure_ = coarse.pressure;
-                volume_ = coarse.volume;
+            if (std::abs(left) > 0.1 * now_.volume || !advance(left)) {
+                now_ = coarse;
                 return;
             }
         }
     }
 
-    [[nodiscard]] bool needsTriangles() const
+    [[nodiscard]] bool needsTriangles(const SheetMesh& sheet) const
     {
-        return minAngle(sheet_) < std::min(kLeastAngle * std::numbers::pi / 180.0, 0.7 * meshed_angle_) ||
-               integrate(sheet_, options_.weight).area > kGrowth * meshed_area_;
+        return minAngle(sheet) < std::min(kLeastAngle * std::numbers::pi / 180.0, 0.7 * meshed_angle_) ||
+               integrate(sheet, options_.weight).area > kGrowth * meshed_area_;
     }
 
-    /// Gives the sheet new triangles at the same volume.
-    bool renew(double volume, double edge)
+    /// Gives an equilibrium new triangles at the same volume.
+    /// @return  false if it is another one on them; then nothing has changed
+    bool renew(State& state, double edge)
     {
-        SheetMesh next = remesh(sheet_, {edge, edge / 8.0});
-        double pressure = pressure_;
-        auto solver = std::make_unique<SheetSolver>(next, options_.weight);
-        const NewtonResult newton = solver->solve(next, volume, pressure);
-        newton_steps_ += newton.steps;
-        if (!newton.converged || std::abs(pressure - pressure_) > kSamePressure * std::abs(pressure_)) {
+        State next{remesh(state.sheet, {edge, edge / 8.0}), state.pressure, state.volume, {}};
+        auto solver = std::make_unique<SheetSolver>(next.sheet, options_.weight);
+        next.newton = solver->solve(next.sheet, next.volume, next.pressure);
+        newton_steps_ += next.newton.steps;
+        if (!next.newton.converged ||
+            std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
             return false;
         }
-        sheet_ = std::move(next);
-        pressure_ = pressure;
-        solver_ = std::move(solver);
-        meshed_area_ = integrate(sheet_, options_.weight).area;
-        meshed_angle_ = minAngle(sheet_);
+        use(std::move(solver), next.sheet);
+        state = std::move(next);
         return true;
+    }
+
+    /// Takes the solver of new triangles.
+    void use(std::unique_ptr<SheetSolver> solver, const SheetMesh& sheet)
+    {
+        solver_ = std::move(solver);
+        meshed_area_ = integrate(sheet, options_.weight).area;
+        meshed_angle_ = minAngle(sheet);
     }
 
     SheetTarget target_;
     SheetOptions options_;
-    SheetMesh sheet_;
-    std::unique_ptr<SheetSolver> solver_;
-    double pressure_ = 0.0;
-    double volume_ = 0.0;
-    double meshed_area_ = 0.0;   ///< when the triangles were made
-    double meshed_angle_ = 0.0;  ///< smallest one then [rad]
-    bool is_final_ = false;      ///< the triangles stay
-    int steps_ = 0;
+    State now_;
+    std::unique_ptr<SheetSolver> solver_;  ///< for the triangles of now_
+    double meshed_area_ = 0.0;             ///< when the triangles were made
+    double meshed_angle_ = 0.0;            ///< smallest one then [rad]
+    bool is_final_ = false;                ///< the triangles stay
     int newton_steps_ = 0;
 };
 

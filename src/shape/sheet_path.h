@@ -43,7 +43,6 @@ struct FilledSheet {
     double height = 0.0;    ///< [m]
     double angle = 0.0;     ///< mean along the rim [rad]
     SheetEnd end = SheetEnd::Reached;
-    int steps = 0;         ///< of the volume
     int newton_steps = 0;  ///< in all
 };
 

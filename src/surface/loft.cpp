@@ -18,6 +18,7 @@
 #include "droplet/mesh/triangulate.h"
 #include "number_text.h"
 #include "shape/recovered_gradients.h"
+#include "shape/sheet_mesh.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
 
@@ -327,6 +328,69 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     }
     surface.mean_height = whole.volume / whole.area;
     return surface;
+}
+
+Surface loft(const PlanarMesh& footprint, const ParametricSheet& sheet, const LoftOptions& options)
+{
+    options.validate();
+    if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
+        throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
+    }
+    const HeightField level;
+    Piece piece{&footprint, &level, false, {}, {}, {sheet.places.size(), sheet.triangles.size()}};
+    Counts total = piece.base;
+    if (!options.open) {
+        piece.cover = options.bases.empty() ? cover(footprint) : options.bases.front();
+        total.vertices += piece.cover.vertices.size();
+        total.triangles += piece.cover.triangles.size();
+    }
+    Surface surface;
+    surface.positions = sheet.places;
+    surface.triangles = sheet.triangles;
+    surface.normals.resize(total.vertices);
+    for (const Triangle& t : sheet.triangles) {
+        const Vec3 normal = areaVector(sheet.places, t);
+        for (const std::uint32_t v : t) {
+            surface.normals[v] = surface.normals[v] + normal;
+        }
+    }
+    // On the rim the mean is one-sided; there the contact angle is exact.
+    const std::vector<Vec2> outward = rimNormals(footprint);
+    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+        const Vec2 side = std::sin(sheet.contact_angle[v]) * outward[v];
+        surface.normals[v] = {side.x, side.y, std::cos(sheet.contact_angle[v])};
+    }
+    surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
+    for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
+        surface.normals[v] = (1.0 / length(surface.normals[v])) * surface.normals[v];
+        surface.uvs.push_back(textureAt({sheet.places[v].x, sheet.places[v].y}, options));
+        surface.weld.push_back(v);
+    }
+    surface.positions.resize(total.vertices);
+    surface.uvs.resize(total.vertices);
+    surface.contact_angle.resize(total.vertices, 0.0F);
+    surface.weld.resize(total.vertices);
+    surface.triangles.resize(total.triangles);
+    if (!options.open) {
+        fillBase(piece, options, surface);
+    }
+    return surface;
+}
+
+void append(Surface& surface, const Surface& more)
+{
+    const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    add(surface.positions, more.positions);
+    add(surface.normals, more.normals);
+    add(surface.uvs, more.uvs);
+    add(surface.contact_angle, more.contact_angle);
+    for (const std::uint32_t v : more.weld) {
+        surface.weld.push_back(first + v);
+    }
+    for (const Triangle& t : more.triangles) {
+        surface.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
 }
 
 }  // namespace droplet

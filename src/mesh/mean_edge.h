@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace droplet {
+
+/// Edge of equilateral triangles that cover an area together.
+inline double meanEdge(double area, std::size_t triangles)
+{
+    return std::sqrt(4.0 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
+}
+
+}  // namespace droplet
