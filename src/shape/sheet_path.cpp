@@ -202,8 +202,7 @@ private:
             return false;
         }
         const int steps = next.newton.steps;
-        if (!is_final_ && needsTriangles(next.sheet) &&
-            !renew(next, std::max(options_.edge, options_.path_edge))) {
+        if (!is_final_ && needsTriangles(next.sheet) && !renew(next, std::max(options_.edge, options_.path_edge))) {
             return false;
         }
         now_ = std::move(next);
