@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "droplet/error.h"
 #include "droplet/liquid.h"
 #include "droplet/units.h"
+#include "droplet/wetting.h"
 
 namespace cli {
 namespace {
@@ -25,12 +28,29 @@ constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1
 constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
 constexpr Range kDirection{Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi, "from -360deg to 360deg"};
 
+/// Contact angle that a liquid takes by itself on what it lies on.
+double naturalAngle(const CommandLine& line, const Given& given, const droplet::Liquid& liquid)
+{
+    using droplet::Solid;
+    Solid solid = Solid::Glass;
+    if (const auto on = line.value("--on")) {
+        solid = choice<Solid>(
+            *on, {{"glass", Solid::Glass}, {"ptfe", Solid::Ptfe}, {"wax", Solid::Wax}, {"lotus", Solid::Lotus}});
+    }
+    const std::optional<double> angle = droplet::naturalContactAngle(liquid.name, solid);
+    const std::string pair = liquid.name + " on " + droplet::name(solid);
+    if (!angle) {
+        refuse(given, "an angle: that of " + pair + " is not known");
+    }
+    if (*angle == 0.0) {
+        refuse(given, "an angle: " + pair + " spreads, and is no droplet");
+    }
+    return *angle;
+}
+
 void readLiquid(const CommandLine& line, DropletSettings& settings)
 {
     auto& solve = settings.droplet.solve;
-    if (const auto angle = line.value("--contact-angle")) {
-        solve.fill = {droplet::FillBy::ContactAngle, quantity(*angle, kAngle)};
-    }
     if (const auto volume = line.value("--volume")) {
         solve.fill = {droplet::FillBy::Volume, quantity(*volume, kVolume)};
     }
@@ -57,13 +77,23 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
     if (!liquid && (tension || density)) {
         solve.liquid.name = "custom";
     }
-    if (const auto model = line.value("--model")) {
-        solve.model =
-            choice<droplet::Model>(*model, {{"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
+    const auto angle = line.value("--contact-angle");
+    const bool is_natural = angle && angle->text == "natural";
+    if (angle) {
+        solve.fill.by = droplet::FillBy::ContactAngle;
+        solve.fill.amount = is_natural ? naturalAngle(line, *angle, solve.liquid) : quantity(*angle, kAngle);
     }
-    if (const auto angle = line.value("--contact-angle");
-        angle && solve.model == droplet::Model::Linear && solve.fill.amount >= 0.5 * std::numbers::pi) {
-        refuse(*angle, "below 90deg with --model linear; use --model exact");
+    if (line.value("--on") && !is_natural) {
+        settings.warnings.push_back("--on has no effect without --contact-angle natural");
+    }
+    if (const auto model = line.value("--model")) {
+        solve.model = choice<droplet::Model>(
+            *model,
+            {{"auto", droplet::Model::Auto}, {"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
+    }
+    settings.droplet.allow_less = !line.value("--contact-angle") && !line.value("--volume") && !line.value("--height");
+    if (angle && solve.model == droplet::Model::Linear && solve.fill.amount >= 0.5 * std::numbers::pi) {
+        refuse(*angle, "below 90deg with --model linear; use --model auto");
     }
 }
 
@@ -315,8 +345,10 @@ void declareLiquid(CommandLine& line)
 {
     constexpr const char* kGroup = "Liquid";
     line.add(kGroup, "--contact-angle", "ANGLE",
-             "Amount of liquid, by the mean contact angle along the rim, under 90deg, or with --model exact up to "
-             "179deg [40deg]");
+             "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
+             "what it lies on. Without any amount, the largest angle that exists is taken if the default does not "
+             "[40deg]");
+    line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
     line.add(kGroup, "--height", "LENGTH", "Amount of liquid, by its largest height");
     line.add(kGroup, "--fill", "each|total",
@@ -324,8 +356,9 @@ void declareLiquid(CommandLine& line)
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
     line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
     line.add(kGroup, "--density", "D", "Density, instead of the liquid's own");
-    line.add(kGroup, "--model", "linear|exact",
-             "Model of the surface's area: linear is good for slopes up to about 50deg, exact for all slopes [linear]");
+    line.add(kGroup, "--model", "auto|linear|exact",
+             "Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes, also where liquid "
+             "hangs over its rim; auto takes linear where it is within 1 % [auto]");
     line.exclude({"--contact-angle", "--volume", "--height"});
 }
 

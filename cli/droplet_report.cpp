@@ -53,6 +53,9 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
 {
     droplet::Report report;
     report.physics = settings.droplet.solve;
+    report.physics.model = droplet.solution.report.model;
+    report.sheets = static_cast<std::size_t>(std::count_if(droplet.sheets.begin(), droplet.sheets.end(),
+                                                           [](const auto& sheet) { return sheet.has_value(); }));
     report.fill_range = settings.droplet.fill_range;
     report.hysteresis = settings.hysteresis;
     report.ground = settings.ground;

@@ -144,7 +144,7 @@ void declareDroplets(CommandLine& line)
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
-             "linear model only");
+             "takes the linear model");
 }
 
 void declareShapes(CommandLine& line)

@@ -208,14 +208,16 @@ std::string details(const Report& report)
     text += line("ground", ground(report) + penetration(report));
     text += line("energy", digits(report.total.surface_energy * 1e6) + " µJ of surface, " +
                                digits(report.total.gravity_energy * 1e6) + " µJ of gravity");
-    const std::string model = report.physics.model == droplet::Model::Exact
-                                  ? "exact model, " + counted(report.solve.newton_steps, "Newton step")
-                                  : "linear model";
+    const bool is_linear = report.physics.model == droplet::Model::Linear;
+    const std::string model = is_linear ? "linear model"
+                                        : (report.sheets > 0 ? counted(report.sheets, "parametric sheet") + ", "
+                                                             : std::string("exact model, ")) +
+                                              counted(report.solve.newton_steps, "Newton step");
     text += line("solve", model + ", " + report.solve.method + ", " + counted(report.solve.unknowns, "unknown") +
                               ", residual " + digits(report.solve.residual, 2) +
                               (report.pressure ? ", pressure " + digits(*report.pressure) + " Pa" : ""));
     const droplet::ShapeFigures& total = report.total;
-    if (report.physics.model == droplet::Model::Linear && total.steep_area > 0.0) {
+    if (is_linear && total.steep_area > 0.0) {
         text +=
             line("slopes", fmt::format("over 50° on {:.2g} % of the footprint, where the linear model overstates the "
                                        "liquid's area: by {:.2g} % in all",

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/droplet.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "droplet/error.h"
@@ -13,6 +10,7 @@
 #include "droplet/units.h"
 #include "number_text.h"
 #include "pipeline.h"
+#include "shape/liquid_shapes.h"
 
 namespace droplet {
 namespace {
@@ -45,9 +43,6 @@ std::string percent(double share)
 /// Share of the footprint too steep for the linear model above which the error is visible. At the same volume, heights
 /// of both models differ by 2 % if this share is 14 % of a letter.
 constexpr double kVisiblySteep = 0.05;
-
-/// Rims that stand so upright that a height field is not the true shape any more [rad].
-constexpr double kUpright = 89.0 * kDegree;
 
 /// Share of all rims, by length, with a contact angle of at least 89°.
 double uprightShare(const Droplet& droplet)
@@ -112,11 +107,12 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     std::vector<std::string> warnings;
     const ShapeFigures& total = droplet.total;
     const double steep = total.steep_area / total.footprint_area;
-    if (options.solve.model == Model::Linear && steep >= kVisiblySteep) {
+    const Model model = droplet.solution.report.model;
+    if (model == Model::Linear && steep >= kVisiblySteep) {
         warnings.push_back(percent(steep) +
                            " of the surface is too steep (over 50 degrees) for the linear model; use --model exact");
     }
-    const double upright = options.solve.model == Model::Exact ? uprightShare(droplet) : 0.0;
+    const double upright = model == Model::Exact ? uprightShare(droplet) : 0.0;
     if (upright > 0.0) {
         warnings.push_back("the liquid stands upright along " + percent(upright) +
                            " of its rim; a real droplet would hang over there; ask for less liquid");
@@ -137,127 +133,24 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     return warnings;
 }
 
-/// Message that says why there is no droplet, and what to change.
-std::string refusal(const SolveReport& report, const Droplet& droplet, const Fill& fill)
+/// Warning about droplets that have less liquid than by default; empty if there are none.
+std::string lessWarning(const LiquidShapes& shapes, std::size_t count)
 {
-    const bool one_of_several = droplet.meshes.size() > 1 && fill.sharing == FillSharing::Each;
-    const std::string which = one_of_several ? "droplet " + std::to_string(report.failed_droplet + 1) + " of " +
-                                                   std::to_string(droplet.meshes.size()) + ": "
-                                             : "";
-    switch (report.termination) {
-        case Termination::NoHeightField:
-            return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
-                   numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL; more liquid would hang over its rim; ask for less";
-        case Termination::OutOfSteps:
-            return which + std::to_string(report.newton_steps) + " steps of Newton's method reached only " +
-                   numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL on this footprint; ask for less, or smooth the footprint";
-        case Termination::Unstable:
-            return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
-                   ", but at most " + numberText(report.critical_bond_number, 4) +
-                   " can hang on this footprint; use a smaller --gravity or --width";
-        case Termination::NotConverged:
-        case Termination::Converged:
-            break;
+    if (shapes.with_less == 0) {
+        return {};
     }
-    return which + "the equations could not be solved (residual " + rounded(report.residual) +
-           "); try another number of --triangles";
+    const std::string which = count == 1
+                                  ? "this footprint"
+                                  : std::to_string(shapes.with_less) + " of " + std::to_string(count) + " footprints";
+    return "the default amount does not exist on " + which + "; the largest mean contact angle that does was taken, " +
+           rounded(shapes.least_angle / kDegree) + " degrees" + (shapes.with_less > 1 ? " or more" : "");
 }
 
-/// Why a droplet is no sheet, and what to change.
-std::string refusal(const SheetResult& result, const std::string& which)
+/// Whether two meshes have the same rim.
+bool sameRim(const PlanarMesh& a, const PlanarMesh& b)
 {
-    const std::string at = numberText(result.volume / kMicrolitre, 4) + " uL";
-    switch (result.end) {
-        case SheetEnd::NoAngle:
-            return which + "no such droplet exists on this footprint: the mean contact angle is at most " +
-                   rounded(result.contact_angle / kDegree) + " degrees, at " + at + "; --volume goes on beyond it";
-        case SheetEnd::NoHeight:
-            return which + "no such droplet exists on this footprint: it is highest at " + at + "; ask for less";
-        case SheetEnd::Unstable:
-        case SheetEnd::Reached:
-            break;
-    }
-    return which + "no stable droplet was found on this footprint with more than " + at + " (mean contact angle " +
-           rounded(result.contact_angle / kDegree) + " degrees); ask for less";
-}
-
-/// Solves every droplet: as a height field, or, in the exact model, as a sheet that hangs over its rim where there is
-/// none.
-void solveShapes(Droplet& droplet, const SolveOptions& options, const Progress& progress)
-{
-    const std::size_t count = droplet.meshes.size();
-    const bool may_hang = options.model == Model::Exact && options.ground.flat() && !options.no_penetration &&
-                          options.fill.sharing == FillSharing::Each;
-    const bool must_hang = options.volumes.empty() && options.fill.by == FillBy::ContactAngle &&
-                           options.fill.amount >= 0.5 * std::numbers::pi;
-    Solution& solution = droplet.solution;
-    if (!may_hang || !must_hang) {
-        solution = solve(droplet.meshes, options, progress);
-    } else if (progress) {
-        progress(Stage::Solve);
-    }
-    const auto is_upright = [](const HeightField& field) {
-        return std::any_of(field.contact_angle.begin(), field.contact_angle.end(),
-                           [](double angle) { return angle >= kUpright; });
-    };
-    const bool has_field = solution.report.usable();
-    const bool has_none = solution.report.termination == Termination::NoHeightField ||
-                          solution.report.termination == Termination::OutOfSteps;
-    if (!may_hang || (!must_hang && !has_none &&
-                      !(has_field && std::any_of(solution.droplets.begin(), solution.droplets.end(), is_upright)))) {
-        if (!has_field) {
-            throw Error(ErrorCode::NoSuchDroplet, refusal(solution.report, droplet, options.fill));
-        }
-        return;
-    }
-    std::vector<HeightField> fields(count);
-    std::vector<SheetResult> results(count);
-    droplet.sheets.resize(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        SolveOptions own = options;
-        if (!options.volumes.empty()) {
-            own.volumes.clear();
-            own.fill = {FillBy::Volume, options.volumes[k], FillSharing::Each};
-        }
-        if (has_field) {
-            fields[k] = std::move(solution.droplets[k]);
-        } else if (!must_hang && count > 1) {
-            Solution one = solve({droplet.meshes[k]}, own);
-            if (one.report.usable()) {
-                fields[k] = std::move(one.droplets.front());
-            }
-        }
-        const bool has_own = !fields[k].height.empty();
-        if (has_own && !is_upright(fields[k])) {
-            return;
-        }
-        results[k] = solveSheet(droplet.meshes[k], own);
-        if (results[k].end == SheetEnd::Reached) {
-            droplet.sheets[k] = std::move(results[k].sheet);
-            fields[k] = {};
-            fields[k].contact_angle = droplet.sheets[k]->contact_angle;
-            fields[k].pressure = droplet.sheets[k]->pressure;
-        } else if (has_own) {
-            results[k].end = SheetEnd::Reached;  // the height field stands
-        }
-    });
-    for (std::size_t k = 0; k < count; ++k) {
-        if (results[k].end != SheetEnd::Reached) {
-            throw Error(
-                ErrorCode::NoSuchDroplet,
-                refusal(results[k],
-                        count == 1 ? "" : "droplet " + std::to_string(k + 1) + " of " + std::to_string(count) + ": "));
-        }
-        solution.report.newton_steps = std::max(solution.report.newton_steps, results[k].newton_steps);
-        solution.report.unknowns += droplet.sheets[k] && !has_field ? droplet.sheets[k]->places.size() : 0;
-    }
-    solution.droplets = std::move(fields);
-    solution.report.termination = Termination::Converged;
-    if (solution.report.method.empty()) {
-        solution.report.method = "simplicial-ldlt";
-    }
+    return a.loop_starts == b.loop_starts &&
+           std::equal(a.vertices.begin(), a.vertices.begin() + a.rimVertexCount(), b.vertices.begin());
 }
 
 /// Surfaces of all droplets: of height fields first.
@@ -275,10 +168,10 @@ Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
         if (droplet.sheets[k]) {
             LoftOptions own = options;
             own.bases.clear();
-            if (!options.bases.empty()) {
+            if (!options.bases.empty() && sameRim(options.bases[k], droplet.sheets[k]->footprint)) {
                 own.bases.push_back(options.bases[k]);
             }
-            append(sheets, loft(droplet.meshes[k], *droplet.sheets[k], own));
+            append(sheets, loft(*droplet.sheets[k], own));
         } else {
             meshes.push_back(droplet.meshes[k]);
             fields.push_back(droplet.solution.droplets[k]);
@@ -295,13 +188,28 @@ Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
 
 }  // namespace
 
+namespace {
+
+/// Options of solving: a surface that can be refilled is affine in the volume.
+SolveOptions solveOptions(const DropletOptions& options)
+{
+    SolveOptions solve = options.solve;
+    if (options.fill_range && solve.model == Model::Auto) {
+        solve.model = Model::Linear;
+    }
+    return solve;
+}
+
+}  // namespace
+
 void validateStages(const DropletOptions& options)
 {
     options.mesh.validate();
-    options.solve.validate();
+    const SolveOptions solve = solveOptions(options);
+    solve.validate();
     if (options.fill_range) {
         options.fill_range->validate();
-        requireRefillable(options.solve);
+        requireRefillable(solve);
     }
 }
 
@@ -318,30 +226,43 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
 std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options)
 {
     std::vector<PlanarMesh> meshes = triangulate(domain, options.mesh);
-    return options.solve.model == Model::Exact ? spread(std::move(meshes), options.solve) : meshes;
+    return spread(std::move(meshes), solveOptions(options));
+}
+
+bool meshesAreEven(const DropletOptions& options)
+{
+    return !spreads(solveOptions(options)) && options.mesh.grading == 1;
 }
 
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress)
 {
-    solveShapes(droplet, options.solve, progress);
+    SolveOptions solved = solveOptions(options);
+    LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress);
+    const std::string less = lessWarning(shapes, droplet.meshes.size());
+    droplet.solution = std::move(shapes.solution);
+    droplet.sheets = std::move(shapes.sheets);
+    solved.model = droplet.solution.report.model;
     if (progress) {
         progress(Stage::Loft);
     }
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
         const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
-        droplet.figures.push_back(is_sheet ? measure(droplet.meshes[k], *droplet.sheets[k], options.solve)
-                                           : measure(droplet.meshes[k], droplet.solution.droplets[k], options.solve));
+        droplet.figures.push_back(is_sheet ? measure(*droplet.sheets[k], solved)
+                                           : measure(droplet.meshes[k], droplet.solution.droplets[k], solved));
     }
     droplet.total = combine(droplet.figures);
     LoftOptions lofting{
         .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
     if (options.fill_range) {
-        lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, options.solve)};
+        lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, solved)};
     }
     droplet.surface = surfaceOf(droplet, lofting);
     droplet.warnings = warningsOf(droplet, options);
-    if (std::string tall = heightWarning(droplet, options.solve.model); !tall.empty()) {
+    if (!less.empty()) {
+        droplet.warnings.push_back(less);
+    }
+    if (std::string tall = heightWarning(droplet, solved.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
         droplet.severe_warnings = 1;
     }

@@ -10,6 +10,9 @@ namespace droplet {
 /// Meshes of a domain, suited to the model.
 std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options);
 
+/// Whether all triangles of such meshes have about the same size.
+bool meshesAreEven(const DropletOptions& options);
+
 /// Runs the stages after meshing: solve, measure, loft.
 /// @param droplet  with outline, domain and meshes
 /// @param bases    cover() of every mesh, if known; otherwise empty

@@ -60,6 +60,7 @@ DropletOptions plain()
     options.trace.pixel_size = 0.2 * kMillimetre;
     options.mesh.triangles = 6000;
     options.solve.gravity = 0.0;
+    options.solve.model = Model::Linear;
     return options;
 }
 
@@ -688,6 +689,35 @@ TEST(Droplet, WarnsOfImpossibleHeights)
     const Droplet inclined = makeDroplet(mask, options);
     EXPECT_FALSE(inclined.total.height_bound);
     EXPECT_EQ(inclined.severe_warnings, 0U);
+}
+
+/// Two discs whose rims are 1.2 mm apart.
+Mask nearDiscs()
+{
+    return smoothMask(400, 220, [](Vec2 p) { return disc({100, 110}, 95)(p) || disc({296, 110}, 95)(p); });
+}
+
+TEST(Droplet, NamesNeighboursThatWouldTouch)
+{
+    DropletOptions options = plain();
+    options.solve.gravity = 0.0;
+    options.solve.model = Model::Auto;
+    options.mesh.triangles = 4'000;
+    options.solve.fill = {FillBy::ContactAngle, 130.0 * kDegree, FillSharing::Each};
+    try {
+        (void)makeDroplet(nearDiscs(), options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        EXPECT_THAT(error.what(), HasSubstr("droplets 1 and 2 would touch at x "));
+    }
+    // Where nobody asked for that much, they get less, and one line says so.
+    options.allow_less = true;
+    const Droplet less = makeDroplet(nearDiscs(), options);
+    EXPECT_TRUE(isClosed(less.surface));
+    EXPECT_LT(less.total.contact_angle.mean, 110.0 * kDegree);
+    EXPECT_GT(less.total.contact_angle.mean, 80.0 * kDegree);
+    EXPECT_THAT(less.warnings, ElementsAre(HasSubstr("the largest mean contact angle that does was taken")));
 }
 
 TEST(Droplet, RefusesDropletsThatDoNotExist)

@@ -25,10 +25,12 @@ namespace droplet {
 struct DropletOptions {
     TraceOptions trace;                        ///< from the mask to its outline
     TriangulateOptions mesh;                   ///< from the outline to meshes
-    SolveOptions solve;                        ///< liquid, forces, ground and fill
+    SolveOptions solve{.model = Model::Auto};  ///< liquid, forces, ground and fill
+    bool allow_less = false;                   ///< take the most liquid that a footprint can hold where the fill does
+                                               ///< not exist; warnings say so
     bool open = false;                         ///< leave out the base
-    std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; needs the linear
-                                               ///< model without no_penetration
+    std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; takes the linear
+                                               ///< model, and needs it without no_penetration
 };
 
 /// Results of all stages.
@@ -37,9 +39,9 @@ struct Droplet {
     Domain domain;                   ///< footprints
     std::vector<PlanarMesh> meshes;  ///< one per droplet
     Solution solution;               ///< height fields
-    std::vector<std::optional<ParametricSheet>>
-        sheets;                         ///< one per droplet, where liquid hangs over its rim; its height
-                                        ///< field then has a pressure and angles alone. Empty: none
+    /// One per droplet, where liquid hangs over its rim; its height field then has a pressure and angles alone. Empty
+    /// if there are none.
+    std::vector<std::optional<ParametricSheet>> sheets;
     std::vector<ShapeFigures> figures;  ///< one per droplet
     ShapeFigures total;                 ///< figures of all droplets together
     Surface surface;                    ///< surface in space

@@ -181,6 +181,8 @@ const char* nameOf(Model model)
             return "linear";
         case Model::Exact:
             return "exact";
+        case Model::Auto:
+            return "auto";
     }
     throw Error(ErrorCode::InvalidArgument, "report: model has an unknown value");
 }
@@ -277,7 +279,7 @@ Json sections(const Report& report)
     Json json;
     json["schema"] = "droplet-shape.report/1";
     json["version"] = kVersion;
-    json["model"] = nameOf(report.physics.model);
+    json["model"] = report.sheets > 0 ? "parametric" : nameOf(report.physics.model);
     json["input"] = inputSection(report.input);
     json["output"] = outputSection(report.output);
     json["liquid"] = liquidSection(report.physics, report.hysteresis);

@@ -362,8 +362,8 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
                                          const DropletOptions& options, std::vector<PlanarMesh>& meshes,
                                          std::size_t& kept)
 {
-    if (options.solve.model != Model::Linear || options.mesh.grading > 1) {
-        return std::nullopt;  // their meshes are not uniform
+    if (!meshesAreEven(options)) {
+        return std::nullopt;
     }
     const std::size_t count = domain.droplets.size();
     const double edge = before.lineage->edge;

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shape/sheet_remesh.h"
+
 namespace droplet {
 namespace {
 
@@ -21,20 +23,28 @@ constexpr int kReleaseRounds = 6;
 /// Downward part of a direction from which on a step is bounded by the ground.
 constexpr double kDownward = 0.1;
 
-/// Relative refinements of the bordered system.
+/// Refinements of the bordered system.
 constexpr int kRefinements = 2;
+/// Rounds in which a step is damped where triangles would turn too much, and factors of the damping.
+constexpr int kDampingRounds = 6;
+constexpr double kDamped = 4.0;
+constexpr double kReleased = 0.2;
+constexpr double kUndamped = 0.05;
 
 }  // namespace
+
+bool isGentle(Vec3 area_before, Vec3 area_after, const MotionLimits& limits)
+{
+    const double before = length(area_before);
+    const double after = length(area_after);
+    return dot(area_before, area_after) >= limits.min_cosine * before * after && after >= limits.min_area * before &&
+           after <= limits.max_area * before;
+}
 
 bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits)
 {
     return std::all_of(before.triangles.begin(), before.triangles.end(), [&](const Triangle& t) {
-        const Vec3 a = areaVector(before.places, t);
-        const Vec3 b = areaVector(after.places, t);
-        const double old_area = length(a);
-        const double new_area = length(b);
-        return dot(a, b) >= limits.min_cosine * old_area * new_area && new_area >= limits.min_area * old_area &&
-               new_area <= limits.max_area * old_area;
+        return isGentle(areaVector(before.places, t), areaVector(after.places, t), limits);
     });
 }
 
@@ -43,7 +53,8 @@ SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight)
       weight_(weight),
       pattern_(sheet),
       held_(sheet.places.size() - sheet.rim, 0),
-      held_motion_(sheet.places.size() - sheet.rim, 0.0)
+      held_motion_(sheet.places.size() - sheet.rim, 0.0),
+      damping_(sheet.places.size() - sheet.rim, 0.0)
 {
     factor_.analyzePattern(
         pattern_.hessian(sheet, std::vector<Vec3>(sheet.places.size(), {0.0, 0.0, 1.0}), weight, 0.0));
@@ -92,7 +103,8 @@ bool SheetSolver::factor(double shift)
             const bool is_held =
                 held_[static_cast<std::size_t>(at.row())] != 0 || held_[static_cast<std::size_t>(column)] != 0;
             if (at.row() == column) {
-                at.valueRef() = is_held ? 1.0 : at.value() + shift * linear_.mass[column];
+                const double damping = damping_[static_cast<std::size_t>(column)] * std::abs(at.value());
+                at.valueRef() = is_held ? 1.0 : at.value() + shift * linear_.mass[column] + damping;
             } else if (is_held) {
                 at.valueRef() = 0.0;
             }
@@ -158,6 +170,31 @@ SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume
     return step;
 }
 
+bool SheetSolver::damp(const SheetMesh& sheet, const Step& step)
+{
+    std::vector<Vec3> places = sheet.places;
+    for (Eigen::Index i = 0; i < step.motion.size(); ++i) {
+        const std::size_t v = rim_ + static_cast<std::size_t>(i);
+        places[v] = places[v] + step.motion[i] * linear_.directions[v];
+    }
+    std::vector<std::uint8_t> is_wild(damping_.size(), 0);
+    for (const Triangle& t : sheet.triangles) {
+        if (!isGentle(areaVector(sheet.places, t), areaVector(places, t), {})) {
+            for (const std::uint32_t v : t) {
+                if (v >= rim_) {
+                    is_wild[v - rim_] = 1;
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < damping_.size(); ++i) {
+        if (is_wild[i] != 0) {
+            damping_[i] = std::max(1.0, kDamped * damping_[i]);
+        }
+    }
+    return std::find(is_wild.begin(), is_wild.end(), 1) != is_wild.end();
+}
+
 double SheetSolver::residual(double pressure) const
 {
     double rest = 0.0;
@@ -175,12 +212,19 @@ double SheetSolver::residual(double pressure) const
     return std::sqrt(rest / scale) / std::max(std::abs(pressure), 2.0 / std::sqrt(area));
 }
 
+double SheetSolver::volumeScale(double volume) const
+{
+    // Without liquid, a sheet that gravity pulls along its plane is no plane.
+    return std::max(volume, 1e-6 * std::pow(linear_.mass.sum(), 1.5));
+}
+
 bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
 {
     const SheetMesh before = sheet;
     const SheetIntegrals start = integrate(before, weight_);
     // A step that first has to reach the volume may cost energy.
-    const bool has_volume = std::abs(start.volume - volume) <= 1e-9 * volume;
+    const double scale = volumeScale(volume);
+    const bool has_volume = std::abs(start.volume - volume) <= 1e-9 * scale;
     // Slope of the energy along the step at fixed volume.
     const double slope = std::min(0.0, linear_.gradient.dot(step.motion));
     const double across = linear_.volume.dot(response_);
@@ -205,13 +249,13 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
                 }
             }
             const double missing = volume - integrate(sheet, weight_).volume;
-            is_full = std::abs(missing) <= 1e-13 * volume;
+            is_full = std::abs(missing) <= 1e-13 * scale;
             if (!is_full) {
                 move(along, missing);
             }
         }
         const SheetIntegrals now = integrate(sheet, weight_);
-        if (std::abs(now.volume - volume) > 1e-10 * volume || !isGentle(before, sheet, {})) {
+        if (std::abs(now.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
             continue;
         }
         if (!has_volume || now.energy() <= start.energy() + 1e-4 * part * slope + 1e-12 * std::abs(start.energy())) {
@@ -237,6 +281,8 @@ void SheetSolver::describe(NewtonResult& result) const
 NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
 {
     NewtonResult result;
+    const std::vector<double> angles = minAngles(sheet);
+    std::fill(damping_.begin(), damping_.end(), 0.0);
     for (std::size_t i = 0; i < held_.size(); ++i) {
         held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;  // linearise() releases those that face upwards
     }
@@ -257,12 +303,13 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
         }
         result.residual = residual(pressure);
         const double missing = volume - integrate(sheet, weight_).volume;
-        const bool is_full = std::abs(missing) <= 1e-10 * volume;
+        const bool is_full = std::abs(missing) <= 1e-10 * volumeScale(volume);
         const double area = linear_.mass.sum();
         const double least = 0.05 * std::max(pressure * pressure, 4.0 * std::numbers::pi / area);
         const bool is_done = is_full && (result.residual <= limits.tolerance ||
                                          (result.residual <= limits.stagnated && result.residual > 0.3 * last));
         if (is_done) {
+            std::fill(damping_.begin(), damping_.end(), 0.0);
             if (factor(0.0) && negatives() == 1) {
                 describe(result);
             }
@@ -272,8 +319,12 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             return result;
         }
         last = is_full ? result.residual : last;
+        for (double& damping : damping_) {
+            damping = kReleased * damping < kUndamped ? 0.0 : kReleased * damping;
+        }
 
         Step step;
+        int damped = 0;
         for (int round = 0;; ++round) {
             double shift = 0.0;
             while (!factor(shift) || negatives() != 1) {
@@ -306,7 +357,10 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                     has_changed = true;
                 }
             }
-            if (!has_changed || round == kGroundRounds) {
+            if (has_changed && round < kGroundRounds) {
+                continue;
+            }
+            if (damped++ == kDampingRounds || !damp(sheet, step)) {
                 break;
             }
         }
@@ -314,6 +368,9 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             return result;
         }
         pressure += step.pressure;
+        if (limits.worn > 0.0 && isWorn(angles, sheet, limits.worn)) {
+            return result;
+        }
     }
 }
 

@@ -15,6 +15,7 @@ struct NewtonLimits {
     int shifted_steps = 4;    ///< most steps with a matrix that had to be shifted to have a minimum
     double tolerance = 1e-9;  ///< relative residual at which it ends
     double stagnated = 1e-7;  ///< relative residual that is good enough when steps no longer lower it
+    double worn = 0.0;        ///< smallest angle of a triangle, over that at the start, below which it ends
 };
 
 /// Result of Newton's method.
@@ -56,10 +57,15 @@ private:
 
     void linearise(const SheetMesh& sheet, double pressure);
     bool factor(double shift);
+    /// Damps vertices of triangles that a step would turn or squeeze too much.
+    /// @return  whether there are any
+    bool damp(const SheetMesh& sheet, const Step& step);
     /// Number of negative eigenvalues of the bordered matrix: 1 at a minimum.
     [[nodiscard]] int negatives() const;
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
+    /// What errors of the volume are relative to [m³].
+    [[nodiscard]] double volumeScale(double volume) const;
     bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
     void describe(NewtonResult& result) const;
 
@@ -71,6 +77,7 @@ private:
     Eigen::VectorXd response_;         ///< w = L⁻¹b
     std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
     std::vector<double> held_motion_;  ///< their motion in the current step
+    std::vector<double> damping_;      ///< of every unknown, over its diagonal entry
 };
 
 /// How far triangles may change.
@@ -80,7 +87,10 @@ struct MotionLimits {
     double max_area = 4.0;
 };
 
-/// Whether no triangle turns or changes its area beyond the limits.
+/// Whether a triangle turns or changes its area within the limits.
+bool isGentle(Vec3 area_before, Vec3 area_after, const MotionLimits& limits);
+
+/// Whether all triangles do.
 bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits);
 
 }  // namespace droplet

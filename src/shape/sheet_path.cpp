@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "shape/sheet_contact.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_newton.h"
 #include "shape/sheet_remesh.h"
@@ -25,9 +28,17 @@ constexpr int kMany = 7;
 constexpr double kGrow = 1.6;
 constexpr double kShrink = 0.7;
 constexpr double kRefused = 0.4;
-/// Angle of a triangle below which, and growth of the area above which, a sheet needs new triangles.
-constexpr double kLeastAngle = 18.0;
+/// Angle of a triangle, over that when it was made, below which, and growth of the area above which, a sheet needs new
+/// triangles.
+constexpr double kWorn = 0.7;
 constexpr double kGrowth = 1.25;
+/// Change of the volume up to which a sheet needs no new triangles to be confirmed.
+constexpr double kConfirmed = 0.02;
+/// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
+/// it, and limits of Newton's method then.
+constexpr int kRenewals = 6;
+constexpr int kWorse = 2;
+constexpr NewtonLimits kSettling{.steps = 20, .shifted_steps = 8, .worn = 0.4};
 /// Growth of edges when a sheet fails with small ones.
 constexpr double kCoarser = 1.6;
 /// Change of the pressure by new triangles above which they are not the same liquid.
@@ -75,22 +86,29 @@ public:
         for (const Vec2 p : footprint.vertices) {
             now_.sheet.places.push_back({p.x, p.y, 0.0});
         }
+        options_.path_edge = std::max(options_.edge, options_.path_edge);
+        now_.sheet = remesh(now_.sheet, {options_.path_edge, options_.path_edge / 8.0});
         // The flat sheet is in equilibrium with no liquid.
         use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
         now_.newton = solver_->solve(now_.sheet, 0.0, now_.pressure);
         newton_steps_ = now_.newton.steps;
+        firm_ = now_;
     }
 
     FilledSheet run()
     {
         const SheetEnd end = follow();
-        refine(end);
+        const std::optional<SheetContact> contact = contact_;
+        if (end != SheetEnd::Reached && now_.newton.converged) {
+            refine(false);
+        }
         return {now_.sheet,
                 now_.pressure,
                 now_.volume,
                 heightOf(now_.sheet),
                 rimAngles(now_.sheet, options_.weight, now_.pressure).mean(),
                 end,
+                end == SheetEnd::Contact ? std::optional(contact->place) : std::nullopt,
                 newton_steps_};
     }
 
@@ -101,36 +119,52 @@ private:
     /// Follows the path up to the target, or to its end.
     SheetEnd follow()
     {
+        if (!now_.newton.converged) {
+            return SheetEnd::Unstable;
+        }
         const double base = meshed_area_;
         const double length_scale = std::sqrt(base / std::numbers::pi);
         double step = 0.02 * length_scale * length_scale * length_scale;
         double largest = 0.0;
+        double barrier = -1.0;  // volume that was refused; up to it steps do not grow again
         int settled = 0;
         for (int k = 0; k < kMaxSteps; ++k) {
             const double left = wayTo();
-            if (std::abs(left) <= 1e-12 * std::max(now_.volume, 1e-300) || settled > kMaxSettling) {
-                return SheetEnd::Reached;
+            bool is_refused = false;
+            double tried = std::abs(left);
+            if (tried <= 1e-12 * std::max(now_.volume, 1e-300) || settled > kMaxSettling) {
+                tried = now_.volume - firm_.volume;
+                if (refine(true)) {
+                    return SheetEnd::Reached;
+                }
+                is_refused = true;
+            } else {
+                const double size = gentle(tried <= step ? left : std::copysign(step, left));
+                const bool is_last = size == left;
+                tried = std::abs(size);
+                is_refused = !advance(size);
+                if (!is_refused && is_last) {
+                    ++settled;
+                    if (target_.by == FillBy::Volume) {
+                        now_.volume = target_.amount;
+                    }
+                } else if (!is_refused) {
+                    const int steps = now_.newton.steps;
+                    const bool may_grow = now_.volume > barrier;
+                    step = std::min(tried, step) * (steps > kMany ? kShrink : steps <= kFew && may_grow ? kGrow : 1.0);
+                }
             }
-            const double size = gentle(std::abs(left) <= step ? left : std::copysign(step, left));
-            const bool is_last = size == left;
-            if (!advance(size)) {
-                step = kRefused * std::min(step, std::abs(size));
+            if (is_refused) {
+                settled = 0;
+                largest = 0.0;
+                barrier = std::max(barrier, now_.volume + tried);
+                step = kRefused * std::min(step, tried);
                 if (step < options_.min_step * std::max(now_.volume, 1e-3 * length_scale * base)) {
-                    return SheetEnd::Unstable;
+                    return contact_ ? SheetEnd::Contact : SheetEnd::Unstable;
                 }
                 continue;
             }
-            if (is_last) {
-                ++settled;
-            } else {
-                const int steps = now_.newton.steps;
-                step = std::min(std::abs(size), step) * (steps <= kFew ? kGrow : steps > kMany ? kShrink : 1.0);
-            }
             if (target_.by == FillBy::Volume) {
-                if (is_last) {
-                    now_.volume = target_.amount;
-                    return SheetEnd::Reached;
-                }
                 continue;
             }
             const double amount = amountOf(now_.sheet, now_.pressure);
@@ -189,6 +223,7 @@ private:
     /// @return  false if refused; then nothing has changed
     bool advance(double size)
     {
+        contact_.reset();
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         for (std::size_t v = next.sheet.rim; v < next.sheet.places.size(); ++v) {
@@ -202,55 +237,95 @@ private:
             return false;
         }
         const int steps = next.newton.steps;
-        if (!is_final_ && needsTriangles(next.sheet) && !renew(next, std::max(options_.edge, options_.path_edge))) {
-            return false;
+        const bool is_far = std::abs(next.volume - firm_.volume) > kConfirmed * next.volume;
+        if (!is_final_ && ((is_careful_ && is_far) || needsTriangles(next.sheet))) {
+            if (!renew(next, options_.path_edge)) {
+                goBack();
+                return false;
+            }
+            firm_ = next;
         }
         now_ = std::move(next);
         now_.newton.steps = steps;  // those of the step itself set the size of the next one
         return true;
     }
 
-    /// Gives the last sheet its final triangles, and leads it to the target on them.
-    void refine(SheetEnd end)
+    /// Takes up the last sheet that stood on new triangles; from now on every one has to.
+    void goBack()
+    {
+        now_ = firm_;
+        is_careful_ = true;
+        use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
+    }
+
+    /// Gives the last sheet its final triangles, or, where small ones fail at a fold, coarser ones, and leads it to the
+    /// target on them.
+    /// @return  false if it does not stand on any; then the path goes back
+    bool refine(bool has_target)
     {
         const State coarse = now_;
-        // Where a sheet is folded at a corner, small triangles may fail.
-        bool is_fine = renew(now_, options_.edge);
-        for (double edge = kCoarser * options_.edge; !is_fine && edge < options_.path_edge; edge *= kCoarser) {
-            is_fine = renew(now_, edge);
+        for (double edge = options_.edge;; edge = std::min(kCoarser * edge, options_.path_edge)) {
+            now_ = coarse;
+            is_final_ = renew(now_, edge);
+            if (is_final_ && (!has_target || settle())) {
+                return true;
+            }
+            if (edge >= options_.path_edge) {
+                break;
+            }
         }
-        if (!is_fine) {
-            return;
-        }
-        is_final_ = true;
-        for (int round = 0; end == SheetEnd::Reached && round < kMaxSettling; ++round) {
+        is_final_ = false;
+        goBack();
+        return false;
+    }
+
+    /// Leads the last sheet to the target on its final triangles.
+    bool settle()
+    {
+        for (int round = 0; round < kMaxSettling; ++round) {
             const double left = wayTo();
             if (std::abs(left) <= 1e-12 * now_.volume) {
-                return;
+                return true;
             }
             if (std::abs(left) > 0.1 * now_.volume || !advance(left)) {
-                now_ = coarse;
-                return;
+                return false;
             }
         }
+        return std::abs(wayTo()) <= 1e-6 * now_.volume;
     }
 
     [[nodiscard]] bool needsTriangles(const SheetMesh& sheet) const
     {
-        return minAngle(sheet) < std::min(kLeastAngle * std::numbers::pi / 180.0, 0.7 * meshed_angle_) ||
-               integrate(sheet, options_.weight).area > kGrowth * meshed_area_;
+        return isWorn(meshed_angles_, sheet, kWorn) || integrate(sheet, options_.weight).area > kGrowth * meshed_area_;
     }
 
     /// Gives an equilibrium new triangles at the same volume.
     /// @return  false if it is another one on them; then nothing has changed
     bool renew(State& state, double edge)
     {
-        State next{remesh(state.sheet, {edge, edge / 8.0}), state.pressure, state.volume, {}};
-        auto solver = std::make_unique<SheetSolver>(next.sheet, options_.weight);
-        next.newton = solver->solve(next.sheet, next.volume, next.pressure);
-        newton_steps_ += next.newton.steps;
-        if (!next.newton.converged ||
-            std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
+        State next = state;
+        std::unique_ptr<SheetSolver> solver;
+        // At inner corners a sheet may have far to go; there triangles wear out on the way.
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int round = 0, worse = 0; round < kRenewals && worse < kWorse; ++round) {
+            next.sheet = remesh(next.sheet, {edge, edge / 8.0});
+            solver = std::make_unique<SheetSolver>(next.sheet, options_.weight);
+            next.newton = solver->solve(next.sheet, next.volume, next.pressure, kSettling);
+            newton_steps_ += next.newton.steps;
+            if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
+                return false;
+            }
+            if (next.newton.converged) {
+                break;
+            }
+            worse += next.newton.residual < nearest ? 0 : 1;
+            nearest = std::min(nearest, next.newton.residual);
+        }
+        if (!next.newton.converged) {
+            return false;
+        }
+        contact_ = firstContact({&next.sheet});
+        if (contact_) {
             return false;
         }
         use(std::move(solver), next.sheet);
@@ -263,7 +338,7 @@ private:
     {
         solver_ = std::move(solver);
         meshed_area_ = integrate(sheet, options_.weight).area;
-        meshed_angle_ = minAngle(sheet);
+        meshed_angles_ = minAngles(sheet);
     }
 
     SheetTarget target_;
@@ -271,8 +346,11 @@ private:
     State now_;
     std::unique_ptr<SheetSolver> solver_;  ///< for the triangles of now_
     double meshed_area_ = 0.0;             ///< when the triangles were made
-    double meshed_angle_ = 0.0;            ///< smallest one then [rad]
+    std::vector<double> meshed_angles_;    ///< of every triangle then [rad]
+    State firm_;                           ///< last equilibrium that was confirmed on new triangles
+    bool is_careful_ = false;              ///< every equilibrium has to be
     bool is_final_ = false;                ///< the triangles stay
+    std::optional<SheetContact> contact_;  ///< of the sheet with itself, if that stopped the last step
     int newton_steps_ = 0;
 };
 

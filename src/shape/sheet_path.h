@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
@@ -20,7 +21,7 @@ struct SheetOptions {
     Vec3 weight;             ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
     double edge = 0.0;       ///< largest edge of a triangle at the end [m], > 0
     double path_edge = 0.0;  ///< the same on the way; at least edge
-    double min_step = 1e-3;  ///< smallest step of the volume, over the volume
+    double min_step = 2e-3;  ///< smallest step of the volume, over the volume
 };
 
 /// Angles between liquid and ground along the rim.
@@ -43,7 +44,8 @@ struct FilledSheet {
     double height = 0.0;    ///< [m]
     double angle = 0.0;     ///< mean along the rim [rad]
     SheetEnd end = SheetEnd::Reached;
-    int newton_steps = 0;  ///< in all
+    std::optional<Vec3> contact;  ///< with SheetEnd::Contact: where the sheet touches itself [m]
+    int newton_steps = 0;         ///< in all
 };
 
 /// Fills a footprint from dry ground up to a target, by steps of the volume.

@@ -463,17 +463,32 @@ SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options)
     return Remesher(sheet, options).run();
 }
 
-double minAngle(const SheetMesh& sheet)
+std::vector<double> minAngles(const SheetMesh& sheet)
 {
-    double least = std::numbers::pi;
+    std::vector<double> angles;
+    angles.reserve(sheet.triangles.size());
     for (const Triangle& t : sheet.triangles) {
+        double least = std::numbers::pi;
         for (std::size_t a = 0; a < 3; ++a) {
             const Vec3 p = sheet.places[t[(a + 1) % 3]] - sheet.places[t[a]];
             const Vec3 q = sheet.places[t[(a + 2) % 3]] - sheet.places[t[a]];
             least = std::min(least, std::atan2(length(cross(p, q)), dot(p, q)));
         }
+        angles.push_back(least);
     }
-    return least;
+    return angles;
+}
+
+bool isWorn(const std::vector<double>& before, const SheetMesh& sheet, double share)
+{
+    constexpr double kNarrow = std::numbers::pi / 10.0;
+    const std::vector<double> now = minAngles(sheet);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        if (now[k] < std::min(kNarrow, share * before[k])) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace droplet

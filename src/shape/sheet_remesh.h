@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "shape/sheet_mesh.h"
 
 namespace droplet {
@@ -20,7 +22,11 @@ struct RemeshOptions {
 /// bytes.
 SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
 
-/// Smallest angle of any triangle [rad].
-double minAngle(const SheetMesh& sheet);
+/// Smallest angle of every triangle [rad].
+std::vector<double> minAngles(const SheetMesh& sheet);
+
+/// Whether a triangle that moved has become narrow: below 18° and below a share of its angle before.
+/// @param before  minAngles() before
+bool isWorn(const std::vector<double>& before, const SheetMesh& sheet, double share);
 
 }  // namespace droplet

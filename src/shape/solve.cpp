@@ -204,7 +204,34 @@ PlaneGravity planeGravity(const SolveOptions& options)
             along * Vec2{std::cos(options.tilt_direction), std::sin(options.tilt_direction)}};
 }
 
-Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
+namespace {
+
+/// Largest mean square of the slope along the rim, and twice that over the footprint, at which the linear model is
+/// within 1 %. On a disc with slope t at the rim, a cap has a height of tan(θ/2) = t/2 (1 − t²/4 + …) and a volume that
+/// is smaller by t²/6; a puddle's height is smaller by 3t²/8.
+constexpr double kSmallSlope = 1.0 / 40.0;
+
+/// Whether the linear model is within 1 % of the exact one.
+bool linearSuffices(const PlanarMesh& mesh, const HeightField& field)
+{
+    double rim = 0.0;
+    double rim_length = 0.0;
+    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
+            const double edge = length(mesh.vertices[nextOnRim(mesh, loop, v)] - mesh.vertices[v]);
+            rim += edge * field.rim_slope[v] * field.rim_slope[v];
+            rim_length += edge;
+        }
+    }
+    double inside = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec2 slope = gradient(mesh, t, field.height);
+        inside += 0.5 * doubleArea(mesh, t) * dot(slope, slope);
+    }
+    return rim <= kSmallSlope * rim_length && 2.0 * inside <= kSmallSlope * area(mesh);
+}
+
+Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
 {
     options.validate();
     if (meshes.empty()) {
@@ -252,6 +279,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
 
     Solution solution;
     SolveReport& report = solution.report;
+    report.model = options.model;
     report.termination = Termination::Converged;
     for (const Group& group : groups) {
         const Outcome& outcome = group.outcome;
@@ -280,6 +308,32 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         }
     }
     return solution;
+}
+
+}  // namespace
+
+Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
+{
+    if (options.model != Model::Auto) {
+        return solveModel(meshes, options, progress);
+    }
+    options.validate();
+    SolveOptions own = options;
+    const bool is_steep = options.volumes.empty() && options.fill.by == FillBy::ContactAngle &&
+                          std::pow(std::tan(options.fill.amount), 2) > kSmallSlope;
+    if (!is_steep) {
+        own.model = Model::Linear;
+        Solution linear = solveModel(meshes, own, progress);
+        bool suffices = linear.report.usable();
+        for (std::size_t k = 0; suffices && k < meshes.size(); ++k) {
+            suffices = linearSuffices(meshes[k], linear.droplets[k]);
+        }
+        if (suffices) {
+            return linear;
+        }
+    }
+    own.model = Model::Exact;
+    return solveModel(meshes, own, is_steep ? progress : Progress{});
 }
 
 }  // namespace droplet

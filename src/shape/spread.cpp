@@ -90,11 +90,17 @@ void move(PlanarMesh& mesh, const std::vector<Vec2>& moves, double angle)
 
 }  // namespace
 
-std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options)
+bool spreads(const SolveOptions& options)
 {
     const Fill& fill = options.fill;
-    if (options.volumes.empty() && fill.by == FillBy::ContactAngle && fill.sharing == FillSharing::Each &&
-        fill.amount <= kSteep) {
+    const bool has_small_angle = options.volumes.empty() && fill.by == FillBy::ContactAngle &&
+                                 fill.sharing == FillSharing::Each && fill.amount <= kSteep;
+    return options.model != Model::Linear && !has_small_angle;
+}
+
+std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options)
+{
+    if (!spreads(options)) {
         return meshes;
     }
     // For the mean steepness neither tilt nor ground nor gravity away from the ground matters.

@@ -330,9 +330,10 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     return surface;
 }
 
-Surface loft(const PlanarMesh& footprint, const ParametricSheet& sheet, const LoftOptions& options)
+Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
 {
     options.validate();
+    const PlanarMesh& footprint = sheet.footprint;
     if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
         throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
     }

@@ -147,7 +147,7 @@ TEST(Documentation, DefaultsInTheHelpAreThoseOfTheLibrary)
     EXPECT_EQ(default_of("--fill"), options.solve.fill.sharing == FillSharing::Each ? "each" : "total");
     EXPECT_EQ(default_of("--liquid"), options.solve.liquid.name);
     EXPECT_DOUBLE_EQ(parseQuantity(default_of("--gravity"), Dimension::Acceleration), options.solve.gravity);
-    EXPECT_EQ(default_of("--model"), options.solve.model == Model::Linear ? "linear" : "exact");
+    EXPECT_EQ(default_of("--model"), options.solve.model == Model::Auto ? "auto" : "another");
     EXPECT_DOUBLE_EQ(parseQuantity(default_of("--tilt"), Dimension::Angle), options.solve.tilt);
     EXPECT_DOUBLE_EQ(parseQuantity(default_of("--tilt-direction"), Dimension::Angle), options.solve.tilt_direction);
     EXPECT_EQ(default_of("--surface"), options.solve.ground.flat() ? "flat" : "curved");

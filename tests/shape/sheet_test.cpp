@@ -162,7 +162,7 @@ TEST(Sheet, GravityFollowsYoungAndLaplace)
             const SolveOptions options = unitLiquid(bond, FillBy::Volume, exact.volume);
             const SheetResult result = solveSheet(mesh, options);
             ASSERT_EQ(result.end, SheetEnd::Reached);
-            const ShapeFigures figures = measure(mesh, result.sheet, options);
+            const ShapeFigures figures = measure(result.sheet, options);
             // At Bond number 5 the foot is sharp: there the errors are largest.
             EXPECT_NEAR(figures.height_max, exact.height, 3e-3 * exact.height);
             EXPECT_NEAR(figures.surface_energy + figures.gravity_energy, exact.energy(), 1.5e-3 * exact.energy());
@@ -218,7 +218,7 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     const SheetResult result = solveSheet(mesh, options);
     ASSERT_EQ(result.end, SheetEnd::Reached);
     expectBoundedByItsRim(result.sheet);
-    const ShapeFigures figures = measure(mesh, result.sheet, options);
+    const ShapeFigures figures = measure(result.sheet, options);
     EXPECT_NEAR(figures.volume, 1.0, 1e-10);
     EXPECT_GT(figures.contact_angle.max, 175.0 * kDegree);
     EXPECT_GT(figures.overhang, 0.1);
@@ -231,7 +231,7 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     // The finer mesh has less energy.
     const ShapeFigures fine = [&] {
         const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.06}).front();
-        return measure(finer, solveSheet(finer, options).sheet, options);
+        return measure(solveSheet(finer, options).sheet, options);
     }();
     EXPECT_LT(fine.surface_energy, figures.surface_energy);
     EXPECT_NEAR(fine.surface_energy, figures.surface_energy, 1e-2 * figures.surface_energy);

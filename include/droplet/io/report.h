@@ -117,6 +117,7 @@ struct Report {
     GroundReport ground;                     ///< below the liquid
     std::optional<ObjectReport> onto;        ///< empty without an object
     SolveReport solve;                       ///< of the solver
+    std::size_t sheets = 0;                  ///< number of droplets that hang over their rims
     MeshReport mesh;                         ///< of the footprints
     ShapeFigures total;                      ///< of all droplets together
     std::optional<double> pressure;          ///< [Pa]; empty if every droplet has its own pressure

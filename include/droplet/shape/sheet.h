@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
@@ -13,9 +15,10 @@ namespace droplet {
 
 /// Surface of a droplet that may hang over its rim: triangles in space.
 ///
-/// Invariants: a manifold whose boundary is the footprint's rim; the rim's vertices come first, in the order of the
-/// footprint's; triangles are counter-clockwise from outside.
+/// Invariants: a manifold whose boundary is the rim of its footprint; the rim's vertices come first, in the order of
+/// the footprint's; triangles are counter-clockwise from outside.
 struct ParametricSheet {
+    PlanarMesh footprint;               ///< that of the droplet, with rounded inner corners
     std::vector<Vec3> places;           ///< vertices [m]
     std::vector<Triangle> triangles;    ///< indices of three vertices
     std::uint32_t rim = 0;              ///< number of rim vertices, at z = 0
@@ -29,12 +32,14 @@ enum class SheetEnd {
     NoAngle,   ///< the mean contact angle along the rim has its maximum before the target
     NoHeight,  ///< the height has its maximum before the target
     Unstable,  ///< no equilibrium with more liquid was found
+    Contact,   ///< with more liquid the surface touches itself
 };
 
 /// Result of solveSheet().
 struct SheetResult {
     ParametricSheet sheet;             ///< the target, or the last equilibrium before the end
     SheetEnd end = SheetEnd::Reached;  ///< whether it is the target
+    std::optional<Vec3> contact;       ///< with SheetEnd::Contact: where the surface touches itself [m]
     double volume = 0.0;               ///< of the sheet [m³]
     double contact_angle = 0.0;        ///< mean along the rim of the sheet [rad]
     std::size_t newton_steps = 0;      ///< in all
@@ -45,10 +50,12 @@ struct SheetResult {
 ///
 /// The liquid's surface is a triangle mesh in space, pinned along the rim. Area and gravity are minimised under the
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
-/// on the ground outside of the footprint, it does, as on ground that it does not wet.
+/// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
+/// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
+/// one.
 ///
-/// Guarantees: a given volume is met to 1e-10; the rim is that of the footprint; the sheet is not below the ground
-/// where it leans over; the same input gives the same bits.
+/// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground where it leans over, and does not
+/// cross itself; the same input gives the same bits.
 /// @param footprint  valid; its inner triangles are not used at the end
 /// @param options    liquid, gravity, tilt and fill, of one droplet; the ground is flat; model, no_penetration, volumes
 ///                   and solver are not used
@@ -56,9 +63,8 @@ struct SheetResult {
 SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options);
 
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
-/// @param footprint  that of solveSheet
-/// @param sheet      result of solveSheet
-/// @param options    options it was solved with
-ShapeFigures measure(const PlanarMesh& footprint, const ParametricSheet& sheet, const SolveOptions& options);
+/// @param sheet    result of solveSheet
+/// @param options  options it was solved with
+ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options);
 
 }  // namespace droplet

@@ -32,8 +32,9 @@ struct HeightField {
 
 /// Area of the liquid's surface in the energy that is minimised.
 enum class Model {
-    Linear,  ///< ∫(1 + ½|∇u|²): accurate for slopes up to about 50°
+    Linear,  ///< ∫(1 + ½|∇u|²): within 1 % up to a contact angle of 9°, 15 % too high at 40°
     Exact,   ///< ∫√(1 + |∇u|²), the area itself
+    Auto,    ///< linear where its height and volume are within 1 % of the exact model's, else exact
 };
 
 /// Solver of the linear systems.
@@ -67,6 +68,7 @@ struct SolveReport {
                                         ///< with FillSharing::Total [m³]
     double bond_number = 0.0;           ///< with Unstable: ρ|g⊥|A/(πσ) of that droplet's footprint
     double critical_bond_number = 0.0;  ///< with Unstable: largest Bond number at which it can hang
+    Model model = Model::Linear;        ///< model that was solved, never Auto
 
     /// Whether there are heights.
     [[nodiscard]] bool usable() const { return termination == Termination::Converged; }
@@ -80,14 +82,14 @@ struct Solution {
 
 /// Liquid, forces, ground and fill of a solve.
 struct SolveOptions {
-    Liquid liquid;                      ///< surface tension and density
+    Liquid liquid = {};                 ///< surface tension and density
     double gravity = kStandardGravity;  ///< into level ground; negative under a ceiling [m/s²]
     double tilt = 0.0;  ///< angle of the plane to the horizontal, 0 … π [rad]; π/2: a wall, π: a ceiling
     double tilt_direction = -0.5 * std::numbers::pi;  ///< downhill in the plane, counter-clockwise from +x [rad]
-    Model model = Model::Linear;                      ///< linear or exact area
-    BaseSurface ground;                               ///< ground under the droplets
+    Model model = Model::Linear;                      ///< linear or exact area, or as needed
+    BaseSurface ground = {};                          ///< ground under the droplets
     bool no_penetration = false;         ///< keep u ≥ h: the liquid leaves the ground dry where it would sink into it
-    Fill fill;                           ///< amount of liquid, unless volumes are given
+    Fill fill = {};                      ///< amount of liquid, unless volumes are given
     std::vector<double> volumes = {};    ///< volume of each droplet, in the order of the meshes [m³]; replaces fill,
                                          ///< whose sharing must be FillSharing::Each. Empty: fill is used
     Solver solver = Solver::Auto;        ///< solver of the linear systems

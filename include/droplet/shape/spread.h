@@ -23,4 +23,7 @@ namespace droplet {
 /// @throws Error   as solve
 std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOptions& options);
 
+/// Whether spread() may change meshes for such options.
+bool spreads(const SolveOptions& options);
+
 }  // namespace droplet

@@ -47,12 +47,11 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
 
 /// Closes a sheet that hangs over its rim with a flat base. Normals on the rim come from the contact angle; texture
 /// coordinates are those of the place above or below in the picture.
-/// @param footprint  that of the sheet
-/// @param sheet      its surface
-/// @param options    open or closed, extent of the image, a base if known; the ground is flat; no refill
-/// @return           surface without a mean height
-/// @throws Error     InvalidArgument: options, or the rims differ
-Surface loft(const PlanarMesh& footprint, const ParametricSheet& sheet, const LoftOptions& options);
+/// @param sheet    with its footprint
+/// @param options  open or closed, extent of the image, a base if known; the ground is flat; no refill
+/// @return         surface without a mean height
+/// @throws Error   InvalidArgument: options, or the rims differ
+Surface loft(const ParametricSheet& sheet, const LoftOptions& options);
 
 /// Adds a surface to another one.
 void append(Surface& surface, const Surface& more);

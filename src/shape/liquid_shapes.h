@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/progress.h"
+#include "droplet/shape/sheet.h"
+#include "droplet/shape/solve.h"
+#include "droplet/units.h"
+
+namespace droplet {
+
+/// Rims that stand so upright that a height field is not the true shape any more [rad].
+inline constexpr double kUpright = 89.0 * kDegree;
+
+/// Shapes of all droplets.
+struct LiquidShapes {
+    Solution solution;  ///< height fields; that of a sheet has a pressure and angles alone
+    std::vector<std::optional<ParametricSheet>> sheets;  ///< one per droplet, or empty if there are none
+    std::size_t with_less = 0;                           ///< number of droplets that have less liquid than was wanted
+    double least_angle = 0.0;                            ///< smallest mean contact angle of those [rad]
+};
+
+/// Solves every droplet: by the linear system, by Newton's method, or, where the liquid hangs over its rim, as a sheet.
+/// @param meshes      footprints
+/// @param options     of solve()
+/// @param allow_less  take the most liquid that a footprint can hold where the fill does not exist
+/// @throws Error      NoSuchDroplet, with the reason and what to change
+LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
+                         const Progress& progress);
+
+}  // namespace droplet

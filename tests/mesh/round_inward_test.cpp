@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/round_inward.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "droplet/mesh/triangulate.h"
+#include "support/domains.h"
+
+namespace droplet {
+namespace {
+
+using testing::domainOf;
+using testing::ellipseLoop;
+using testing::polygonLoop;
+using testing::reversed;
+
+TEST(RoundInward, LeavesFootprintsWithoutInnerCorners)
+{
+    for (const Domain& domain : {domainOf(ellipseLoop(1, 0.5)), domainOf(polygonLoop({{0, 0}, {1, 0}, {1, 1}})),
+                                 domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.5, 0.5))})}) {
+        const PlanarMesh mesh = triangulate(domain, {.edge = 0.1}).front();
+        EXPECT_FALSE(roundInward(mesh, 0.05, 0.1));
+    }
+}
+
+TEST(RoundInward, AddsTheCornerBesideAnArc)
+{
+    const PlanarMesh mesh =
+        triangulate(domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})), {.edge = 0.1}).front();
+    for (const double radius : {0.05, 0.2}) {
+        const std::optional<PlanarMesh> rounded = roundInward(mesh, radius, 0.1);
+        ASSERT_TRUE(rounded);
+        EXPECT_NO_THROW(rounded->validate());
+        EXPECT_NEAR(area(*rounded) - 3.0, radius * radius * (1.0 - 0.25 * std::numbers::pi), 0.02 * radius * radius);
+    }
+}
+
+TEST(RoundInward, ClosesSlitsAndKeepsHoles)
+{
+    // A slit of 0.06 from the right into the middle, and a hole.
+    const Domain domain =
+        domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 0.97}, {1, 0.97}, {1, 1.03}, {2, 1.03}, {2, 2}, {0, 2}}),
+                 {reversed(polygonLoop({{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}}))});
+    const PlanarMesh mesh = triangulate(domain, {.edge = 0.05}).front();
+    const std::optional<PlanarMesh> rounded = roundInward(mesh, 0.035, 0.05);
+    ASSERT_TRUE(rounded);
+    EXPECT_EQ(rounded->loopCount(), 2U);
+    EXPECT_NEAR(area(*rounded), 4.0 - 0.16, 2e-3);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which model is solved.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "droplet/mesh/triangulate.h"
+#include "droplet/shape/figures.h"
+#include "droplet/shape/solve.h"
+#include "droplet/units.h"
+#include "support/domains.h"
+#include "support/equilibrium.h"
+
+namespace droplet {
+namespace {
+
+using testing::domainOf;
+using testing::ellipseLoop;
+using testing::polygonLoop;
+using testing::reversed;
+
+std::vector<Domain> footprints()
+{
+    return {domainOf(ellipseLoop(1, 1)), domainOf(polygonLoop({{0, 0}, {1, 0}, {1, 1}, {0, 1}})),
+            domainOf(ellipseLoop(2, 0.4)), domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.5, 0.5))}),
+            domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 0.5}, {0.5, 0.5}, {0.5, 2}, {0, 2}}))};
+}
+
+/// Auto takes the linear model only where its height and volume are within 1 % of the exact model's.
+TEST(Model, AutoIsLinearOnlyWithinOnePercent)
+{
+    std::size_t linear_runs = 0;
+    for (const Domain& domain : footprints()) {
+        const std::vector<PlanarMesh> meshes = triangulate(domain, {.edge = 0.08});
+        for (const double gravity : {0.0, 3.0, 40.0}) {
+            for (const double degrees : {2.0, 5.0, 7.0, 8.5, 10.0, 20.0}) {
+                SolveOptions options = testing::unitOptions(Model::Auto, gravity, 1.0);
+                options.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
+                const Solution chosen = solve(meshes, options);
+                ASSERT_TRUE(chosen.report.usable());
+                options.model = chosen.report.model;
+                ASSERT_NE(options.model, Model::Auto);
+                EXPECT_EQ(chosen.droplets.front().height, solve(meshes, options).droplets.front().height);
+                if (options.model == Model::Exact) {
+                    EXPECT_GT(degrees, 5.0);
+                    continue;
+                }
+                ++linear_runs;
+                EXPECT_LT(degrees, 10.0);
+                const ShapeFigures linear = measure(meshes.front(), chosen.droplets.front(), options);
+                options.model = Model::Exact;
+                const ShapeFigures exact = measure(meshes.front(), solve(meshes, options).droplets.front(), options);
+                const std::string at = std::to_string(gravity) + " " + std::to_string(degrees);
+                EXPECT_NEAR(linear.height_max, exact.height_max, 0.01 * exact.height_max) << at;
+                EXPECT_NEAR(linear.volume, exact.volume, 0.01 * exact.volume) << at;
+            }
+        }
+    }
+    EXPECT_GE(linear_runs, 30U);
+}
+
+/// A volume decides by the slopes that it gives.
+TEST(Model, AutoLooksAtTheSlopesOfAVolume)
+{
+    const std::vector<PlanarMesh> meshes = testing::discMeshes(0.1);
+    EXPECT_EQ(solve(meshes, testing::unitOptions(Model::Auto, 0.0, 0.05)).report.model, Model::Linear);
+    EXPECT_EQ(solve(meshes, testing::unitOptions(Model::Auto, 0.0, 0.5)).report.model, Model::Exact);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape/sheet_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "shape/sheet_path.h"
+#include "support/domains.h"
+#include "support/equilibrium.h"
+
+namespace droplet {
+namespace {
+
+/// Cap of 140° on a disc of radius 1: it reaches out by 1/sin 140° = 1.556.
+SheetMesh cap()
+{
+    const double angle = 140.0 * std::numbers::pi / 180.0;
+    return fillSheet(testing::discMeshes(0.15).front(), {FillBy::ContactAngle, angle}, {{}, 0.3, 0.3}).mesh;
+}
+
+SheetMesh moved(SheetMesh sheet, double x)
+{
+    for (Vec3& place : sheet.places) {
+        place.x += x;
+    }
+    return sheet;
+}
+
+TEST(SheetContact, FindsNeighboursThatTouch)
+{
+    const SheetMesh one = cap();
+    const double reach = 1.0 / std::sin(140.0 * std::numbers::pi / 180.0);
+    const SheetMesh far = moved(one, 2.05 * reach);
+    EXPECT_FALSE(firstContact({&one, &far}));
+    const SheetMesh near = moved(one, 1.95 * reach);
+    const std::optional<SheetContact> contact = firstContact({&one, &near});
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->first, 0U);
+    EXPECT_EQ(contact->second, 1U);
+    EXPECT_NEAR(contact->place.x, 0.975 * reach, 0.2);
+    EXPECT_NEAR(contact->place.y, 0.0, 0.5);
+}
+
+TEST(SheetContact, FindsASheetThatCrossesItself)
+{
+    SheetMesh sheet = cap();
+    EXPECT_FALSE(firstContact({&sheet}));
+    // A vertex of the side is pushed through the other side.
+    std::size_t side = sheet.rim;
+    for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
+        side = sheet.places[v].x > sheet.places[side].x ? v : side;
+    }
+    sheet.places[side].x = -2.0;
+    const std::optional<SheetContact> contact = firstContact({&sheet});
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->first, contact->second);
+}
+
+}  // namespace
+}  // namespace droplet
