@@ -30,7 +30,7 @@ const CommandText& commandText()
             "\n"
             "Examples:\n"
             "  droplet-shape logo.png logo.glb\n"
-            "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 60deg\n"
+            "  droplet-shape logo.png logo.glb --width 8cm --contact-angle 50deg\n"
             "  droplet-shape logo.png wall.glb --tilt 90deg --width 1cm --contact-angle 20deg\n"
             "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
             "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"

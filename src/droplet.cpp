@@ -223,15 +223,18 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
     return makeDroplet(trace(mask, options.trace), options, progress);
 }
 
-std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options)
+DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 {
-    std::vector<PlanarMesh> meshes = triangulate(domain, options.mesh);
-    return spread(std::move(meshes), solveOptions(options));
-}
-
-bool meshesAreEven(const DropletOptions& options)
-{
-    return !spreads(solveOptions(options)) && options.mesh.grading == 1;
+    DomainMeshes result{triangulate(domain, options.mesh), options.mesh.grading == 1};
+    const SolveOptions solve = solveOptions(options);
+    if (spreads(solve)) {
+        std::vector<PlanarMesh> moved = spread(result.meshes, solve);
+        for (std::size_t k = 0; k < moved.size(); ++k) {
+            result.are_even = result.are_even && moved[k].vertices == result.meshes[k].vertices;
+        }
+        result.meshes = std::move(moved);
+    }
+    return result;
 }
 
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
@@ -252,6 +255,10 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
                                            : measure(droplet.meshes[k], droplet.solution.droplets[k], solved));
     }
     droplet.total = combine(droplet.figures);
+    if (!(droplet.total.volume > 0.0)) {
+        throw Error(ErrorCode::NoSuchDroplet,
+                    "with so little liquid the ground stands above it; ask for more, or use --no-penetration");
+    }
     LoftOptions lofting{
         .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
     if (options.fill_range) {
@@ -277,7 +284,7 @@ Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progre
     if (progress) {
         progress(Stage::Triangulate);
     }
-    droplet.meshes = meshesOf(droplet.domain, options);
+    droplet.meshes = meshesOf(droplet.domain, options).meshes;
     finish(droplet, options, {}, progress);
     return droplet;
 }

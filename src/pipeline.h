@@ -8,10 +8,11 @@
 namespace droplet {
 
 /// Meshes of a domain, suited to the model.
-std::vector<PlanarMesh> meshesOf(const Domain& domain, const DropletOptions& options);
-
-/// Whether all triangles of such meshes have about the same size.
-bool meshesAreEven(const DropletOptions& options);
+struct DomainMeshes {
+    std::vector<PlanarMesh> meshes;  ///< one per droplet
+    bool are_even = true;            ///< whether all triangles have about the same size
+};
+DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 
 /// Runs the stages after meshing: solve, measure, loft.
 /// @param droplet  with outline, domain and meshes

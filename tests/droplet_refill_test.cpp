@@ -35,6 +35,7 @@ DropletOptions options(FillSharing sharing)
     DropletOptions result;
     result.trace.pixel_size = 0.1 * kMillimetre;
     result.mesh.triangles = 2000;
+    result.solve.model = Model::Linear;
     result.solve.fill = {FillBy::Volume, 2 * kMicrolitre, sharing};
     result.fill_range = FillRange{0.0, 2.0};
     return result;

@@ -27,8 +27,13 @@ constexpr double kDropped = 0.004;
 constexpr double kUnits = 1e5;
 /// Edges over the mean edge of a mesh from which on new triangles are needed.
 constexpr double kFiner = 0.8;
-/// Area of loops that vanish, over the squared edge: less than a triangle or two.
-constexpr double kSpeck = 1.0;
+/// Area of loops that vanish, over the squared edge.
+constexpr double kSpeck = 1e-3;
+/// Largest growth of the footprint.
+constexpr double kGrowth = 0.005;
+/// Halvings of the radius until the footprint grows by no more, slits with a narrow mouth do not become holes, and
+/// holes stay.
+constexpr int kRounds = 5;
 
 double turnAt(const std::vector<Vec2>& loop, std::size_t i)
 {
@@ -69,28 +74,23 @@ Paths offset(const Paths& paths, double distance)
     return result;
 }
 
-}  // namespace
-
-std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge)
+/// Closing of a polygon: never less than the polygon, whose other corners stay sharp.
+Paths closed(const Paths& paths)
 {
-    const std::vector<std::vector<Vec2>> loops = loopsOf(footprint);
-    const bool has_corner = hasInnerCorner(loops);
-    if (!has_corner && edge > kFiner * meanEdge(area(footprint), footprint.triangles.size())) {
-        return std::nullopt;
-    }
-    const double unit = radius / kUnits;
-    Paths paths;
-    for (const std::vector<Vec2>& loop : loops) {
-        Path& path = paths.emplace_back();
-        for (const Vec2 p : loop) {
-            path.emplace_back(std::llround(p.x / unit), std::llround(p.y / unit));
-        }
-    }
-    if (has_corner) {
-        paths = offset(offset(paths, kUnits), -kUnits);
-        ClipperLib::CleanPolygons(paths, kDropped * kUnits);
-    }
-    Footprint rounded;
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(paths, ClipperLib::ptSubject, true);
+    clipper.AddPaths(offset(offset(paths, kUnits), -kUnits), ClipperLib::ptSubject, true);
+    Paths result;
+    clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    ClipperLib::CleanPolygons(result, kDropped * kUnits);
+    return result;
+}
+
+/// Footprint of the loops that are more than specks.
+/// @param unit  length of Clipper's unit [m]
+Footprint footprintOf(const Paths& paths, double unit, double edge)
+{
+    Footprint footprint;
     for (const Path& path : paths) {
         if (std::abs(ClipperLib::Area(path)) * unit * unit < kSpeck * edge * edge) {
             continue;
@@ -103,15 +103,39 @@ std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius
             loop.corner.push_back(std::abs(turnAt(loop.points, i)) > kCorner ? 1 : 0);
         }
         if (ClipperLib::Orientation(path)) {
-            rounded.rim = std::move(loop);
+            footprint.rim = std::move(loop);
         } else {
-            rounded.holes.push_back(std::move(loop));
+            footprint.holes.push_back(std::move(loop));
         }
     }
-    if (rounded.rim.points.empty()) {
+    return footprint;
+}
+
+}  // namespace
+
+std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge)
+{
+    const std::vector<std::vector<Vec2>> loops = loopsOf(footprint);
+    const bool has_corner = hasInnerCorner(loops);
+    if (!has_corner && edge > kFiner * meanEdge(area(footprint), footprint.triangles.size())) {
         return std::nullopt;
     }
-    return triangulate({{std::move(rounded)}, {}}, {.edge = edge}).front();
+    for (int round = 0; round < kRounds; ++round, radius *= 0.5) {
+        const double unit = radius / kUnits;
+        Paths paths;
+        for (const std::vector<Vec2>& loop : loops) {
+            Path& path = paths.emplace_back();
+            for (const Vec2 p : loop) {
+                path.emplace_back(std::llround(p.x / unit), std::llround(p.y / unit));
+            }
+        }
+        Footprint rounded = footprintOf(has_corner ? closed(paths) : paths, unit, edge);
+        const bool has_grown = has_corner && area(rounded) > (1.0 + kGrowth) * area(footprint);
+        if (!rounded.rim.points.empty() && rounded.holes.size() + 1 == loops.size() && !has_grown) {
+            return triangulate({{std::move(rounded)}, {}}, {.edge = edge}).front();
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace droplet

@@ -36,6 +36,7 @@ struct FrameLineage {
     std::shared_ptr<const TriangulatedMeshes> first;  ///< meshes in which the frame's connections were made
     std::vector<PlanarMesh> bases;                    ///< bases, if surfaces are closed and the ground is flat
     double edge = 0.0;                                ///< length of an edge at the start of a run of frames [m]
+    bool are_even = true;                             ///< whether all triangles have about the same size
     std::size_t next_id = 0;                          ///< next unused id
     std::optional<double> reservoir;  ///< total volume with VolumeMode::Total, once there was liquid [m³]
 };
@@ -324,8 +325,10 @@ bool needBases(const DropletOptions& options)
 /// @param meshes  receives the meshes
 FrameLineage triangulateAnew(const Domain& domain, const DropletOptions& options, std::vector<PlanarMesh>& meshes)
 {
-    meshes = meshesOf(domain, options);
+    DomainMeshes made = meshesOf(domain, options);
+    meshes = std::move(made.meshes);
     FrameLineage lineage;
+    lineage.are_even = made.are_even;
     if (options.mesh.edge) {
         lineage.edge = *options.mesh.edge;
     } else {
@@ -362,7 +365,7 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
                                          const DropletOptions& options, std::vector<PlanarMesh>& meshes,
                                          std::size_t& kept)
 {
-    if (!meshesAreEven(options)) {
+    if (!before.lineage->are_even) {
         return std::nullopt;
     }
     const std::size_t count = domain.droplets.size();

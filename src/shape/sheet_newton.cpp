@@ -20,8 +20,8 @@ using Vector = Eigen::VectorXd;
 /// Rounds of the active set in a step, and those in which vertices may leave the ground.
 constexpr int kGroundRounds = 12;
 constexpr int kReleaseRounds = 6;
-/// Downward part of a direction from which on a step is bounded by the ground.
-constexpr double kDownward = 0.1;
+/// Vertical part of a direction from which on a step is bounded by the ground.
+constexpr double kLevel = 0.1;
 
 /// Refinements of the bordered system.
 constexpr int kRefinements = 2;
@@ -81,8 +81,8 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
         const auto k = static_cast<Eigen::Index>(i);
         const double size_of = length(gradients.volume[v]);
         Vec3 direction = size_of > 0.0 ? (1.0 / size_of) * gradients.volume[v] : Vec3{0.0, 0.0, 1.0};
-        if (sheet.places[v].z <= 0.0 && direction.z < 0.0) {
-            direction = {0.0, 0.0, -1.0};
+        if (sheet.places[v].z <= 0.0) {
+            direction = {0.0, 0.0, direction.z < 0.0 ? -1.0 : 1.0};
         } else {
             held_[i] = 0;
         }
@@ -243,10 +243,7 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
         bool is_full = false;
         for (int round = 0; round < 8 && !is_full; ++round) {
             for (std::size_t v = rim_; v < sheet.places.size(); ++v) {
-                // A sheet that leans over does not sink into the ground.
-                if (sheet.places[v].z < 0.0 && linear_.directions[v].z <= 0.0) {
-                    sheet.places[v].z = 0.0;
-                }
+                sheet.places[v].z = std::max(sheet.places[v].z, 0.0);  // the ground
             }
             const double missing = volume - integrate(sheet, weight_).volume;
             is_full = std::abs(missing) <= 1e-13 * scale;
@@ -284,7 +281,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
     const std::vector<double> angles = minAngles(sheet);
     std::fill(damping_.begin(), damping_.end(), 0.0);
     for (std::size_t i = 0; i < held_.size(); ++i) {
-        held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;  // linearise() releases those that face upwards
+        held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;
     }
     int shifted = 0;
     double last = std::numeric_limits<double>::infinity();
@@ -295,8 +292,9 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             // Vertices on the ground are held while the energy presses them down.
             const auto k = static_cast<Eigen::Index>(i);
             if (held_[i] != 0) {
-                held_motion_[i] = sheet.places[rim_ + i].z;
-                if (linear_.gradient[k] - pressure * linear_.volume[k] > 0.0) {
+                const double up = linear_.directions[rim_ + i].z;
+                held_motion_[i] = -sheet.places[rim_ + i].z * up;
+                if (up * (linear_.gradient[k] - pressure * linear_.volume[k]) <= 0.0) {
                     held_[i] = 0;
                 }
             }
@@ -345,15 +343,15 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             for (std::size_t i = 0; i < held_.size(); ++i) {
                 const std::size_t v = rim_ + i;
                 const auto k = static_cast<Eigen::Index>(i);
-                const double down = linear_.directions[v].z;
+                const double up = linear_.directions[v].z;
                 if (held_[i] != 0) {
-                    if (round < kReleaseRounds && pushed[k] > 0.0) {
+                    if (round < kReleaseRounds && up * pushed[k] < 0.0) {
                         held_[i] = 0;
                         has_changed = true;
                     }
-                } else if (down < -kDownward && sheet.places[v].z + step.motion[k] * down < 0.0) {
+                } else if (std::abs(up) > kLevel && sheet.places[v].z + step.motion[k] * up < 0.0) {
                     held_[i] = 1;
-                    held_motion_[i] = -sheet.places[v].z / down;
+                    held_motion_[i] = -sheet.places[v].z / up;
                     has_changed = true;
                 }
             }

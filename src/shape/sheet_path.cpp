@@ -32,6 +32,8 @@ constexpr double kRefused = 0.4;
 /// triangles.
 constexpr double kWorn = 0.7;
 constexpr double kGrowth = 1.25;
+/// First step of the volume, in cubes of the radius of a disc as large as the footprint.
+constexpr double kFirstPart = 0.02;
 /// Change of the volume up to which a sheet needs no new triangles to be confirmed.
 constexpr double kConfirmed = 0.02;
 /// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
@@ -88,9 +90,15 @@ public:
         }
         options_.path_edge = std::max(options_.edge, options_.path_edge);
         now_.sheet = remesh(now_.sheet, {options_.path_edge, options_.path_edge / 8.0});
-        // The flat sheet is in equilibrium with no liquid.
         use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
-        now_.newton = solver_->solve(now_.sheet, 0.0, now_.pressure);
+        // The flat sheet is in equilibrium with no liquid, but not where gravity pulls along it.
+        const bool is_level = options_.weight.x == 0.0 && options_.weight.y == 0.0;
+        now_.volume = is_level ? 0.0 : kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
+        // Under the largest weight all of the sheet is free to rise at first.
+        for (const Vec3& place : now_.sheet.places) {
+            now_.pressure = is_level ? 0.0 : std::max(now_.pressure, dot(options_.weight, place));
+        }
+        now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
         newton_steps_ = now_.newton.steps;
         firm_ = now_;
     }
@@ -124,7 +132,7 @@ private:
         }
         const double base = meshed_area_;
         const double length_scale = std::sqrt(base / std::numbers::pi);
-        double step = 0.02 * length_scale * length_scale * length_scale;
+        double step = kFirstPart * length_scale * length_scale * length_scale;
         double largest = 0.0;
         double barrier = -1.0;  // volume that was refused; up to it steps do not grow again
         int settled = 0;
@@ -227,9 +235,7 @@ private:
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         for (std::size_t v = next.sheet.rim; v < next.sheet.places.size(); ++v) {
-            if (now_.newton.tangent[v].z < 0.0 && next.sheet.places[v].z < 0.0) {
-                next.sheet.places[v].z = 0.0;
-            }
+            next.sheet.places[v].z = std::max(next.sheet.places[v].z, 0.0);
         }
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure);
         newton_steps_ += next.newton.steps;

@@ -51,7 +51,7 @@ struct FilledSheet {
 /// Fills a footprint from dry ground up to a target, by steps of the volume.
 ///
 /// Guarantees: the sheet is in equilibrium, a minimum of its energy at its volume, which is met to 1e-10; its rim is
-/// that of the footprint; nothing is below z = 0 but where it faces upwards. If the target is not reached, it is the
+/// that of the footprint; nothing is below z = 0. If the target is not reached, it is the
 /// last equilibrium before the end.
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
 

@@ -243,8 +243,8 @@ std::string offeredByZsh(const std::string& words)
 
 TEST(Documentation, ZshCompletesOptionsAndTheirValues)
 {
-    EXPECT_THAT(offeredByZsh(""), AllOf(HasSubstr("animate:"), HasSubstr("\n--model["), HasSubstr(":(linear exact)\n"),
-                                        Not(HasSubstr("--volume-mode["))));
+    EXPECT_THAT(offeredByZsh(""), AllOf(HasSubstr("animate:"), HasSubstr("\n--model["),
+                                        HasSubstr(":(auto linear exact)\n"), Not(HasSubstr("--volume-mode["))));
     EXPECT_THAT(offeredByZsh("animate"), AllOf(HasSubstr("--volume-mode["), HasSubstr(":(total track fill)\n")));
 }
 

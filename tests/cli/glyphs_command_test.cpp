@@ -170,8 +170,8 @@ TEST_F(Glyphs, SkipsGlyphsThatAreUpToDate)
 
 TEST_F(Glyphs, WarnsAboutATowerEvenIfQuiet)
 {
-    const CommandResult result =
-        glyphs({"--charset", "o", "-o", "{name}.glb", "--height", "40mm", "--triangles", "500", "-q"});
+    const CommandResult result = glyphs(
+        {"--charset", "o", "-o", "{name}.glb", "--height", "40mm", "--model", "linear", "--triangles", "500", "-q"});
     ASSERT_EQ(result.exit_code, 0) << result.error;
     EXPECT_THAT(result.error, AllOf(HasSubstr("warning: glyph 'o'"), HasSubstr("40 mm high, but a puddle")));
 }

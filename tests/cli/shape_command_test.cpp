@@ -230,13 +230,33 @@ TEST_F(ShapeCommandTest, LiquidAndGravityAreThoseGiven)
     EXPECT_EQ(weightless["shape"]["gravity_energy_j"], 0.0);
 }
 
-TEST_F(ShapeCommandTest, LinearModelIsTheDefault)
+TEST_F(ShapeCommandTest, TheDefaultModelIsLinearOnlyWhereThatIsRight)
 {
-    const json report = this->report({"disc.pgm", "a.glb"});
-    EXPECT_EQ(report["model"], "linear");
-    EXPECT_EQ(report["solve"]["newton_steps"], 1);
-    make({"disc.pgm", "b.glb", "--model", "linear", "--tilt", "0deg", "--gravity", "9.81m/s2"});
+    const json flat = report({"disc.pgm", "a.glb", "--contact-angle", "8deg"});
+    EXPECT_EQ(flat["model"], "linear");
+    EXPECT_EQ(flat["solve"]["newton_steps"], 1);
+    make({"disc.pgm", "b.glb", "--contact-angle", "8deg", "--model", "linear", "--gravity", "9.81m/s2"});
     EXPECT_EQ(bytesOf("a.glb"), bytesOf("b.glb"));
+    EXPECT_EQ(report({"disc.pgm", "a.glb"})["model"], "exact");
+    const json bead = report({"disc.pgm", "a.glb", "--contact-angle", "120deg"});
+    EXPECT_EQ(bead["model"], "parametric");
+    EXPECT_GT(bead["shape"]["overhang_m"], 1e-4);
+}
+
+TEST_F(ShapeCommandTest, TakesTheAngleThatALiquidHasByItself)
+{
+    const auto angle = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"disc.pgm", "a.glb", "--contact-angle", "natural"});
+        return report(options)["shape"]["contact_angle_deg"]["mean"].get<double>();
+    };
+    EXPECT_NEAR(angle({}), 20.0, 1e-4);
+    EXPECT_NEAR(angle({"--on", "ptfe"}), 110.0, 1e-4);
+    EXPECT_NEAR(angle({"--liquid", "mercury", "--width", "4mm"}), 140.0, 1e-4);
+    const auto refused = run({"disc.pgm", "b.glb", "--contact-angle", "natural", "--liquid", "ethanol"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.error, HasSubstr("ethanol on glass spreads"));
+    EXPECT_EQ(run({"disc.pgm", "b.glb", "--contact-angle", "natural", "--liquid", "honey"}).exit_code, 2);
+    EXPECT_THAT(run({"disc.pgm", "b.glb", "--on", "wax"}).error, HasSubstr("--on has no effect"));
 }
 
 TEST_F(ShapeCommandTest, ExactModelMakesACap)
@@ -411,8 +431,11 @@ std::pair<double, double> rangeOfZ(const std::string& stl)
 TEST_F(ShapeCommandTest, BaseFollowsTheGround)
 {
     // At the disc's radius of 7.5 mm, a ball of 20 mm is lower by R − √(R² − r²) = 1.46 mm, and a bowl is higher.
-    make({"disc.pgm", "ball.stl", "--surface", "sphere:R=20mm", "--contact-angle", "5deg"});
+    make({"disc.pgm", "ball.stl", "--surface", "sphere:R=20mm", "--contact-angle", "15deg"});
     EXPECT_NEAR(rangeOfZ(bytesOf("ball.stl")).first, -1.46, 0.03);
+    const auto sunk = run({"disc.pgm", "a.stl", "--surface", "sphere:R=20mm", "--contact-angle", "5deg"});
+    EXPECT_EQ(sunk.exit_code, 5);
+    EXPECT_THAT(sunk.error, HasSubstr("the ground stands above it"));
     make({"disc.pgm", "bowl.stl", "--surface", "sphere:R=-20mm", "--contact-angle", "5deg"});
     EXPECT_NEAR(rangeOfZ(bytesOf("bowl.stl")).first, 0.0, 0.01);
     EXPECT_NEAR(rangeOfZ(bytesOf("bowl.stl")).second, 1.46, 0.2);
@@ -659,7 +682,7 @@ TEST_F(ShapeCommandTest, GivesTheSameBytesWithAnyNumberOfThreads)
 
 TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
 {
-    make({"two.pgm", "plain.gltf"});
+    make({"two.pgm", "plain.gltf", "--model", "linear"});
     const json plain = json::parse(bytesOf("plain.gltf"));
     const json with_range = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5"});
     const json slider = json::parse(bytesOf("slider.gltf"));
@@ -759,7 +782,7 @@ TEST_F(ShapeCommandTest, CommandLineOverridesTheConfigurationFile)
     writeFile(directory() / "settings.toml", "width = \"9.6mm\"\nvolume = \"2uL\"\nopen = true\nverbose = true\n");
     // A height on the command line also overrides the volume of the file.
     const json report =
-        this->report({"two.pgm", "a.glb", "--config", "settings.toml", "--height", "1mm", "--open=false"});
+        this->report({"two.pgm", "a.glb", "--config", "settings.toml", "--height", "0.5mm", "--open=false"});
     EXPECT_EQ(report["fill"]["by"], "height_m");
     EXPECT_NEAR(report["input"]["pixel_size_m"], 1e-4, 1e-18);
     EXPECT_EQ(report["output"]["closed"], true);
@@ -807,7 +830,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
     const auto result = run({"two.pgm", "two.glb", "--triangles", "2k", "-v"});
     for (const char* text :
          {"72.8 mN/m", "9.81 m/s²", "tilt 0.0°", "capillary length 2.727 mm", "Bond number", "ground     flat\n", "µJ",
-          "linear model", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
+          "exact model, ", "simplicial", "pressure/Pa", "time ", "triangulate", "memory"}) {
         EXPECT_THAT(result.error, HasSubstr(text));
     }
     EXPECT_THAT(result.error, Not(HasSubstr("more, all in")));
@@ -825,10 +848,12 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
 
 TEST_F(ShapeCommandTest, WarnsAboutSlopesBeyondTheLinearModel)
 {
-    const auto steep = run({"disc.pgm", "a.glb", "--contact-angle", "75deg", "--triangles", "2k"});
+    const auto steep = run({"disc.pgm", "a.glb", "--contact-angle", "75deg", "--model", "linear", "--triangles", "2k"});
     EXPECT_EQ(steep.exit_code, 0);
     EXPECT_THAT(steep.error, HasSubstr("warning: "));
-    EXPECT_THAT(run({"disc.pgm", "a.glb", "--contact-angle", "60deg", "--triangles", "2k", "-q"}).error, IsEmpty());
+    EXPECT_THAT(
+        run({"disc.pgm", "a.glb", "--contact-angle", "60deg", "--model", "linear", "--triangles", "2k", "-q"}).error,
+        IsEmpty());
 }
 
 TEST_F(ShapeCommandTest, ProgressAsJsonIsOneObjectPerLine)
@@ -976,7 +1001,8 @@ TEST_F(ShapeCommandTest, RefusesAPictureWithoutAClearMaskUnlessForced)
 
 TEST_F(ShapeCommandTest, WarnsAboutATowerEvenIfQuiet)
 {
-    const auto result = run({"disc.pgm", "a.glb", "--height", "40mm", "--json", "a.json", "--triangles", "2k", "-q"});
+    const auto result = run(
+        {"disc.pgm", "a.glb", "--height", "40mm", "--model", "linear", "--json", "a.json", "--triangles", "2k", "-q"});
     ASSERT_EQ(result.exit_code, 0) << result.error;
     EXPECT_THAT(result.error, AllOf(HasSubstr("warning: "), HasSubstr("40 mm high, but a puddle")));
     const json report = json::parse(bytesOf("a.json"));

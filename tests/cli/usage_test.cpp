@@ -141,7 +141,7 @@ TEST_F(UsageTest, RefusesQuantitiesOutOfRange)
     for (const char* volume : {"0uL", "-1uL", "1e300m3", "1e-300uL", "nan", "4mm"}) {
         expectRefused({"--volume", volume}, {"--volume", volume});
     }
-    for (const char* angle : {"0deg", "-1deg", "90deg", "91deg", "2rad", "nan", "infdeg"}) {
+    for (const char* angle : {"0deg", "-1deg", "179.1deg", "4rad", "nan", "infdeg"}) {
         expectRefused({"--contact-angle", angle}, {"--contact-angle", angle});
     }
     for (const char* tension : {"0mN/m", "-1mN/m", "1e300N/m"}) {
@@ -165,7 +165,8 @@ TEST_F(UsageTest, RefusesQuantitiesOutOfRange)
     for (const char* depth : {"0mm", "-1mm", "1e300m", "nan", "4uL"}) {
         expectRefused({"--surface-depth", depth}, {"--surface-depth", depth});
     }
-    expectRefused({"--contact-angle", "91deg"}, {"below 90deg with --model linear; use --model exact"});
+    expectRefused({"--contact-angle", "90deg", "--model", "linear"},
+                  {"below 90deg with --model linear; use --model auto"});
     expectRefused({"--contact-angle", "180deg"}, {"to 179deg"});
     expectRefused({"--width", "0mm"}, {"from 1nm to 1000m"});
 }

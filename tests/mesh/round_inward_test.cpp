@@ -30,9 +30,9 @@ TEST(RoundInward, LeavesFootprintsWithoutInnerCorners)
 TEST(RoundInward, AddsTheCornerBesideAnArc)
 {
     const PlanarMesh mesh =
-        triangulate(domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})), {.edge = 0.1}).front();
+        triangulate(domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})), {.edge = 0.03}).front();
     for (const double radius : {0.05, 0.2}) {
-        const std::optional<PlanarMesh> rounded = roundInward(mesh, radius, 0.1);
+        const std::optional<PlanarMesh> rounded = roundInward(mesh, radius, 0.03);
         ASSERT_TRUE(rounded);
         EXPECT_NO_THROW(rounded->validate());
         EXPECT_NEAR(area(*rounded) - 3.0, radius * radius * (1.0 - 0.25 * std::numbers::pi), 0.02 * radius * radius);

@@ -41,6 +41,7 @@ SequenceOptions optionsFor(VolumeMode mode)
     SequenceOptions options;
     options.volume_mode = mode;
     options.droplet.mesh.triangles = 1500;
+    options.droplet.solve.model = Model::Linear;
     if (mode == VolumeMode::Total) {
         options.droplet.solve.fill = {FillBy::Volume, 2 * kMicrolitre, FillSharing::Total};
     }

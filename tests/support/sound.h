@@ -29,6 +29,16 @@ inline void expectLiquid(const PlanarMesh& mesh, const HeightField& field)
     EXPECT_TRUE(std::all_of(field.rim_slope.begin(), field.rim_slope.end(), [](double s) { return std::isfinite(s); }));
 }
 
+/// Whether a sheet has its volume, and is above the ground.
+inline void expectSheet(const ParametricSheet& sheet)
+{
+    EXPECT_NO_THROW(sheet.footprint.validate());
+    ASSERT_EQ(sheet.rim, sheet.footprint.rimVertexCount());
+    ASSERT_EQ(sheet.contact_angle.size(), sheet.rim);
+    EXPECT_TRUE(std::isfinite(sheet.pressure));
+    EXPECT_TRUE(std::all_of(sheet.places.begin(), sheet.places.end(), [](const Vec3& p) { return p.z >= 0.0; }));
+}
+
 /// Whether a surface has the topology of its footprints: one component per droplet. A droplet with h holes has Euler
 /// number 2 − 2h if closed; without a base it has 1 − h and h + 1 boundary loops.
 inline void expectTopologyOfRims(const Droplet& droplet, bool open)
@@ -71,7 +81,11 @@ inline void expectSound(const Droplet& droplet, bool open = false)
         const double extent = droplet.domain.extent.x * droplet.domain.extent.y;
         const auto terms = static_cast<double>(mesh.triangles.size());
         EXPECT_NEAR(area(mesh), around, std::numeric_limits<double>::epsilon() * terms * extent);
-        expectLiquid(mesh, droplet.solution.droplets[k]);
+        if (!droplet.sheets.empty() && droplet.sheets[k]) {
+            expectSheet(*droplet.sheets[k]);
+        } else {
+            expectLiquid(mesh, droplet.solution.droplets[k]);
+        }
     }
     ASSERT_NO_THROW(droplet.surface.validate());
     expectTopologyOfRims(droplet, open);
