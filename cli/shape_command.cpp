@@ -214,14 +214,10 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
     if (mask) {
         files.push_back(*mask);
     }
-    if (options.evolver && !droplet.sheets.empty()) {
-        throw Error(ErrorCode::NoSuchDroplet,
-                    "--export-evolver writes height fields, but this liquid hangs over its rim; ask for less, or use "
-                    "--model linear");
-    }
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
-                             droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, report.physics);
+                             droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, droplet.sheets,
+                                                   report.physics);
                          }});
     }
     if (options.html) {

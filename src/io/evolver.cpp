@@ -154,6 +154,20 @@ Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& p
     return drop;
 }
 
+/// Writes a sheet as a mesh, some of whose triangles may be seen from below, and its heights.
+void takeSheet(const ParametricSheet& sheet, PlanarMesh& mesh, HeightField& field)
+{
+    mesh = {{}, sheet.triangles, sheet.footprint.loop_starts, nullptr};
+    field.height.clear();
+    field.dry.clear();
+    for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
+        const Vec3& p = sheet.places[v];
+        mesh.vertices.push_back({p.x, p.y});
+        field.height.push_back(p.z);
+        field.dry.push_back(v >= sheet.rim && p.z == 0.0 ? 1 : 0);  // on the ground, which holds it
+    }
+}
+
 using Ends = std::array<std::uint32_t, 2>;
 
 /// Both vertices of every edge, smaller index first, in ascending order.
@@ -227,7 +241,6 @@ report := {
   printf "energy %.17g height %.17g steps %g\n", total_energy - ground_energy, max(vertex, z - ground), steps;
   foreach body bb do printf "body %g volume %.17g pressure %.17g\n", bb.id, bb.volume, bb.pressure;
 }
-vertically
 )";
 
 /// Bodies as ranges [begin, end) of droplets.
@@ -268,8 +281,14 @@ double heightOf(const std::vector<Drop>& drops)
 /// Writer of a datafile from droplets in its units.
 class Datafile {
 public:
-    Datafile(std::ostream& out, const std::vector<Drop>& drops, const Physics& physics, const SolveOptions& options)
-        : lines_(out), drops_(drops), physics_(physics), options_(options), bodies_(bodiesOf(drops.size(), options))
+    Datafile(std::ostream& out, const std::vector<Drop>& drops, const Physics& physics, const SolveOptions& options,
+             bool has_sheets)
+        : lines_(out),
+          drops_(drops),
+          physics_(physics),
+          options_(options),
+          has_sheets_(has_sheets),
+          bodies_(bodiesOf(drops.size(), options))
     {
     }
 
@@ -280,7 +299,7 @@ public:
         writeVertices();
         writeEdgesAndFaces();
         writeBodies();
-        lines_.line(kCommands);
+        lines_.line(kCommands, has_sheets_ ? "freely" : "vertically");
         return lines_.finish();
     }
 
@@ -425,22 +444,38 @@ private:
     const std::vector<Drop>& drops_;
     const Physics& physics_;
     const SolveOptions& options_;
+    bool has_sheets_;
     std::vector<std::array<std::size_t, 2>> bodies_;
 };
 
 }  // namespace
 
 std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& meshes,
-                           const std::vector<HeightField>& fields, const SolveOptions& options)
+                           const std::vector<HeightField>& fields,
+                           const std::vector<std::optional<ParametricSheet>>& sheets, const SolveOptions& options)
 {
-    options.validate();
-    checkFits(meshes, fields);
+    SolveOptions checked = options;
+    checked.fill = {};  // angles beyond 90° are those of sheets
+    checked.validate();
+    if (!sheets.empty() && sheets.size() != meshes.size()) {
+        refuse("sheets has " + std::to_string(sheets.size()) + " entries, meshes " + std::to_string(meshes.size()));
+    }
+    std::vector<PlanarMesh> all_meshes = meshes;
+    std::vector<HeightField> all_fields = fields;
+    bool has_sheets = false;
+    for (std::size_t k = 0; k < std::min(sheets.size(), fields.size()); ++k) {
+        if (sheets[k]) {
+            has_sheets = true;
+            takeSheet(*sheets[k], all_meshes[k], all_fields[k]);
+        }
+    }
+    checkFits(all_meshes, all_fields);
     const Physics physics = physicsOf(meshes, options);
     std::vector<Drop> drops;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        drops.push_back(makeDrop(meshes[k], fields[k], physics));
+        drops.push_back(makeDrop(all_meshes[k], all_fields[k], physics));
     }
-    return Datafile(out, drops, physics, options).write();
+    return Datafile(out, drops, physics, options, has_sheets).write();
 }
 
 }  // namespace droplet

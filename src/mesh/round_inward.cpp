@@ -30,7 +30,7 @@ constexpr double kFiner = 0.8;
 /// Area of loops that vanish, over the squared edge.
 constexpr double kSpeck = 1e-3;
 /// Largest growth of the footprint.
-constexpr double kGrowth = 0.005;
+constexpr double kGrowth = 0.0075;
 /// Halvings of the radius until the footprint grows by no more, slits with a narrow mouth do not become holes, and
 /// holes stay.
 constexpr int kRounds = 5;

@@ -11,7 +11,7 @@ namespace droplet {
 ///
 /// There liquid lies on the ground outside of its rim, and rolls over it: with a rim that turns by 90° from one edge to
 /// the next, no triangles can follow. The footprint only grows, by less the finer it is meshed and by no more than
-/// 0.5 %; holes stay, and none are made. Where this needs it, the radius is smaller.
+/// 0.75 %; holes stay, and none are made. Where this needs it, the radius is smaller.
 /// @param footprint  valid
 /// @param radius     > 0 [m]
 /// @param edge       mean edge of the new triangles [m], > 0

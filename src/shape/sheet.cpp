@@ -25,6 +25,8 @@ constexpr double kPathEdge = 5.0;
 /// dozen triangles, as in large pictures, have no shape.
 constexpr double kLeastPart = 0.08;
 constexpr double kPathPart = 0.15;
+/// Triangles of a footprint up to which a refusal is confirmed on edges half as long.
+constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
@@ -76,24 +78,17 @@ double overhangOf(const ParametricSheet& sheet)
     return overhang;
 }
 
-}  // namespace
-
-SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
+/// @param edge  mean edge of the triangles over the footprint [m]
+SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge)
 {
-    options.liquid.validate();
-    options.fill.validate();
-    if (!options.ground.flat()) {
-        throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
-    }
     const Vec3 weight = weightOf(options);
-    const double size = std::sqrt(area(footprint));
-    const double edge = std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * size);
     std::optional<PlanarMesh> rounded = roundInward(footprint, kInnerRadius * edge, edge);
     SheetResult result;
     PlanarMesh& pinned = result.sheet.footprint;
     pinned = rounded ? *std::move(rounded) : footprint;
-    FilledSheet filled = fillSheet(pinned, {options.fill.by, options.fill.amount},
-                                   {weight, kFinalEdge * edge, std::min(kPathEdge * edge, kPathPart * size)});
+    const double path_edge = std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint)));
+    FilledSheet filled =
+        fillSheet(pinned, {options.fill.by, options.fill.amount}, {weight, kFinalEdge * edge, path_edge});
     result.end = filled.end;
     result.volume = filled.volume;
     result.contact_angle = filled.angle;
@@ -104,6 +99,27 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
     result.sheet.triangles = std::move(filled.mesh.triangles);
     result.sheet.rim = filled.mesh.rim;
     result.sheet.pressure = options.liquid.surface_tension * filled.pressure;
+    return result;
+}
+
+}  // namespace
+
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
+{
+    options.liquid.validate();
+    options.fill.validate();
+    if (!options.ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
+    }
+    const double edge =
+        std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * std::sqrt(area(footprint)));
+    SheetResult result = solveWith(footprint, options, edge);
+    if (result.end != SheetEnd::Reached && footprint.triangles.size() <= kConfirmed) {
+        SheetResult finer = solveWith(footprint, options, 0.5 * edge);
+        if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
+            return finer;
+        }
+    }
     return result;
 }
 

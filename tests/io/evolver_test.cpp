@@ -227,11 +227,12 @@ struct Droplets {
     std::vector<PlanarMesh> meshes;
     std::vector<HeightField> fields;
     SolveOptions options;
+    std::vector<std::optional<ParametricSheet>> sheets = {};
 
     [[nodiscard]] std::string written() const
     {
         std::ostringstream out;
-        const std::uint64_t bytes = writeEvolver(out, meshes, fields, options);
+        const std::uint64_t bytes = writeEvolver(out, meshes, fields, sheets, options);
         EXPECT_TRUE(out.good());
         EXPECT_EQ(bytes, out.str().size());
         return out.str();
@@ -448,7 +449,7 @@ TEST(Evolver, RefusesInconsistentInput)
     const auto refusal = [](const Droplets& droplets) {
         std::ostringstream out;
         try {
-            writeEvolver(out, droplets.meshes, droplets.fields, droplets.options);
+            writeEvolver(out, droplets.meshes, droplets.fields, droplets.sheets, droplets.options);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_EQ(out.str(), "");
@@ -676,6 +677,43 @@ TEST_P(EvolverAndUs, FindTheSameEquilibrium)
     EXPECT_NEAR(ours.pressures.at(0), theirs.pressures.at(0), 1e-8 * std::abs(theirs.pressures.at(0)));
     // The start differs from the solution.
     EXPECT_GT(start.energy, theirs.energy + 1e-7 * std::abs(theirs.energy));
+}
+
+// Beads, and a corner where liquid leans over and lies on the ground: in the file, the sheet is in equilibrium.
+TEST(Evolver, EvolverAgreesOnSheets)
+{
+    struct Bead {
+        const char* name;
+        Loop rim;
+        double degrees;
+        double tilt;
+    };
+    const double side = 3e-3;
+    const std::vector<Bead> beads{
+        {"disc", ellipseLoop(2e-3, 2e-3), 130.0, 0.0},
+        {"square on a slope", polygonLoop({{0, 0}, {side, 0}, {side, side}, {0, side}}), 100.0, 20.0},
+        {"corner",
+         polygonLoop({{0, 0}, {2 * side, 0}, {2 * side, side}, {side, side}, {side, 2 * side}, {0, 2 * side}}), 70.0,
+         0.0}};
+    for (const Bead& bead : beads) {
+        SCOPED_TRACE(bead.name);
+        Droplets droplets;
+        droplets.meshes = triangulate(domainOf(bead.rim), {.edge = 2.5e-4});
+        droplets.options.model = Model::Exact;
+        droplets.options.tilt = bead.tilt * kDegree;
+        droplets.options.fill = {FillBy::ContactAngle, bead.degrees * kDegree, FillSharing::Each};
+        SheetResult result = solveSheet(droplets.meshes.front(), droplets.options);
+        ASSERT_EQ(result.end, SheetEnd::Reached);
+        droplets.fields.resize(1);
+        droplets.fields.front().pressure = result.sheet.pressure;
+        droplets.sheets.emplace_back(std::move(result.sheet));
+        const Statement ours = statementIn(parsed(droplets.written()).opening);
+        const Statement theirs = evolved(droplets, "equilibrate; report");
+        EXPECT_NEAR(ours.energy, theirs.energy, 1e-9 * std::abs(theirs.energy));
+        EXPECT_NEAR(ours.height, theirs.height, 1e-6 * theirs.height);
+        EXPECT_NEAR(ours.volumes.at(0), theirs.volumes.at(0), 1e-10 * theirs.volumes.at(0));
+        EXPECT_NEAR(ours.pressures.at(0), theirs.pressures.at(0), 1e-6 * std::abs(theirs.pressures.at(0)));
+    }
 }
 
 // A large disc on a steep slope is dry at its upper end. Dry vertices stay fixed; between them and the rim Evolver must

@@ -51,8 +51,8 @@ void makePages(const fs::path& folder)
     };
     writeFile(folder / "disc.pgm", testing::discPicture(64, 24.0));
     writeFile(folder / "picture.png", readFile(fs::path(testing::inSource("data/letter_g_1bit.png"))));
-    make("water.html", {"--material", "ink"});
-    make("full.html", {"--json", (folder / "full.json").string()}, "80uL");
+    make("water.html", {"--material", "ink", "--model", "linear"});
+    make("full.html", {"--json", (folder / "full.json").string(), "--model", "linear"}, "80uL");
     make("exact.html", {"--model", "exact"});
     fs::create_directory(folder / "frames");
     for (const auto& [name, radius] : {std::pair("1.pgm", 24.0), std::pair("2.pgm", 14.0), std::pair("3.pgm", 0.0)}) {

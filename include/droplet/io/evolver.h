@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 
 namespace droplet {
@@ -17,7 +19,8 @@ namespace droplet {
 /// In the file σ is 1, and the unit of length is a power of ten metres near the footprints' size. The comments at its
 /// beginning give the factors to SI units, the energy, pressure, height and volume of the heights written, and the
 /// commands that the file defines: equilibrate, report, vertically and freely. Vertices that move vertically minimise
-/// among the same functions as the exact model; vertices that move freely may hang over.
+/// among the same functions as the exact model; vertices that move freely may hang over. Those of sheets move freely,
+/// and stay in place where they lie on the ground.
 /// With FillSharing::Total all droplets form one body, with FillSharing::Each every droplet is a body.
 ///
 /// Guarantees: text in any locale, numbers with all their digits; the same bytes for the same droplets. The stream is
@@ -25,10 +28,12 @@ namespace droplet {
 /// @param out      text stream
 /// @param meshes   valid, at least one
 /// @param fields   heights on the meshes, of either model, in the same order
+/// @param sheets   one per droplet, where it hangs over its rim, instead of its mesh and heights; or empty
 /// @param options  options of the solution; of the fill only `sharing` is used: volumes are those of the heights
 /// @return         bytes handed to the stream
 /// @throws Error   InvalidArgument for invalid options, or if meshes and fields do not match
 std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& meshes,
-                           const std::vector<HeightField>& fields, const SolveOptions& options);
+                           const std::vector<HeightField>& fields,
+                           const std::vector<std::optional<ParametricSheet>>& sheets, const SolveOptions& options);
 
 }  // namespace droplet
