@@ -23,6 +23,9 @@ constexpr double kCorner = 0.5;
 /// Distance between arcs and their chords, and of vertices that are dropped, over the radius.
 constexpr double kChord = 0.002;
 constexpr double kDropped = 0.004;
+/// Shortest edge that is kept, over the radius: where arcs meet the rim, polygons have edges of any length. Edges of
+/// arcs are 0.13 long.
+constexpr double kShortest = 0.06;
 /// Units of Clipper's integers in a radius.
 constexpr double kUnits = 1e5;
 /// Edges over the mean edge of a mesh from which on new triangles are needed.
@@ -86,10 +89,27 @@ Paths closed(const Paths& paths)
     return result;
 }
 
+/// Loop with its corners, and with points at short distances: those of a rim are taken from them.
+Loop subdivided(const std::vector<Vec2>& points, double distance)
+{
+    Loop loop;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 side = points[(i + 1) % points.size()] - points[i];
+        const auto parts = static_cast<std::size_t>(std::ceil(length(side) / distance));
+        for (std::size_t part = 0; part < std::max<std::size_t>(parts, 1); ++part) {
+            const bool is_corner = part == 0 && std::abs(turnAt(points, i)) > kCorner;
+            loop.points.push_back(points[i] + (static_cast<double>(part) / static_cast<double>(parts)) * side);
+            loop.corner.push_back(is_corner ? 1 : 0);
+        }
+    }
+    return loop;
+}
+
 /// Footprint of the loops that are more than specks.
 /// @param unit  length of Clipper's unit [m]
 Footprint footprintOf(const Paths& paths, double unit, double edge)
 {
+    const double shortest = kShortest * kUnits * unit;
     Footprint footprint;
     for (const Path& path : paths) {
         if (std::abs(ClipperLib::Area(path)) * unit * unit < kSpeck * edge * edge) {
@@ -97,11 +117,15 @@ Footprint footprintOf(const Paths& paths, double unit, double edge)
         }
         Loop loop;
         for (const ClipperLib::IntPoint& p : path) {
-            loop.points.push_back({static_cast<double>(p.X) * unit, static_cast<double>(p.Y) * unit});
+            const Vec2 place{static_cast<double>(p.X) * unit, static_cast<double>(p.Y) * unit};
+            if (loop.points.empty() || length(place - loop.points.back()) > shortest) {
+                loop.points.push_back(place);
+            }
         }
-        for (std::size_t i = 0; i < loop.points.size(); ++i) {
-            loop.corner.push_back(std::abs(turnAt(loop.points, i)) > kCorner ? 1 : 0);
+        while (loop.points.size() > 3 && length(loop.points.back() - loop.points.front()) <= shortest) {
+            loop.points.pop_back();
         }
+        loop = subdivided(loop.points, 0.5 * edge);
         if (ClipperLib::Orientation(path)) {
             footprint.rim = std::move(loop);
         } else {
