@@ -12,7 +12,7 @@ string(JOIN "|" slow
   Morph.AreaChangesEvenly
   Multigrid.AutoFactorsIfIt
   Penetration.ExactFilm Penetration.KktHold Penetration.SolversAgree
-  Sheet.Caps Sheet.Gravity
+  Sheet.Caps Sheet.Gravity Sheet.SaysWhereTheMean
   Solvers.AgreeOnTheZoo
   Walk.IsTheFormulaOnASlope Walk.NeverLeavesTheSurface)
 foreach(test IN LISTS tests)

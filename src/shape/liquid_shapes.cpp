@@ -167,6 +167,8 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
 {
     std::vector<SheetMesh> sheets;
     std::vector<const SheetMesh*> all;
+    sheets.reserve(meshes.size());
+    all.reserve(meshes.size());
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
         sheets.push_back(sheet ? SheetMesh{sheet->places, sheet->triangles, sheet->rim}
@@ -193,6 +195,7 @@ void take(SheetResult& result, std::size_t k, LiquidShapes& shapes)
 /// Lowers the contact angles of droplets that touch until they do not.
 void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, LiquidShapes& shapes)
 {
+    std::vector<bool> is_lowered(meshes.size(), false);
     for (int round = 0; round < kMaxLowerings; ++round) {
         const std::optional<SheetContact> contact = neighbourContact(meshes, shapes);
         if (!contact) {
@@ -205,18 +208,19 @@ void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
             SolveOptions own = options;
             own.volumes.clear();
             own.fill = {FillBy::ContactAngle, 0.0, FillSharing::Each};
-            double angle = measure(*shapes.sheets[k], options).contact_angle.mean - kLower;
-            for (; angle > 0.0; angle -= kLower) {
-                own.fill.amount = angle;
+            const double angle = measure(*shapes.sheets[k], options).contact_angle.mean;
+            for (int lowering = 1; angle > lowering * kLower; ++lowering) {
+                own.fill.amount = angle - lowering * kLower;
                 SheetResult lower = solveSheet(meshes[k], own);
                 if (lower.end == SheetEnd::Reached) {
-                    shapes.least_angle = std::min(shapes.least_angle, angle);
+                    shapes.least_angle = std::min(shapes.least_angle, own.fill.amount);
                     take(lower, k, shapes);
+                    shapes.with_less += is_lowered[k] ? 0 : 1;
+                    is_lowered[k] = true;
                     break;
                 }
             }
         }
-        shapes.with_less = std::max(shapes.with_less, std::size_t{1});
     }
 }
 
