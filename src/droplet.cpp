@@ -82,8 +82,10 @@ std::string heightWarning(const Droplet& droplet, Model model)
 {
     std::size_t count = 0;
     const ShapeFigures* worst = nullptr;
-    for (const ShapeFigures& figures : droplet.figures) {
-        if (figures.height_bound && figures.height_max > maxPlausibleHeight(figures, model)) {
+    for (std::size_t k = 0; k < droplet.figures.size(); ++k) {
+        const ShapeFigures& figures = droplet.figures[k];
+        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
+        if (!is_sheet && figures.height_bound && figures.height_max > maxPlausibleHeight(figures, model)) {
             ++count;
             worst = worst == nullptr || figures.height_max > worst->height_max ? &figures : worst;
         }

@@ -22,6 +22,12 @@ namespace {
 /// Steps of Newton's method after which a sheet is tried first; height fields that exist take 4 to 8.
 constexpr std::size_t kQuickSteps = 15;
 
+/// Work of the height field where no sheet was found, as in SolveOptions: some seconds.
+constexpr double kMaxWork = 2e7;
+
+/// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
+constexpr double kLeastShare = 0.5;
+
 /// Reduction of the contact angle until neighbours do not touch [rad], and its most repetitions.
 constexpr double kLower = 2.0 * kDegree;
 constexpr int kMaxLowerings = 60;
@@ -91,6 +97,9 @@ std::string refusal(const SheetResult& result, const std::string& which)
             return which + "such a droplet would touch itself at x " + numberText(result.contact->x / kMillimetre, 3) +
                    " mm, y " + numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
                    " (mean contact angle " + angle + "); ask for less";
+        case SheetEnd::OutOfWork:
+            return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
+                   " (mean contact angle " + angle + "); ask for less, or use fewer --triangles";
         case SheetEnd::Unstable:
         case SheetEnd::Reached:
             break;
@@ -145,7 +154,9 @@ Shape solveShape(const PlanarMesh& mesh, const SolveOptions& options, std::optio
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.field.reset();
     } else if (!shape.field && !mustHang(options)) {
-        Shape upright = solveField(mesh, options);
+        SolveOptions limited = options;
+        limited.max_work = options.max_work.value_or(kMaxWork);
+        Shape upright = solveField(mesh, limited);
         upright.sheet = std::move(shape.sheet);
         return upright;
     }
@@ -288,6 +299,14 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
             if (shape.sheet->end != SheetEnd::Reached) {
                 if (!allow_less) {
                     throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, ofDroplet(k, count)));
+                }
+                if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
+                    shape.sheet->contact_angle < kLeastShare * options.fill.amount) {
+                    SolveOptions linear = options;
+                    linear.model = Model::Linear;
+                    if (Solution flat = solve(meshes, linear); flat.report.usable()) {
+                        return {std::move(flat), {}};
+                    }
                 }
                 ++shapes.with_less;
                 shapes.least_angle = std::min(shapes.least_angle, shape.sheet->contact_angle);

@@ -114,7 +114,8 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
     const double edge =
         std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * std::sqrt(area(footprint)));
     SheetResult result = solveWith(footprint, options, edge);
-    if (result.end != SheetEnd::Reached && footprint.triangles.size() <= kConfirmed) {
+    const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
+    if (is_open && footprint.triangles.size() <= kConfirmed) {
         SheetResult finer = solveWith(footprint, options, 0.5 * edge);
         if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
             return finer;

@@ -313,7 +313,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             }
             return result;
         }
-        if (result.steps >= limits.steps) {
+        if (result.steps >= limits.steps || result.factorisations >= limits.factorisations) {
             return result;
         }
         last = is_full ? result.residual : last;
@@ -325,7 +325,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
         int damped = 0;
         for (int round = 0;; ++round) {
             double shift = 0.0;
-            while (!factor(shift) || negatives() != 1) {
+            for (++result.factorisations; !factor(shift) || negatives() != 1; ++result.factorisations) {
                 shift = shift == 0.0 ? least : 3.0 * shift;
                 if (shift > 1e12 * least) {
                     return result;

@@ -11,17 +11,19 @@ namespace droplet {
 
 /// Limits of Newton's method.
 struct NewtonLimits {
-    int steps = 14;           ///< most steps
-    int shifted_steps = 4;    ///< most steps with a matrix that had to be shifted to have a minimum
-    double tolerance = 1e-9;  ///< relative residual at which it ends
-    double stagnated = 1e-7;  ///< relative residual that is good enough when steps no longer lower it
-    double worn = 0.0;        ///< smallest angle of a triangle, over that at the start, below which it ends
+    int steps = 14;            ///< most steps
+    int shifted_steps = 4;     ///< most steps with a matrix that had to be shifted to have a minimum
+    double tolerance = 1e-9;   ///< relative residual at which it ends
+    double stagnated = 1e-7;   ///< relative residual that is good enough when steps no longer lower it
+    double worn = 0.0;         ///< smallest angle of a triangle, over that at the start, below which it ends
+    int factorisations = 150;  ///< after which no step begins
 };
 
 /// Result of Newton's method.
 struct NewtonResult {
     bool converged = false;  ///< to a minimum of the energy at the given volume
     int steps = 0;
+    int factorisations = 0;
     double residual = 0.0;        ///< relative
     std::vector<Vec3> tangent;    ///< if converged: motion of every vertex per volume [1/m²]
     double pressure_slope = 0.0;  ///< if converged: change of the pressure per volume [1/m⁴]

@@ -34,6 +34,8 @@ constexpr double kWorn = 0.7;
 constexpr double kGrowth = 1.25;
 /// First step of the volume, in cubes of the radius of a disc as large as the footprint.
 constexpr double kFirstPart = 0.02;
+/// Cost of new triangles, in factorisations, measured.
+constexpr double kRemeshWork = 20.0;
 /// Change of the volume up to which a sheet needs no new triangles to be confirmed.
 constexpr double kConfirmed = 0.02;
 /// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
@@ -99,7 +101,7 @@ public:
             now_.pressure = is_level ? 0.0 : std::max(now_.pressure, dot(options_.weight, place));
         }
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
-        newton_steps_ = now_.newton.steps;
+        count(now_, true);
         firm_ = now_;
     }
 
@@ -108,6 +110,7 @@ public:
         const SheetEnd end = follow();
         const std::optional<SheetContact> contact = contact_;
         if (end != SheetEnd::Reached && now_.newton.converged) {
+            options_.max_work *= 1.5;
             refine(false);
         }
         return {now_.sheet,
@@ -136,7 +139,7 @@ private:
         double largest = 0.0;
         double barrier = -1.0;  // volume that was refused; up to it steps do not grow again
         int settled = 0;
-        for (int k = 0; k < kMaxSteps; ++k) {
+        for (int k = 0; k < kMaxSteps && hasWork(); ++k) {
             const double left = wayTo();
             bool is_refused = false;
             double tried = std::abs(left);
@@ -184,7 +187,7 @@ private:
                 return SheetEnd::NoHeight;
             }
         }
-        return SheetEnd::Unstable;
+        return hasWork() ? SheetEnd::Unstable : SheetEnd::OutOfWork;
     }
 
     /// Height or mean contact angle, whichever is the target.
@@ -238,7 +241,7 @@ private:
             next.sheet.places[v].z = std::max(next.sheet.places[v].z, 0.0);
         }
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure);
-        newton_steps_ += next.newton.steps;
+        count(next, false);
         if (!next.newton.converged) {
             return false;
         }
@@ -313,11 +316,11 @@ private:
         std::unique_ptr<SheetSolver> solver;
         // At inner corners a sheet may have far to go; there triangles wear out on the way.
         double nearest = std::numeric_limits<double>::infinity();
-        for (int round = 0, worse = 0; round < kRenewals && worse < kWorse; ++round) {
+        for (int round = 0, worse = 0; round < kRenewals && worse < kWorse && hasWork(); ++round) {
             next.sheet = remesh(next.sheet, {edge, edge / 8.0});
             solver = std::make_unique<SheetSolver>(next.sheet, options_.weight);
             next.newton = solver->solve(next.sheet, next.volume, next.pressure, kSettling);
-            newton_steps_ += next.newton.steps;
+            count(next, true);
             if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
                 return false;
             }
@@ -327,7 +330,7 @@ private:
             worse += next.newton.residual < nearest ? 0 : 1;
             nearest = std::min(nearest, next.newton.residual);
         }
-        if (!next.newton.converged) {
+        if (!solver || !next.newton.converged) {
             return false;
         }
         contact_ = firstContact({&next.sheet});
@@ -338,6 +341,17 @@ private:
         state = std::move(next);
         return true;
     }
+
+    /// Counts the work of Newton's method on new triangles or the same ones: a factorisation costs the power 3/2 of the
+    /// triangles.
+    void count(const State& state, bool is_remeshed)
+    {
+        newton_steps_ += state.newton.steps;
+        work_ += (state.newton.factorisations + (is_remeshed ? kRemeshWork : 0.0)) *
+                 std::pow(static_cast<double>(state.sheet.triangles.size()), 1.5);
+    }
+
+    [[nodiscard]] bool hasWork() const { return work_ < options_.max_work; }
 
     /// Takes the solver of new triangles.
     void use(std::unique_ptr<SheetSolver> solver, const SheetMesh& sheet)
@@ -358,6 +372,7 @@ private:
     bool is_final_ = false;                ///< the triangles stay
     std::optional<SheetContact> contact_;  ///< of the sheet with itself, if that stopped the last step
     int newton_steps_ = 0;
+    double work_ = 0.0;  ///< so far, as SheetOptions::max_work
 };
 
 }  // namespace

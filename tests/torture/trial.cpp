@@ -124,6 +124,9 @@ Verdict tryLibrary(const Item& item, const Fill& fill)
     options.mesh.triangles = kTriangles;
     options.solve.fill = fill;
     options.allow_less = fill.by == FillBy::ContactAngle;  // as the command does without an amount
+    if (!options.allow_less) {
+        options.solve.model = Model::Linear;  // in which every volume and height exists
+    }
     MaskOptions mask_options;
     mask_options.channel = isGreymap(item) ? Channel::Luma : Channel::Auto;
 
