@@ -13,4 +13,10 @@ inline double meanEdge(double area, std::size_t triangles)
     return std::sqrt(4.0 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
 }
 
+/// Number of equilateral triangles with such an edge that cover an area together.
+inline double trianglesOf(double area, double edge)
+{
+    return 4.0 / std::numbers::sqrt3 * area / (edge * edge);
+}
+
 }  // namespace droplet

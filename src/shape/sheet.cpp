@@ -30,6 +30,9 @@ constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
+/// Work over that of one factorisation on the footprint's triangles. Of 298 silhouettes of 8000 triangles at 40° half
+/// took 30 and one 310; of drawings of 40 000 a butterfly took 370.
+constexpr double kWork = 450.0;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].
 Vec3 weightOf(const SolveOptions& options)
@@ -87,8 +90,9 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
     PlanarMesh& pinned = result.sheet.footprint;
     pinned = rounded ? *std::move(rounded) : footprint;
     const double path_edge = std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint)));
-    FilledSheet filled =
-        fillSheet(pinned, {options.fill.by, options.fill.amount}, {weight, kFinalEdge * edge, path_edge});
+    SheetOptions sheet_options{weight, kFinalEdge * edge, path_edge};
+    sheet_options.max_work = kWork * std::pow(trianglesOf(area(footprint), edge), 1.5);
+    FilledSheet filled = fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options);
     result.end = filled.end;
     result.volume = filled.volume;
     result.contact_angle = filled.angle;

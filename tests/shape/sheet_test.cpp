@@ -250,6 +250,24 @@ TEST(Sheet, SaysWhereTheMeanAngleHasItsMaximum)
     EXPECT_LT(result.contact_angle, 150.0 * kDegree);
 }
 
+TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
+{
+    const PlanarMesh mesh = discMeshes(0.1).front();
+    SheetOptions options{{}, 0.1, 0.3};
+    const FilledSheet whole = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
+    ASSERT_EQ(whole.end, SheetEnd::Reached);
+    options.max_work = 5e6;
+    const FilledSheet part = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
+    ASSERT_EQ(part.end, SheetEnd::OutOfWork);
+    EXPECT_GT(part.volume, 0.0);
+    EXPECT_LT(part.volume, 4.0);
+    EXPECT_NEAR(integrate(part.mesh, {}).volume, part.volume, 1e-10);
+    EXPECT_LT(part.newton_steps, whole.newton_steps);
+    // It is the cap of its volume.
+    const FilledSheet cap = fillSheet(mesh, {FillBy::Volume, part.volume}, {{}, 0.1, 0.3});
+    EXPECT_NEAR(part.pressure, cap.pressure, 1e-3 * cap.pressure);
+}
+
 TEST(Sheet, GivesTheSameBytesAgain)
 {
     const PlanarMesh mesh = discMeshes(0.1).front();

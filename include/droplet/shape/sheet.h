@@ -53,8 +53,8 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited to some ten seconds. The end of a footprint of up to 10 000 triangles is confirmed on edges
-/// half as long.
+/// one. The work is limited, to about ten seconds at 40 000 triangles. The end of a footprint of up to 10 000 triangles
+/// is confirmed on edges half as long.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground where it leans over, and does not
 /// cross itself; the same input gives the same bits.
