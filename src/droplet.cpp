@@ -85,7 +85,10 @@ std::string heightWarning(const Droplet& droplet, Model model)
     for (std::size_t k = 0; k < droplet.figures.size(); ++k) {
         const ShapeFigures& figures = droplet.figures[k];
         const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
-        if (!is_sheet && figures.height_bound && figures.height_max > maxPlausibleHeight(figures, model)) {
+        // Upright rims have a warning of their own, and the bound holds for the mean angle.
+        const bool is_upright = model == Model::Exact && figures.contact_angle.max >= kUpright;
+        if (!is_sheet && !is_upright && figures.height_bound &&
+            figures.height_max > maxPlausibleHeight(figures, model)) {
             ++count;
             worst = worst == nullptr || figures.height_max > worst->height_max ? &figures : worst;
         }

@@ -30,9 +30,11 @@ constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
-/// Work over that of one factorisation on the footprint's triangles. Of 298 silhouettes of 8000 triangles at 40° half
-/// took 30 and one 310; of drawings of 40 000 a butterfly took 370.
-constexpr double kWork = 450.0;
+/// Most work over that of one factorisation on the footprint's triangles, and least limit of it. Of 298 silhouettes of
+/// 8000 triangles half took 30 and one 310 at 40°, half 41 and one 620 at 60°; of drawings of 40 000 a butterfly took
+/// 370. A U of 600 triangles took 1.5e7 in all.
+constexpr double kWork = 1500.0;
+constexpr double kLeastWork = 2e8;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].
 Vec3 weightOf(const SolveOptions& options)
@@ -81,8 +83,9 @@ double overhangOf(const ParametricSheet& sheet)
     return overhang;
 }
 
-/// @param edge  mean edge of the triangles over the footprint [m]
-SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge)
+/// @param edge   mean edge of the triangles over the footprint [m]
+/// @param share  of the most work
+SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge, double share)
 {
     const Vec3 weight = weightOf(options);
     std::optional<PlanarMesh> rounded = roundInward(footprint, kInnerRadius * edge, edge);
@@ -91,7 +94,7 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
     pinned = rounded ? *std::move(rounded) : footprint;
     const double path_edge = std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint)));
     SheetOptions sheet_options{weight, kFinalEdge * edge, path_edge};
-    sheet_options.max_work = kWork * std::pow(trianglesOf(area(footprint), edge), 1.5);
+    sheet_options.max_work = share * std::max(kLeastWork, kWork * std::pow(trianglesOf(area(footprint), edge), 1.5));
     FilledSheet filled = fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options);
     result.end = filled.end;
     result.volume = filled.volume;
@@ -108,7 +111,7 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
 
 }  // namespace
 
-SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, double share)
 {
     options.liquid.validate();
     options.fill.validate();
@@ -117,10 +120,10 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options)
     }
     const double edge =
         std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * std::sqrt(area(footprint)));
-    SheetResult result = solveWith(footprint, options, edge);
+    SheetResult result = solveWith(footprint, options, edge, share);
     const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
     if (is_open && footprint.triangles.size() <= kConfirmed) {
-        SheetResult finer = solveWith(footprint, options, 0.5 * edge);
+        SheetResult finer = solveWith(footprint, options, 0.5 * edge, share);
         if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
             return finer;
         }

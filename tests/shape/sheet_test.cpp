@@ -256,7 +256,7 @@ TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
     SheetOptions options{{}, 0.1, 0.3};
     const FilledSheet whole = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
     ASSERT_EQ(whole.end, SheetEnd::Reached);
-    options.max_work = 5e6;
+    options.max_work = 1e6;
     const FilledSheet part = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
     ASSERT_EQ(part.end, SheetEnd::OutOfWork);
     EXPECT_GT(part.volume, 0.0);
