@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -36,8 +37,12 @@ constexpr double kGrowth = 1.25;
 constexpr double kFirstPart = 0.02;
 /// Cost of new triangles, in factorisations, measured.
 constexpr double kRemeshWork = 20.0;
-/// Change of the volume up to which a sheet needs no new triangles to be confirmed.
+/// Change of the volume, over it, after which a sheet is confirmed on new triangles once one was refused on them, and
+/// number of confirmed ones that are kept.
 constexpr double kConfirmed = 0.02;
+constexpr std::size_t kFirm = 6;
+/// Growth of the most work to confirm the end of a path.
+constexpr double kConfirmWork = 1.5;
 /// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
 /// it, and limits of Newton's method then.
 constexpr int kRenewals = 6;
@@ -102,15 +107,19 @@ public:
         }
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
         count(now_, true);
-        firm_ = now_;
+        firm_ = {now_};
     }
 
     FilledSheet run()
     {
-        const SheetEnd end = follow();
+        SheetEnd end = follow();
+        options_.max_work *= kConfirmWork;
+        if (end == SheetEnd::Unstable && refineFirm()) {
+            end = follow();
+        }
         const std::optional<SheetContact> contact = contact_;
         if (end != SheetEnd::Reached && now_.newton.converged) {
-            options_.max_work *= 1.5;
+            options_.max_work *= kConfirmWork;
             refine(false);
         }
         return {now_.sheet,
@@ -144,7 +153,7 @@ private:
             bool is_refused = false;
             double tried = std::abs(left);
             if (tried <= 1e-12 * std::max(now_.volume, 1e-300) || settled > kMaxSettling) {
-                tried = now_.volume - firm_.volume;
+                tried = now_.volume - firm_.back().volume;
                 if (refine(true)) {
                     return SheetEnd::Reached;
                 }
@@ -170,8 +179,17 @@ private:
                 largest = 0.0;
                 barrier = std::max(barrier, now_.volume + tried);
                 step = kRefused * std::min(step, tried);
-                if (step < options_.min_step * std::max(now_.volume, 1e-3 * length_scale * base)) {
-                    return contact_ ? SheetEnd::Contact : SheetEnd::Unstable;
+                const double least = options_.min_step * std::max(now_.volume, 1e-3 * length_scale * base);
+                if (step < least && contact_) {
+                    return SheetEnd::Contact;
+                }
+                if (step < least) {
+                    const double end = now_.volume;
+                    if (isFirm(least)) {
+                        return SheetEnd::Unstable;
+                    }
+                    barrier = std::max(barrier, end);
+                    step = kRefused * (end - now_.volume);
                 }
                 continue;
             }
@@ -246,25 +264,75 @@ private:
             return false;
         }
         const int steps = next.newton.steps;
-        const bool is_far = std::abs(next.volume - firm_.volume) > kConfirmed * next.volume;
-        if (!is_final_ && ((is_careful_ && is_far) || needsTriangles(next.sheet))) {
+        const bool is_far = std::abs(next.volume - firm_.back().volume) > gap_ * next.volume;
+        if (!is_final_ && (is_far || needsTriangles(next.sheet))) {
             if (!renew(next, options_.path_edge)) {
                 goBack();
                 return false;
             }
-            firm_ = next;
+            confirm(next);
         }
         now_ = std::move(next);
         now_.newton.steps = steps;  // those of the step itself set the size of the next one
         return true;
     }
 
+    /// Keeps a sheet on new triangles.
+    void confirm(const State& state)
+    {
+        firm_.push_back(state);
+        if (firm_.size() > kFirm) {
+            firm_.pop_front();
+        }
+    }
+
     /// Takes up the last sheet that stood on new triangles; from now on every one has to.
     void goBack()
     {
-        now_ = firm_;
-        is_careful_ = true;
+        now_ = firm_.back();
+        gap_ = std::min(gap_, kConfirmed);
         use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
+    }
+
+    /// Whether the last sheet stands on new triangles. If not, the path goes back, and confirms every step.
+    /// @param least  change of the volume that needs no new triangles [m³]
+    bool isFirm(double least)
+    {
+        const double ahead = std::abs(now_.volume - firm_.back().volume);
+        if (ahead <= least) {
+            return true;
+        }
+        if (renew(now_, options_.path_edge)) {
+            confirm(now_);
+            return true;
+        }
+        goBack();
+        gap_ = 0.0;
+        return kRefused * ahead < least;
+    }
+
+    /// Takes up the last sheet that stands on triangles of the final size, to go on with them: with coarse ones, sheets
+    /// may end too early or too late.
+    bool refineFirm()
+    {
+        if (options_.edge >= options_.path_edge) {
+            return false;
+        }
+        std::deque<State> states = std::move(firm_);
+        for (; !states.empty() && hasWork(); states.pop_back()) {
+            State state = states.back();
+            if (renew(state, options_.edge)) {
+                now_ = state;
+                firm_ = {state};
+                options_.path_edge = options_.edge;
+                gap_ = std::numeric_limits<double>::infinity();
+                return true;
+            }
+            if (firm_.empty()) {
+                firm_ = {states.back()};
+            }
+        }
+        return false;
     }
 
     /// Gives the last sheet its final triangles, or, where small ones fail at a fold, coarser ones, and leads it to the
@@ -364,13 +432,13 @@ private:
     SheetTarget target_;
     SheetOptions options_;
     State now_;
-    std::unique_ptr<SheetSolver> solver_;  ///< for the triangles of now_
-    double meshed_area_ = 0.0;             ///< when the triangles were made
-    std::vector<double> meshed_angles_;    ///< of every triangle then [rad]
-    State firm_;                           ///< last equilibrium that was confirmed on new triangles
-    bool is_careful_ = false;              ///< every equilibrium has to be
-    bool is_final_ = false;                ///< the triangles stay
-    std::optional<SheetContact> contact_;  ///< of the sheet with itself, if that stopped the last step
+    std::unique_ptr<SheetSolver> solver_;                   ///< for the triangles of now_
+    double meshed_area_ = 0.0;                              ///< when the triangles were made
+    std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
+    std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
+    double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
+    bool is_final_ = false;                                 ///< the triangles stay
+    std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step
     int newton_steps_ = 0;
     double work_ = 0.0;  ///< so far, as SheetOptions::max_work
 };

@@ -250,6 +250,45 @@ TEST(Sheet, SaysWhereTheMeanAngleHasItsMaximum)
     EXPECT_LT(result.contact_angle, 150.0 * kDegree);
 }
 
+/// A drop that hangs at Bond number 0.5 detaches at V = 9.83526 by the Young–Laplace equation.
+TEST(SheetLimits, PendantDropsDetach)
+{
+    const SolveOptions held = unitLiquid(-0.5, FillBy::Volume, 8.10129);
+    const SheetResult drop = solveSheet(discMeshes(0.06).front(), held);
+    ASSERT_EQ(drop.end, SheetEnd::Reached);
+    EXPECT_NEAR(drop.sheet.pressure, 0.70392, 2e-3 * 0.70392);
+    EXPECT_NEAR(measure(drop.sheet, held).height_max, 2.57215, 1e-3 * 2.57215);
+    EXPECT_NEAR(drop.contact_angle, 94.70 * kDegree, 0.1 * kDegree);
+
+    const SheetResult last = solveSheet(discMeshes(0.08).front(), unitLiquid(-0.5, FillBy::Volume, 10.0));
+    EXPECT_EQ(last.end, SheetEnd::Unstable);
+    EXPECT_NEAR(last.volume, 9.83526, 3e-3 * 9.83526);
+}
+
+/// Liquid on a ring closes its hole of a fifth of the radius at V = 0.5972, by the Young–Laplace equation, where the
+/// footprint's area is π.
+TEST(SheetLimits, HolesOfRingsClose)
+{
+    const double radius = 1.0 / std::sqrt(1.0 - 0.04);
+    const Domain ring = domainOf(testing::ellipseLoop(radius, radius),
+                                 {testing::reversed(testing::ellipseLoop(0.2 * radius, 0.2 * radius))});
+    const PlanarMesh mesh = triangulate(ring, {.edge = 0.05}).front();
+    const SheetResult last = solveSheet(mesh, unitLiquid(0.0, FillBy::Volume, 1.0));
+    EXPECT_NE(last.end, SheetEnd::Reached);
+    EXPECT_GT(last.volume, 0.594);
+    EXPECT_LT(last.volume, 0.606);
+}
+
+/// Liquid on a rectangle of aspect 6 gathers in its middle without a loss of stability.
+TEST(SheetLimits, ShortRectanglesHoldAnyVolume)
+{
+    const PlanarMesh mesh = triangulate(domainOf(polygonLoop({{0, 0}, {6, 0}, {6, 1}, {0, 1}})), {.edge = 0.1}).front();
+    const SolveOptions options = unitLiquid(0.0, FillBy::Volume, 12.0);
+    const SheetResult bulge = solveSheet(mesh, options);
+    ASSERT_EQ(bulge.end, SheetEnd::Reached);
+    EXPECT_NEAR(measure(bulge.sheet, options).surface_energy, 24.84, 0.05);
+}
+
 TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
 {
     const PlanarMesh mesh = discMeshes(0.1).front();
