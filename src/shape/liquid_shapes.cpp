@@ -28,9 +28,6 @@ constexpr double kMaxWork = 2e7;
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
 
-/// Share of the most work for sheets that nobody asked for.
-constexpr double kModestWork = 0.3;
-
 /// Reduction of the contact angle until neighbours do not touch [rad], and its most repetitions.
 constexpr double kLower = 2.0 * kDegree;
 constexpr int kMaxLowerings = 60;
@@ -142,8 +139,8 @@ SolveOptions ownOptions(const SolveOptions& options, std::size_t k)
 
 /// Shape of a droplet that may hang over its rim.
 /// @param field  height field, if it was found before
-/// @param share  of the most work for a sheet
-Shape solveShape(const PlanarMesh& mesh, const SolveOptions& options, std::optional<HeightField> field, double share)
+Shape solveShape(const PlanarMesh& mesh, const SolveOptions& options, std::optional<HeightField> field,
+                 SheetEffort effort)
 {
     Shape shape{std::move(field), {}, {}};
     if (!shape.field && !mustHang(options)) {
@@ -154,7 +151,7 @@ Shape solveShape(const PlanarMesh& mesh, const SolveOptions& options, std::optio
     if (shape.field ? !isUpright(*shape.field) : shape.report.termination == Termination::Unstable) {
         return shape;
     }
-    shape.sheet = solveSheet(mesh, options, share);
+    shape.sheet = solveSheet(mesh, options, effort);
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.field.reset();
     } else if (!shape.field && !mustHang(options)) {
@@ -226,7 +223,7 @@ void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
             const double angle = measure(*shapes.sheets[k], options).contact_angle.mean;
             for (int lowering = 1; angle > lowering * kLower; ++lowering) {
                 own.fill.amount = angle - lowering * kLower;
-                SheetResult lower = solveSheet(meshes[k], own, kModestWork);
+                SheetResult lower = solveSheet(meshes[k], own, SheetEffort::Modest);
                 if (lower.end == SheetEnd::Reached) {
                     shapes.least_angle = std::min(shapes.least_angle, own.fill.amount);
                     take(lower, k, shapes);
@@ -280,7 +277,7 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
         found[k] = solveShape(meshes[k], ownOptions(options, k),
                               has_fields ? std::optional(std::move(solution.droplets[k])) : std::nullopt,
-                              allow_less ? kModestWork : 1.0);
+                              allow_less ? SheetEffort::Modest : SheetEffort::Full);
     });
     solution.droplets.assign(count, {});
     shapes.sheets.resize(count);

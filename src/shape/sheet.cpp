@@ -35,6 +35,8 @@ constexpr double kInnerRadius = 0.5;
 /// 370. A U of 600 triangles took 1.5e7 in all.
 constexpr double kWork = 1500.0;
 constexpr double kLeastWork = 2e8;
+/// Share of it for modest efforts.
+constexpr double kModestWork = 0.3;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].
 Vec3 weightOf(const SolveOptions& options)
@@ -84,8 +86,7 @@ double overhangOf(const ParametricSheet& sheet)
 }
 
 /// @param edge   mean edge of the triangles over the footprint [m]
-/// @param share  of the most work
-SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge, double share)
+SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge, SheetEffort effort)
 {
     const Vec3 weight = weightOf(options);
     std::optional<PlanarMesh> rounded = roundInward(footprint, kInnerRadius * edge, edge);
@@ -94,7 +95,9 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
     pinned = rounded ? *std::move(rounded) : footprint;
     const double path_edge = std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint)));
     SheetOptions sheet_options{weight, kFinalEdge * edge, path_edge};
-    sheet_options.max_work = share * std::max(kLeastWork, kWork * std::pow(trianglesOf(area(footprint), edge), 1.5));
+    sheet_options.is_end_confirmed = effort == SheetEffort::Full;
+    sheet_options.max_work = (effort == SheetEffort::Full ? 1.0 : kModestWork) *
+                             std::max(kLeastWork, kWork * std::pow(trianglesOf(area(footprint), edge), 1.5));
     FilledSheet filled = fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options);
     result.end = filled.end;
     result.volume = filled.volume;
@@ -111,7 +114,7 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
 
 }  // namespace
 
-SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, double share)
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, SheetEffort effort)
 {
     options.liquid.validate();
     options.fill.validate();
@@ -120,10 +123,10 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
     }
     const double edge =
         std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * std::sqrt(area(footprint)));
-    SheetResult result = solveWith(footprint, options, edge, share);
+    SheetResult result = solveWith(footprint, options, edge, effort);
     const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
-    if (is_open && footprint.triangles.size() <= kConfirmed) {
-        SheetResult finer = solveWith(footprint, options, 0.5 * edge, share);
+    if (is_open && effort == SheetEffort::Full && footprint.triangles.size() <= kConfirmed) {
+        SheetResult finer = solveWith(footprint, options, 0.5 * edge, effort);
         if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
             return finer;
         }

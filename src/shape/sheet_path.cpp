@@ -114,7 +114,7 @@ public:
     {
         SheetEnd end = follow();
         options_.max_work *= kConfirmWork;
-        if (end == SheetEnd::Unstable && refineFirm()) {
+        if (end == SheetEnd::Unstable && options_.is_end_confirmed && refineFirm()) {
             end = follow();
         }
         const std::optional<SheetContact> contact = contact_;

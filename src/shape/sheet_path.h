@@ -18,11 +18,12 @@ struct SheetTarget {
 
 /// Liquid and accuracy of a sheet.
 struct SheetOptions {
-    Vec3 weight;             ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
-    double edge = 0.0;       ///< largest edge of a triangle at the end [m], > 0
-    double path_edge = 0.0;  ///< the same on the way; at least edge
-    double min_step = 1e-3;  ///< smallest step of the volume, over the volume
-    double max_work = 5e9;   ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds
+    Vec3 weight;                   ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
+    double edge = 0.0;             ///< largest edge of a triangle at the end [m], > 0
+    double path_edge = 0.0;        ///< the same on the way; at least edge
+    double min_step = 1e-3;        ///< smallest step of the volume, over the volume
+    bool is_end_confirmed = true;  ///< on triangles of the final size
+    double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds
 };
 
 /// Angles between liquid and ground along the rim.

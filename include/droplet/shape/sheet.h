@@ -36,6 +36,12 @@ enum class SheetEnd {
     OutOfWork,  ///< the work was limited
 };
 
+/// How hard solveSheet() tries.
+enum class SheetEffort {
+    Modest,  ///< a third of the work; the end of what the footprint holds is not confirmed
+    Full,    ///< at the end, finer triangles confirm it
+};
+
 /// Result of solveSheet().
 struct SheetResult {
     ParametricSheet sheet;             ///< the target, or the last equilibrium before the end
@@ -53,17 +59,18 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited, to about half a minute at 40 000 triangles. The end of a footprint of up to 10 000
-/// triangles is confirmed on edges half as long.
+/// one. The work is limited, to about half a minute at 40 000 triangles. An end is confirmed on the final triangles,
+/// that of a footprint of up to 10 000 triangles on edges half as long.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground where it leans over, and does not
 /// cross itself; the same input gives the same bits.
 /// @param footprint  valid; its inner triangles are not used at the end
 /// @param options    liquid, gravity, tilt and fill, of one droplet; the ground is flat; model, no_penetration, volumes
 ///                   and solver are not used
-/// @param share      of the most work, in (0, 1]
+/// @param effort     how much work an end is worth
 /// @throws Error     InvalidArgument: options, or ground that is not flat
-SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, double share = 1.0);
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
+                       SheetEffort effort = SheetEffort::Full);
 
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
 /// @param sheet    result of solveSheet
