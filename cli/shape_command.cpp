@@ -153,14 +153,13 @@ droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Out
 bool hasSliderInPageOnly(const ShapeOptions& options)
 {
     const droplet::SolveOptions& solve = options.settings.droplet.solve;
-    return options.html && !options.settings.droplet.fill_range && solve.model == droplet::Model::Linear &&
-           !solve.no_penetration && !options.settings.onto;
+    return options.html && !options.settings.droplet.fill_range && !solve.no_penetration && !options.settings.onto;
 }
 
 void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options)
 {
     if (hasSliderInPageOnly(options)) {
-        droplet.fill_range.emplace();
+        droplet.fill_range = droplet::FillRange{.may_shrink = true};
     }
 }
 

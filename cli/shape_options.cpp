@@ -91,7 +91,7 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
     warnOfFormat(line, options.format, options.html || options.preview, options.settings);
 }
 
-/// Reads --fill-range. A slider needs a droplet that is affine in its volume, and a file format that can hold it.
+/// Reads --fill-range. A slider needs a file format that can hold it.
 void readFillRange(const CommandLine& line, ShapeOptions& options)
 {
     const auto given = line.value("--fill-range");
@@ -106,7 +106,7 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
         refuse(*given, allowed);
     }
     const droplet::FillRange range{*min, *max};
-    constexpr double kMaxFills = 1e6;  // far beyond the validity of the linear model
+    constexpr double kMaxFills = 1e6;  // far beyond any droplet
     try {
         range.validate();
     } catch (const droplet::Error&) {
@@ -118,9 +118,6 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     const auto clash = [&](const std::string& option, const std::string& why) {
         refuse("--fill-range and " + option + " exclude each other: " + why);
     };
-    if (options.settings.droplet.solve.model == droplet::Model::Exact) {
-        clash("--model exact", "only the linear model changes in proportion to the volume");
-    }
     if (options.settings.droplet.solve.no_penetration) {
         clash("--no-penetration", "the dry area changes with the volume");
     }
@@ -143,8 +140,7 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--fill-range", "RANGE",
-             "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
-             "takes the linear model");
+             "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid");
 }
 
 void declareShapes(CommandLine& line)

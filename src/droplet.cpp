@@ -159,10 +159,10 @@ bool sameRim(const PlanarMesh& a, const PlanarMesh& b)
 }
 
 /// Surfaces of all droplets: of height fields first.
-Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
+Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const LoftOptions& options)
 {
-    if (droplet.sheets.empty()) {
-        return loft(droplet.meshes, droplet.solution.droplets, options);
+    if (shapes.sheets.empty()) {
+        return loft(droplet.meshes, shapes.solution.droplets, options);
     }
     LoftOptions some = options;
     some.bases.clear();
@@ -170,16 +170,16 @@ Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
     std::vector<HeightField> fields;
     Surface sheets;
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        if (droplet.sheets[k]) {
+        if (shapes.sheets[k]) {
             LoftOptions own = options;
             own.bases.clear();
-            if (!options.bases.empty() && sameRim(options.bases[k], droplet.sheets[k]->footprint)) {
+            if (!options.bases.empty() && sameRim(options.bases[k], shapes.sheets[k]->footprint)) {
                 own.bases.push_back(options.bases[k]);
             }
-            append(sheets, loft(*droplet.sheets[k], own));
+            append(sheets, loft(*shapes.sheets[k], own));
         } else {
             meshes.push_back(droplet.meshes[k]);
-            fields.push_back(droplet.solution.droplets[k]);
+            fields.push_back(shapes.solution.droplets[k]);
             if (!options.bases.empty()) {
                 some.bases.push_back(options.bases[k]);
             }
@@ -191,18 +191,70 @@ Surface surfaceOf(const Droplet& droplet, const LoftOptions& options)
     return surface;
 }
 
-}  // namespace
-
-namespace {
-
-/// Options of solving: a surface that can be refilled is affine in the volume.
-SolveOptions solveOptions(const DropletOptions& options)
+/// Fills between 1 and the end of a range, the end included. Between neighbours at 1 and 4/3 the height of a cap of 40°
+/// is off by a thousandth.
+std::vector<double> fillsTo(double end)
 {
-    SolveOptions solve = options.solve;
-    if (options.fill_range && solve.model == Model::Auto) {
-        solve.model = Model::Linear;
+    constexpr double kParts = 3.0;  // from 1 to 0, and for every doubling
+    std::vector<double> fills;
+    const double count = std::ceil(kParts * (end < 1.0 ? 1.0 - end : std::log2(end)) - 1e-9);
+    for (double k = 1.0; k <= count; ++k) {
+        fills.push_back(end < 1.0 ? 1.0 - (1.0 - end) * k / count : std::pow(end, k / count));
     }
-    return solve;
+    return fills;
+}
+
+/// Change of one surface into another one with the same vertices.
+RefillState changeOf(const Surface& from, const Surface& to, double fill)
+{
+    RefillState state{fill, {}, {}};
+    for (std::size_t v = 0; v < from.positions.size(); ++v) {
+        state.positions.push_back(to.positions[v] - from.positions[v]);
+        state.normals.push_back(to.normals[v] - from.normals[v]);
+    }
+    return state;
+}
+
+/// Solves droplets again at the fills of a range, outward from 1.
+/// @param shapes  of the droplets at fill 1
+/// @throws Error  NoSuchDroplet where droplets of the range do not exist, if it may not shrink
+Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveOptions& solve, const FillRange& range,
+                const LoftOptions& lofting)
+{
+    constexpr int kMaxHalvings = 2;  // of a step to a fill that does not exist
+    Refill result{1.0, 1.0, {}};
+    for (const double end : {range.min, range.max}) {
+        LiquidShapes last = shapes;
+        double& reached = end < 1.0 ? result.min : result.max;
+        for (const double next : fillsTo(end)) {
+            std::optional<LiquidShapes> found;
+            double fill = next;
+            for (int k = 0; k <= kMaxHalvings && !found; ++k) {
+                fill = reached + (next - reached) * std::pow(0.5, k);
+                std::vector<double> volumes;
+                for (const ShapeFigures& figures : droplet.figures) {
+                    volumes.push_back(fill * figures.volume);
+                }
+                found = refill(droplet.meshes, last, volumes, solve);
+            }
+            if (found) {
+                result.states.push_back(changeOf(droplet.surface, surfaceOf(droplet, *found, lofting), fill));
+                last = *std::move(found);
+                reached = fill;
+            }
+            if (reached != next) {
+                break;
+            }
+        }
+    }
+    if (!range.may_shrink && (result.min > range.min || result.max < range.max)) {
+        throw Error(ErrorCode::NoSuchDroplet, "droplets of fills " + rounded(range.min) + " to " + rounded(range.max) +
+                                                  " do not all exist, but those of " + rounded(result.min) + " to " +
+                                                  rounded(result.max) + " do; ask for these, or use --model linear");
+    }
+    std::sort(result.states.begin(), result.states.end(),
+              [](const RefillState& a, const RefillState& b) { return a.fill < b.fill; });
+    return result;
 }
 
 }  // namespace
@@ -210,11 +262,10 @@ SolveOptions solveOptions(const DropletOptions& options)
 void validateStages(const DropletOptions& options)
 {
     options.mesh.validate();
-    const SolveOptions solve = solveOptions(options);
-    solve.validate();
+    options.solve.validate();
     if (options.fill_range) {
         options.fill_range->validate();
-        requireRefillable(solve);
+        requireRefillable(options.solve);
     }
 }
 
@@ -231,9 +282,8 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
 DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 {
     DomainMeshes result{triangulate(domain, options.mesh), options.mesh.grading == 1};
-    const SolveOptions solve = solveOptions(options);
-    if (spreads(solve)) {
-        std::vector<PlanarMesh> moved = spread(result.meshes, solve);
+    if (spreads(options.solve)) {
+        std::vector<PlanarMesh> moved = spread(result.meshes, options.solve);
         for (std::size_t k = 0; k < moved.size(); ++k) {
             result.are_even = result.are_even && moved[k].vertices == result.meshes[k].vertices;
         }
@@ -245,11 +295,11 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress)
 {
-    SolveOptions solved = solveOptions(options);
-    LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress);
+    SolveOptions solved = options.solve;
+    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress);
     const std::string less = lessWarning(shapes, droplet.meshes.size());
-    droplet.solution = std::move(shapes.solution);
-    droplet.sheets = std::move(shapes.sheets);
+    droplet.solution = shapes.solution;
+    droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;
     if (progress) {
         progress(Stage::Loft);
@@ -266,10 +316,17 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     }
     LoftOptions lofting{
         .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
-    if (options.fill_range) {
+    const bool is_affine = solved.model == Model::Linear;
+    if (options.fill_range && is_affine) {
         lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, solved)};
     }
-    droplet.surface = surfaceOf(droplet, lofting);
+    droplet.surface = surfaceOf(droplet, shapes, lofting);
+    if (options.fill_range && !is_affine) {
+        Refill refill = refillOf(droplet, shapes, options.solve, *options.fill_range, lofting);
+        if (!refill.states.empty()) {
+            droplet.surface.refill = std::move(refill);
+        }
+    }
     droplet.warnings = warningsOf(droplet, options);
     if (!less.empty()) {
         droplet.warnings.push_back(less);

@@ -29,8 +29,8 @@ struct DropletOptions {
     bool allow_less = false;                   ///< take the most liquid that a footprint can hold where the fill does
                                                ///< not exist; warnings say so
     bool open = false;                         ///< leave out the base
-    std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; takes the linear
-                                               ///< model, and needs it without no_penetration
+    std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; not with
+                                               ///< solve.no_penetration
 };
 
 /// Results of all stages.

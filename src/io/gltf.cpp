@@ -27,10 +27,17 @@ namespace {
 // Upper bound of the JSON's length without the buffer: fewer than 60 numbers and names of fewer than 60 characters.
 constexpr std::uint64_t kJsonBound = 4096;
 
-// Position 3, normal 3, uv 2, contact angle 1, changes of position and normal 6.
+const std::vector<RefillState>& statesOf(const Surface& surface)
+{
+    static const std::vector<RefillState> none;
+    return surface.refill ? surface.refill->states : none;
+}
+
+// Position 3, normal 3, uv 2, contact angle 1, changes of position and normal 6 in every state of a refill.
 std::uint64_t vertexBytes(const Surface& surface)
 {
-    return ((surface.contact_angle.empty() ? 8U : 9U) + (surface.refill ? 6U : 0U)) * sizeof(float);
+    const std::uint64_t states = surface.refill ? surface.refill->states.size() : 0;
+    return ((surface.contact_angle.empty() ? 8U : 9U) + 6U * states) * sizeof(float);
 }
 
 bool wideIndices(const Surface& surface)
@@ -54,8 +61,8 @@ void checkFileSize(const Surface& surface, bool binary)
 // Checks the range of floats before the first byte is written. Bounds cover positions; normals are unit vectors.
 void checkFloats(const Surface& surface)
 {
-    if (surface.refill) {
-        for (const Vec3& normal : surface.refill->normals) {
+    for (const RefillState& state : statesOf(surface)) {
+        for (const Vec3& normal : state.normals) {
             toFloat(normal.x);
             toFloat(normal.y);
             toFloat(normal.z);
@@ -71,8 +78,18 @@ void checkFloats(const Surface& surface)
 tinygltf::Value refillExtras(const Refill& refill)
 {
     using tinygltf::Value;
-    return Value(Value::Object{{"targetNames", Value(Value::Array{Value(std::string("volume"))})},
-                               {"fill_range", Value(Value::Array{Value(refill.min), Value(refill.max)})}});
+    const Value range(Value::Array{Value(refill.min), Value(refill.max)});
+    if (refill.states.size() == 1 && refill.states.front().fill == 2.0) {
+        return Value(
+            Value::Object{{"targetNames", Value(Value::Array{Value(std::string("volume"))})}, {"fill_range", range}});
+    }
+    Value::Array names;
+    Value::Array fills;
+    for (const RefillState& state : refill.states) {
+        names.emplace_back("volume_" + numberText(state.fill, 3));
+        fills.emplace_back(state.fill);
+    }
+    return Value(Value::Object{{"targetNames", Value(names)}, {"fills", Value(fills)}, {"fill_range", range}});
 }
 
 tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
@@ -96,10 +113,10 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     if (!surface.contact_angle.empty()) {
         primitive.attributes["_CONTACT_ANGLE"] = addVertexArray(model, TINYGLTF_TYPE_SCALAR, vertices);
     }
-    if (surface.refill) {
+    for (const RefillState& state : statesOf(surface)) {
         std::map<std::string, int>& target = primitive.targets.emplace_back();
         target["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
-        addBounds(model.accessors.back(), surface.refill->positions);
+        addBounds(model.accessors.back(), state.positions);
         target["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
     }
     primitive.indices = addIndices(model, surface.triangles.size(), vertices);
@@ -108,7 +125,7 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
     mesh.name = "droplet";
     mesh.primitives.push_back(std::move(primitive));
     if (surface.refill) {
-        mesh.weights = {0.0};
+        mesh.weights.assign(surface.refill->states.size(), 0.0);
         mesh.extras = refillExtras(*surface.refill);
     }
     model.meshes.push_back(std::move(mesh));
@@ -136,9 +153,9 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
     for (const float angle : surface.contact_angle) {
         bytes.f32(angle / kDegree);
     }
-    if (surface.refill) {
-        writeVectors(surface.refill->positions, bytes);
-        writeVectors(surface.refill->normals, bytes);
+    for (const RefillState& state : statesOf(surface)) {
+        writeVectors(state.positions, bytes);
+        writeVectors(state.normals, bytes);
     }
     writeIndices(surface.triangles, surface.positions.size(), bytes);
 }

@@ -20,15 +20,19 @@ export async function loadDroplet(bytes) {
     return new Droplet(gltf.scene, gltf.animations[0]);
 }
 
-/** Triangles of the liquid's surface, which face up, and its rim: the edges of only one such triangle. */
-function sheetOf({ index, attributes: { position } }, place) {
+/**
+ * Triangles of the liquid's surface, and its rim: the edges of only one such triangle. The base faces down; liquid that
+ * hangs over its rim does so too, but not on flat ground itself.
+ */
+function sheetOf({ index, attributes: { position } }, place, flat) {
     const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
     const triangles = [];
     const edges = new Map();
     for (let i = 0; i < index.count; i += 3) {
         const corners = [0, 1, 2].map((k) => index.getX(i + k));
         [a, b, c].forEach((point, k) => point.fromBufferAttribute(position, corners[k]).applyMatrix4(place));
-        if (b.sub(a).cross(c.sub(a)).y <= 0) {
+        const on_ground = Math.max(a.y, b.y, c.y) <= 1e-12;
+        if (b.sub(a).cross(c.sub(a)).y <= 0 && (on_ground || !flat)) {
             continue;
         }
         triangles.push(...corners);
@@ -55,6 +59,7 @@ class Droplet {
         scene.traverse((object) => object.isMesh && this.meshes.push(object));
         this.places = this.meshes.map((mesh) => mesh.matrixWorld.clone());  // in the file's metres
         this.range = this.#fillRange();
+        this.fills = this.#fills();
         if (clip) {
             this.duration = clip.duration;
             this.mixer = new AnimationMixer(scene);
@@ -73,20 +78,43 @@ class Droplet {
 
     /** Minimum and maximum fill, in multiples of the volume; undefined if the fill cannot change. */
     #fillRange() {
-        const target = (mesh) => mesh.morphTargetDictionary?.volume;
-        if (!this.meshes.length || !this.meshes.every((mesh) => target(mesh) !== undefined)) {
+        const names = (mesh) => Object.keys(mesh.morphTargetDictionary ?? {});
+        if (!this.meshes.length ||
+            !this.meshes.every((mesh) => names(mesh).length > 0 && names(mesh).every((name) => name.startsWith('volume')))) {
             return undefined;
         }
         // The mesh's extras are on its object, or on the group of its primitives.
-        const extras = this.meshes.map((mesh) => mesh.userData.fill_range ?? mesh.parent?.userData.fill_range);
-        const [low, high] = extras.find(Array.isArray) ?? [0, 2];
+        const [low, high] = this.#extra('fill_range') ?? [0, 2];
         return Number.isFinite(low) && Number.isFinite(high) && low < high ? [low, high] : [0, 2];
+    }
+
+    /** An array in the mesh's extras; those are on its object, or on the group of its primitives. */
+    #extra(name) {
+        return this.meshes.map((mesh) => mesh.userData[name] ?? mesh.parent?.userData[name]).find(Array.isArray);
+    }
+
+    /** Fill of every morph target; one target called `volume` is fill 2. */
+    #fills() {
+        return this.range ? this.#extra('fills') ?? [2] : [];
+    }
+
+    /** Weights of the morph targets at a fill: between neighbouring fills, of which 1 is one, the droplet is affine. */
+    weights(amount) {
+        if (!this.range) {
+            return [];
+        }
+        const full = this.fills.filter((fill) => fill < 1).length;
+        const fills = [...this.fills.slice(0, full), 1, ...this.fills.slice(full)];
+        const inner = fills.slice(1, -1).filter((fill) => fill <= amount).length;
+        const part = (amount - fills[inner]) / (fills[inner + 1] - fills[inner]);
+        const weights = fills.map((_, k) => (k === inner ? 1 - part : k === inner + 1 ? part : 0));
+        return weights.filter((_, k) => k !== full);
     }
 
     set fill(amount) {
         for (const mesh of this.meshes) {
             if (this.range) {
-                mesh.morphTargetInfluences[mesh.morphTargetDictionary.volume] = amount - 1;
+                this.weights(amount).forEach((weight, k) => { mesh.morphTargetInfluences[k] = weight; });
             }
             mesh.visible = amount > 0.002;  // an empty droplet is not drawn
         }
@@ -100,13 +128,18 @@ class Droplet {
         let weighted = 0;
         let rim = 0;
         let [min, max] = [Infinity, -Infinity];
-        this.sheets ??= this.meshes.map((mesh, index) => sheetOf(mesh.geometry, this.places[index]));
-        for (const [index, { geometry, morphTargetDictionary }] of this.meshes.entries()) {
-            const target = morphTargetDictionary.volume;
+        const change = new Vector3();
+        this.sheets ??= this.meshes.map((mesh, index) => sheetOf(mesh.geometry, this.places[index], flat));
+        const weights = this.weights(fill);
+        for (const [index, { geometry }] of this.meshes.entries()) {
             const at = (name, vertex, to) => {
-                const delta = geometry.morphAttributes[name][target];
-                return to.fromBufferAttribute(geometry.attributes[name], vertex)
-                    .addScaledVector(new Vector3().fromBufferAttribute(delta, vertex), fill - 1);
+                to.fromBufferAttribute(geometry.attributes[name], vertex);
+                weights.forEach((weight, k) => {
+                    if (weight !== 0) {
+                        to.addScaledVector(change.fromBufferAttribute(geometry.morphAttributes[name][k], vertex), weight);
+                    }
+                });
+                return to;
             };
             const place = (vertex, to) => at('position', vertex, to).applyMatrix4(this.places[index]);
             const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
@@ -143,20 +176,21 @@ class Droplet {
         for (const [index, mesh] of this.meshes.entries()) {
             const { position } = mesh.geometry.attributes;
             const moves = this.mixer ? mesh.geometry.morphAttributes.position ?? [] : [];
-            const delta = this.range && mesh.geometry.morphAttributes.position[mesh.morphTargetDictionary.volume];
+            const changes = fills.map((fill) => this.weights(fill)
+                .map((weight, k) => ({ weight, change: mesh.geometry.morphAttributes.position[k] }))
+                .filter(({ weight }) => weight !== 0));
             for (let i = 0; i < position.count; ++i) {
                 for (const move of moves) {
                     point.fromBufferAttribute(position, i);
                     point.set(point.x + move.getX(i), point.y + move.getY(i), point.z + move.getZ(i));
                     box.expandByPoint(point.applyMatrix4(this.places[index]));
                 }
-                for (const fill of fills) {
+                for (const parts of changes) {
                     point.fromBufferAttribute(position, i);
-                    if (delta) {
-                        const weight = fill - 1;
-                        point.x += weight * delta.getX(i);
-                        point.y += weight * delta.getY(i);
-                        point.z += weight * delta.getZ(i);
+                    for (const { weight, change } of parts) {
+                        point.x += weight * change.getX(i);
+                        point.y += weight * change.getY(i);
+                        point.z += weight * change.getZ(i);
                     }
                     box.expandByPoint(point.applyMatrix4(this.places[index]));
                 }

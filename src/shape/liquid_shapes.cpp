@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,9 @@ constexpr double kMaxWork = 2e7;
 
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
+
+/// Largest mean contact angle of sheets that sink to the ground on a straight way [rad].
+constexpr double kFlat = 30.0 * kDegree;
 
 /// Reduction of the contact angle until neighbours do not touch [rad], and its most repetitions.
 constexpr double kLower = 2.0 * kDegree;
@@ -236,7 +240,105 @@ void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
     }
 }
 
+/// Solves the height fields again with other volumes.
+bool refillFields(const std::vector<PlanarMesh>& meshes, const std::vector<double>& volumes,
+                  const SolveOptions& options, LiquidShapes& shapes)
+{
+    std::vector<PlanarMesh> own_meshes;
+    SolveOptions own = options;
+    own.model = shapes.solution.report.model;
+    own.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
+    own.volumes.clear();
+    std::vector<std::size_t> own_places;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (shapes.sheets.empty() || !shapes.sheets[k]) {
+            own_meshes.push_back(meshes[k]);
+            own.volumes.push_back(volumes[k]);
+            own_places.push_back(k);
+        }
+    }
+    if (own_meshes.empty()) {
+        return true;
+    }
+    if (options.fill.sharing == FillSharing::Total) {
+        own.fill = {FillBy::Volume, std::accumulate(own.volumes.begin(), own.volumes.end(), 0.0), FillSharing::Total};
+        own.volumes.clear();
+    } else {
+        own.fill = {};
+    }
+    Solution solution = solve(own_meshes, own);
+    if (!solution.report.usable()) {
+        return false;
+    }
+    for (std::size_t k = 0; k < own_places.size(); ++k) {
+        HeightField& field = shapes.solution.droplets[own_places[k]];
+        if (isUpright(solution.droplets[k]) && !isUpright(field)) {
+            return false;
+        }
+        field = std::move(solution.droplets[k]);
+    }
+    return true;
+}
+
+/// Shapes without liquid, if they lie on the ground, and the shapes so far are so flat that they may sink to it.
+std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& options)
+{
+    if (!options.ground.flat() || planeGravity(options).along != Vec2{}) {
+        return std::nullopt;
+    }
+    for (HeightField& field : shapes.solution.droplets) {
+        std::fill(field.height.begin(), field.height.end(), 0.0);
+        std::fill(field.rim_slope.begin(), field.rim_slope.end(), 0.0);
+        std::fill(field.contact_angle.begin(), field.contact_angle.end(), 0.0);
+        field.pressure = 0.0;
+    }
+    for (std::optional<ParametricSheet>& sheet : shapes.sheets) {
+        if (!sheet) {
+            continue;
+        }
+        if (measure(*sheet, options).contact_angle.mean > kFlat) {
+            return std::nullopt;
+        }
+        for (Vec3& place : sheet->places) {
+            place.z = 0.0;
+        }
+        std::fill(sheet->contact_angle.begin(), sheet->contact_angle.end(), 0.0);
+        sheet->pressure = 0.0;
+    }
+    return shapes;
+}
+
 }  // namespace
+
+std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
+                                   const std::vector<double>& volumes, const SolveOptions& options)
+{
+    if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0.0; })) {
+        return empty(shapes, options);
+    }
+    LiquidShapes result = shapes;
+    if (!refillFields(meshes, volumes, options, result)) {
+        return std::nullopt;
+    }
+    if (shapes.sheets.empty()) {
+        return result;
+    }
+    std::vector<std::optional<SheetResult>> found(meshes.size());
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
+        if (shapes.sheets[k] && volumes[k] > 0.0) {
+            found[k] = refill(*shapes.sheets[k], volumes[k], options);
+        }
+    });
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        if (shapes.sheets[k]) {
+            if (!found[k] || found[k]->end != SheetEnd::Reached) {
+                return std::nullopt;
+            }
+            take(*found[k], k, result);
+        }
+    }
+    return neighbourContact(meshes, result) ? std::nullopt : std::optional(std::move(result));
+}
 
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
                          const Progress& progress)

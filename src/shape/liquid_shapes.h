@@ -32,4 +32,12 @@ struct LiquidShapes {
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
                          const Progress& progress);
 
+/// Solves droplets again with other volumes, on the same triangles.
+/// @param shapes   result of solveShapes
+/// @param volumes  of every droplet [m³], at least 0; with FillSharing::Total their sum is given
+/// @param options  options of solveShapes
+/// @return         nothing where the droplets do not exist, or not on these triangles
+std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
+                                   const std::vector<double>& volumes, const SolveOptions& options);
+
 }  // namespace droplet

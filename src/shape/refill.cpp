@@ -68,11 +68,6 @@ void FillRange::validate() const
 
 void requireRefillable(const SolveOptions& options)
 {
-    if (options.model != Model::Linear) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "model exact is not affine in the volume, so it cannot be refilled; it "
-                    "must be linear");
-    }
     if (options.no_penetration) {
         throw Error(
             ErrorCode::InvalidArgument,
@@ -85,6 +80,9 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
                                    const SolveOptions& options)
 {
     check(meshes, fields, options);
+    if (options.model != Model::Linear) {
+        throw Error(ErrorCode::InvalidArgument, "model must be linear: only it is affine in the volume");
+    }
     const bool shared = options.fill.sharing == FillSharing::Total;
     std::vector<double> volumes;
     double total = 0.0;

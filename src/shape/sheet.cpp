@@ -11,6 +11,7 @@
 #include "droplet/error.h"
 #include "mesh/mean_edge.h"
 #include "mesh/round_inward.h"
+#include "number_text.h"
 #include "shape/rim_figures.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_path.h"
@@ -85,6 +86,20 @@ double overhangOf(const ParametricSheet& sheet)
     return overhang;
 }
 
+void take(FilledSheet filled, const SolveOptions& options, SheetResult& result)
+{
+    result.end = filled.end;
+    result.volume = filled.volume;
+    result.contact_angle = filled.angle;
+    result.newton_steps = static_cast<std::size_t>(filled.newton_steps);
+    result.contact = filled.contact;
+    result.sheet.contact_angle = rimAngles(filled.mesh, weightOf(options), filled.pressure).angle;
+    result.sheet.places = std::move(filled.mesh.places);
+    result.sheet.triangles = std::move(filled.mesh.triangles);
+    result.sheet.rim = filled.mesh.rim;
+    result.sheet.pressure = options.liquid.surface_tension * filled.pressure;
+}
+
 /// @param edge   mean edge of the triangles over the footprint [m]
 SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, double edge, SheetEffort effort)
 {
@@ -98,17 +113,7 @@ SheetResult solveWith(const PlanarMesh& footprint, const SolveOptions& options, 
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
     sheet_options.max_work = (effort == SheetEffort::Full ? 1.0 : kModestWork) *
                              std::max(kLeastWork, kWork * std::pow(trianglesOf(area(footprint), edge), 1.5));
-    FilledSheet filled = fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options);
-    result.end = filled.end;
-    result.volume = filled.volume;
-    result.contact_angle = filled.angle;
-    result.newton_steps = static_cast<std::size_t>(filled.newton_steps);
-    result.contact = filled.contact;
-    result.sheet.contact_angle = rimAngles(filled.mesh, weight, filled.pressure).angle;
-    result.sheet.places = std::move(filled.mesh.places);
-    result.sheet.triangles = std::move(filled.mesh.triangles);
-    result.sheet.rim = filled.mesh.rim;
-    result.sheet.pressure = options.liquid.surface_tension * filled.pressure;
+    take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
     return result;
 }
 
@@ -131,6 +136,20 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
             return finer;
         }
     }
+    return result;
+}
+
+SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptions& options)
+{
+    options.liquid.validate();
+    if (!(volume > 0.0)) {
+        throw Error(ErrorCode::InvalidArgument, "volume = " + numberText(volume) + " must be positive");
+    }
+    SheetResult result;
+    result.sheet.footprint = sheet.footprint;
+    take(refillSheet({sheet.places, sheet.triangles, sheet.rim}, sheet.pressure / options.liquid.surface_tension,
+                     volume, weightOf(options)),
+         options, result);
     return result;
 }
 

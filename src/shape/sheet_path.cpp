@@ -41,6 +41,11 @@ constexpr double kRemeshWork = 20.0;
 /// number of confirmed ones that are kept.
 constexpr double kConfirmed = 0.02;
 constexpr std::size_t kFirm = 6;
+/// Smallest step, over the volume, most work, in factorisations, wear, as above, and smoothings of triangles that stay.
+constexpr double kKeptStep = 0.03;
+constexpr double kKeptWork = 60.0;
+constexpr double kKeptWorn = 0.1;
+constexpr int kRelaxations = 5;
 /// Growth of the most work to confirm the end of a path.
 constexpr double kConfirmWork = 1.5;
 /// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
@@ -110,9 +115,28 @@ public:
         firm_ = {now_};
     }
 
+    /// Begins at an equilibrium, and keeps its triangles.
+    Path(const SheetMesh& sheet, double pressure, double volume, Vec3 weight)
+        : target_{FillBy::Volume, volume},
+          options_{weight},
+          now_{sheet, pressure, integrate(sheet, weight).volume, {}},
+          is_final_(true),
+          keeps_triangles_(true)
+    {
+        options_.min_step = kKeptStep;
+        options_.max_work = kKeptWork * std::pow(static_cast<double>(sheet.triangles.size()), 1.5);
+        use(std::make_unique<SheetSolver>(now_.sheet, weight), now_.sheet);
+        now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
+        count(now_, false);
+        firm_ = {now_};
+    }
+
     FilledSheet run()
     {
         SheetEnd end = follow();
+        if (keeps_triangles_) {
+            return filled(end);
+        }
         options_.max_work *= kConfirmWork;
         if (end == SheetEnd::Unstable && options_.is_end_confirmed && refineFirm()) {
             end = follow();
@@ -122,19 +146,25 @@ public:
             options_.max_work *= kConfirmWork;
             refine(false);
         }
+        contact_ = contact;
+        return filled(end);
+    }
+
+private:
+    static constexpr int kMaxSteps = 400;
+    static constexpr int kMaxSettling = 8;
+
+    [[nodiscard]] FilledSheet filled(SheetEnd end) const
+    {
         return {now_.sheet,
                 now_.pressure,
                 now_.volume,
                 heightOf(now_.sheet),
                 rimAngles(now_.sheet, options_.weight, now_.pressure).mean(),
                 end,
-                end == SheetEnd::Contact ? std::optional(contact->place) : std::nullopt,
+                end == SheetEnd::Contact ? std::optional(contact_->place) : std::nullopt,
                 newton_steps_};
     }
-
-private:
-    static constexpr int kMaxSteps = 400;
-    static constexpr int kMaxSettling = 8;
 
     /// Follows the path up to the target, or to its end.
     SheetEnd follow()
@@ -144,7 +174,7 @@ private:
         }
         const double base = meshed_area_;
         const double length_scale = std::sqrt(base / std::numbers::pi);
-        double step = kFirstPart * length_scale * length_scale * length_scale;
+        double step = keeps_triangles_ ? std::abs(wayTo()) : kFirstPart * length_scale * length_scale * length_scale;
         double largest = 0.0;
         double barrier = -1.0;  // volume that was refused; up to it steps do not grow again
         int settled = 0;
@@ -154,7 +184,7 @@ private:
             double tried = std::abs(left);
             if (tried <= 1e-12 * std::max(now_.volume, 1e-300) || settled > kMaxSettling) {
                 tried = now_.volume - firm_.back().volume;
-                if (refine(true)) {
+                if (keeps_triangles_ ? isFree() : refine(true)) {
                     return SheetEnd::Reached;
                 }
                 is_refused = true;
@@ -263,6 +293,9 @@ private:
         if (!next.newton.converged) {
             return false;
         }
+        if (keeps_triangles_ && !repair(next)) {
+            return false;
+        }
         const int steps = next.newton.steps;
         const bool is_far = std::abs(next.volume - firm_.back().volume) > gap_ * next.volume;
         if (!is_final_ && (is_far || needsTriangles(next.sheet))) {
@@ -275,6 +308,18 @@ private:
         now_ = std::move(next);
         now_.newton.steps = steps;  // those of the step itself set the size of the next one
         return true;
+    }
+
+    /// Moves the vertices of an equilibrium along it where triangles that stay are worn.
+    /// @return  false if they are still, or it is no equilibrium then
+    bool repair(State& state)
+    {
+        if (isWorn(meshed_angles_, state.sheet, kWorn)) {
+            state.sheet = relax(state.sheet, kRelaxations);
+            state.newton = solver_->solve(state.sheet, state.volume, state.pressure, kSettling);
+            count(state, false);
+        }
+        return state.newton.converged && !isWorn(meshed_angles_, state.sheet, kKeptWorn);
     }
 
     /// Keeps a sheet on new triangles.
@@ -299,7 +344,7 @@ private:
     bool isFirm(double least)
     {
         const double ahead = std::abs(now_.volume - firm_.back().volume);
-        if (ahead <= least) {
+        if (ahead <= least || keeps_triangles_) {
             return true;
         }
         if (renew(now_, options_.path_edge)) {
@@ -354,6 +399,13 @@ private:
         is_final_ = false;
         goBack();
         return false;
+    }
+
+    /// Whether the last sheet does not touch itself.
+    bool isFree()
+    {
+        contact_ = firstContact({&now_.sheet});
+        return !contact_;
     }
 
     /// Leads the last sheet to the target on its final triangles.
@@ -437,7 +489,8 @@ private:
     std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
     std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
-    bool is_final_ = false;                                 ///< the triangles stay
+    bool is_final_ = false;                                 ///< the triangles stay until the target
+    bool keeps_triangles_ = false;                          ///< they stay for good
     std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step
     int newton_steps_ = 0;
     double work_ = 0.0;  ///< so far, as SheetOptions::max_work
@@ -491,6 +544,11 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure)
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options)
 {
     return Path(footprint, target, options).run();
+}
+
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight)
+{
+    return Path(sheet, pressure, volume, weight).run();
 }
 
 }  // namespace droplet

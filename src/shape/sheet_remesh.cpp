@@ -76,6 +76,15 @@ public:
         return result();
     }
 
+    SheetMesh relax(int rounds)
+    {
+        for (int round = 0; round < rounds; ++round) {
+            findNormals();
+            smooth();
+        }
+        return result();
+    }
+
 private:
     [[nodiscard]] bool onRim(VertexHandle v) const { return v.idx() < rim_; }
 
@@ -461,6 +470,13 @@ private:
 SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options)
 {
     return Remesher(sheet, options).run();
+}
+
+SheetMesh relax(const SheetMesh& sheet, int rounds)
+{
+    SheetMesh relaxed = Remesher(sheet, {}).relax(rounds);
+    relaxed.triangles = sheet.triangles;  // half-edges may turn them
+    return relaxed;
 }
 
 std::vector<double> minAngles(const SheetMesh& sheet)

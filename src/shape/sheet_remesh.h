@@ -22,6 +22,9 @@ struct RemeshOptions {
 /// bytes.
 SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
 
+/// Moves the inner vertices of a sheet along it, to make its triangles more even. They stay the same triangles.
+SheetMesh relax(const SheetMesh& sheet, int rounds);
+
 /// Smallest angle of every triangle [rad].
 std::vector<double> minAngles(const SheetMesh& sheet);
 

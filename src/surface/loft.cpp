@@ -63,7 +63,7 @@ void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first,
     for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
         gradients[v] = -gain.rim_slope[v] * outward[v];
     }
-    Refill& refill = *surface.refill;
+    RefillState& refill = surface.refill->states.front();
     forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
             const double shortened = surface.normals[first + v].z;
@@ -308,7 +308,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
     if (options.refill) {
         const FillRange& range = options.refill->range;
         surface.refill =
-            Refill{range.min, range.max, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)};
+            Refill{range.min, range.max, {{2.0, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)}}};
     }
     std::vector<Extent> extents(pieces.size());
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {

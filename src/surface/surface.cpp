@@ -257,24 +257,35 @@ void checkRefill(const Surface& surface)
 {
     const Refill& refill = *surface.refill;
     const std::size_t count = surface.positions.size();
-    if (refill.positions.size() != count || refill.normals.size() != count) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "surface has " + std::to_string(count) + " positions, and a refill of " +
-                        std::to_string(refill.positions.size()) + " positions and " +
-                        std::to_string(refill.normals.size()) + " normals; there must be equally many");
-    }
     if (!(refill.min >= 0.0 && refill.min <= 1.0 && refill.max >= 1.0 && refill.min < refill.max &&
           std::isfinite(refill.max))) {
         throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.min) + " to " +
                                                     numberText(refill.max) +
                                                     " must be a range that contains 1, from 0 or more");
     }
-    const std::size_t i = firstOf(count, [&](std::size_t v) {
-        return !finite(refill.positions[v]) || !finite(refill.normals[v]) ||
-               refill.positions[surface.weld[v]] != refill.positions[v];
-    });
-    if (i < count) {
-        refuse("refill.positions", i, "must be finite, as its normal, and equal for all copies of a vertex");
+    if (refill.states.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "surface.refill has no states; there must be one at least");
+    }
+    double before = -1.0;
+    for (const RefillState& state : refill.states) {
+        if (!(state.fill > before && state.fill != 1.0 && std::isfinite(state.fill))) {
+            throw Error(ErrorCode::InvalidArgument, "surface.refill has a state of fill " + numberText(state.fill) +
+                                                        "; fills must ascend from 0 or more, without 1, and be finite");
+        }
+        before = state.fill;
+        if (state.positions.size() != count || state.normals.size() != count) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "surface has " + std::to_string(count) + " positions, and a refill of " +
+                            std::to_string(state.positions.size()) + " positions and " +
+                            std::to_string(state.normals.size()) + " normals; there must be equally many");
+        }
+        const std::size_t i = firstOf(count, [&](std::size_t v) {
+            return !finite(state.positions[v]) || !finite(state.normals[v]) ||
+                   state.positions[surface.weld[v]] != state.positions[v];
+        });
+        if (i < count) {
+            refuse("refill.positions", i, "must be finite, as its normal, and equal for all copies of a vertex");
+        }
     }
 }
 
@@ -335,6 +346,24 @@ void Surface::validate() const
     }
 }
 
+std::vector<double> stateWeights(const Refill& refill, double fill)
+{
+    // Fill 1 is a state without a change, and without a weight.
+    std::vector<double> fills;
+    for (const RefillState& state : refill.states) {
+        fills.push_back(state.fill);
+    }
+    const auto full = std::lower_bound(fills.begin(), fills.end(), 1.0) - fills.begin();
+    fills.insert(fills.begin() + full, 1.0);
+    const auto above = std::upper_bound(fills.begin() + 1, fills.end() - 1, fill) - fills.begin();
+    const double part = (fill - fills[above - 1]) / (fills[above] - fills[above - 1]);
+    std::vector<double> weights(fills.size(), 0.0);
+    weights[above - 1] = 1.0 - part;
+    weights[above] = part;
+    weights.erase(weights.begin() + full);
+    return weights;
+}
+
 Surface refilled(const Surface& surface, double fill)
 {
     surface.validate();
@@ -346,14 +375,17 @@ Surface refilled(const Surface& surface, double fill)
                                                     numberText(surface.refill->min) + " to " +
                                                     numberText(surface.refill->max));
     }
-    const double weight = fill - 1.0;
+    const std::vector<double> weights = stateWeights(*surface.refill, fill);
     Surface result = surface;
     result.refill.reset();
     result.contact_angle.clear();
     result.mean_height *= fill;
     for (std::size_t v = 0; v < result.positions.size(); ++v) {
-        result.positions[v] = result.positions[v] + weight * surface.refill->positions[v];
-        const Vec3 normal = result.normals[v] + weight * surface.refill->normals[v];
+        Vec3 normal = result.normals[v];
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            result.positions[v] = result.positions[v] + weights[k] * surface.refill->states[k].positions[v];
+            normal = normal + weights[k] * surface.refill->states[k].normals[v];
+        }
         result.normals[v] = (1.0 / length(normal)) * normal;
     }
     return result;

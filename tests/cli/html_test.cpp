@@ -130,7 +130,7 @@ TEST_F(HtmlTest, HasASliderIfPossible)
 {
     make({"disc.pgm", "disc.obj", "--html", "page.html", "--model", "linear"});
     EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0]["extras"]["fill_range"], json({0.0, 2.0}));
-    make({"disc.pgm", "disc.obj", "--html", "page.html", "--fill-range", "0.5..3"});
+    make({"disc.pgm", "disc.obj", "--html", "page.html", "--fill-range", "0.5..3", "--model", "linear"});
     EXPECT_EQ(gltfOf(modelOf(bytesOf("page.html")))["meshes"][0]["extras"]["fill_range"], json({0.5, 3.0}));
     for (const std::vector<std::string>& without :
          {std::vector<std::string>{"--model", "exact"}, std::vector<std::string>{"--no-penetration"}}) {

@@ -684,7 +684,7 @@ TEST_F(ShapeCommandTest, FillRangeAddsASliderAndChangesNothingElse)
 {
     make({"two.pgm", "plain.gltf", "--model", "linear"});
     const json plain = json::parse(bytesOf("plain.gltf"));
-    const json with_range = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5"});
+    const json with_range = report({"two.pgm", "slider.gltf", "--fill-range", "0.5..1.5", "--model", "linear"});
     const json slider = json::parse(bytesOf("slider.gltf"));
     EXPECT_EQ(with_range["fill"]["range"], json({0.5, 1.5}));
     EXPECT_EQ(slider["meshes"][0]["extras"], json({{"targetNames", {"volume"}}, {"fill_range", {0.5, 1.5}}}));

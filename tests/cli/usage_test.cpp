@@ -250,7 +250,6 @@ TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)
          {"2", "0..", "..2", "0...2", "a..b", "-1..2", "1.5..2", "0..0.5", "1..1", "0..inf", "0..1e9"}) {
         expectRefused({"--fill-range", wrong}, {"--fill-range", "'" + std::string(wrong) + "'", "0..2"});
     }
-    expectRefused({"--fill-range", "0..2", "--model", "exact"}, {"--fill-range and --model exact exclude each other"});
     expectRefused({"--fill-range", "0..2", "--no-penetration"}, {"--fill-range and --no-penetration exclude"});
     expectRefused({"--fill-range", "0..2", "--onto", "can.glb"}, {"--fill-range and --onto exclude each other"});
     for (const char* format : {"obj", "ply", "stl"}) {

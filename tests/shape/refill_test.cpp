@@ -168,7 +168,7 @@ TEST(RefillRefuses, OptionsThatAreNotAffine)
     EXPECT_EQ(refusalOf(linear, fields), "");
     SolveOptions exact;
     exact.model = Model::Exact;
-    EXPECT_THAT(refusalOf(exact, fields), HasSubstr("model exact"));
+    EXPECT_THAT(refusalOf(exact, fields), HasSubstr("model must be linear"));
     SolveOptions above;
     above.no_penetration = true;
     EXPECT_THAT(refusalOf(above, fields), HasSubstr("no_penetration"));

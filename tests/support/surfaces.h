@@ -127,13 +127,13 @@ inline Surface withContactAngles(Surface surface)
 /// The same droplet with a refill from 0 to 2, which doubles every height.
 inline Surface withRefill(Surface surface)
 {
-    Refill refill;
+    RefillState full;
     for (std::size_t v = 0; v < surface.positions.size(); ++v) {
         const Vec3& normal = surface.normals[v];
-        refill.positions.push_back({0.0, 0.0, surface.positions[v].z});
-        refill.normals.push_back({normal.x, normal.y, 0.0});
+        full.positions.push_back({0.0, 0.0, surface.positions[v].z});
+        full.normals.push_back({normal.x, normal.y, 0.0});
     }
-    surface.refill = refill;
+    surface.refill = Refill{0.0, 2.0, {full}};
     return surface;
 }
 

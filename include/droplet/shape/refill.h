@@ -8,10 +8,11 @@
 
 namespace droplet {
 
-/// Range in which a droplet can be filled and drained without solving again, in multiples of its solved amount (fills).
+/// Range in which a viewer can fill and drain a droplet, in multiples of its solved amount (fills).
 struct FillRange {
-    double min = 0.0;  ///< smallest fill
-    double max = 2.0;  ///< largest fill
+    double min = 0.0;         ///< smallest fill
+    double max = 2.0;         ///< largest fill
+    bool may_shrink = false;  ///< keep to the fills that exist
 
     /// Checks the range.
     /// @throws Error InvalidArgument unless 0 ≤ min ≤ 1 ≤ max, min < max, both finite
@@ -25,8 +26,8 @@ struct FillGain {
     double pressure = 0.0;          ///< change of the pressure [Pa]
 };
 
-/// Checks that the solution with these options is affine in the volume.
-/// @throws Error InvalidArgument with Model::Exact or no_penetration
+/// Checks that a solution with these options can be refilled.
+/// @throws Error InvalidArgument with no_penetration
 void requireRefillable(const SolveOptions& options);
 
 /// Computes how solved droplets grow with the amount of liquid. At fill f the heights are exactly u + (f − 1)·gain,

@@ -72,6 +72,13 @@ struct SheetResult {
 SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
                        SheetEffort effort = SheetEffort::Full);
 
+/// Fills or drains a sheet on the same triangles. They can follow only so far: beyond, the end is SheetEnd::Unstable.
+/// @param sheet    result of solveSheet
+/// @param volume   wanted [m³], > 0
+/// @param options  options it was solved with
+/// @throws Error   InvalidArgument: options, or a volume that is not positive
+SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptions& options);
+
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
 /// @param sheet    result of solveSheet
 /// @param options  options it was solved with

@@ -11,14 +11,24 @@
 
 namespace droplet {
 
-/// Change of a surface with the amount of liquid. At fill f, with weight w = f − 1, its positions are
-/// positions + w·change, and its normals have the direction of normals + w·change.
-struct Refill {
-    double min = 0.0;             ///< smallest fill, 0 … 1
-    double max = 2.0;             ///< largest fill, at least 1
-    std::vector<Vec3> positions;  ///< change of every position per fill [m]; 0 on rim and base
-    std::vector<Vec3> normals;    ///< change of every normal per fill
+/// Change of a surface from fill 1 to another fill.
+struct RefillState {
+    double fill = 2.0;            ///< not 1
+    std::vector<Vec3> positions;  ///< change of every position [m]; 0 on rim and base
+    std::vector<Vec3> normals;    ///< change of every normal; their sum need not have unit length
 };
+
+/// Change of a surface with the amount of liquid. Between neighbouring states, of which fill 1 is one, it is affine in
+/// the fill; beyond the last one it goes on as between the last two.
+struct Refill {
+    double min = 0.0;                 ///< smallest fill, 0 … 1
+    double max = 2.0;                 ///< largest fill, at least 1
+    std::vector<RefillState> states;  ///< by ascending fill; one is enough where the model is affine in the volume
+};
+
+/// Weights of a refill's states at a fill.
+/// @return  one per state, of which at most two are not 0
+std::vector<double> stateWeights(const Refill& refill, double fill);
 
 /// Surface of all droplets in space, ready to be written.
 ///
@@ -41,7 +51,7 @@ struct Surface {
     void validate() const;
 };
 
-/// Makes the surface at another fill, as a viewer shows it at weight fill − 1.
+/// Makes the surface at another fill, as a viewer shows it with the weights of its states.
 /// @param surface  valid, with a refill
 /// @param fill     from min to max of the refill
 /// @return         surface without a refill, and without contact angles, because they are not affine
