@@ -140,7 +140,8 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--fill-range", "RANGE",
-             "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid");
+             "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
+             "takes the linear model unless --model exact is given");
 }
 
 void declareShapes(CommandLine& line)

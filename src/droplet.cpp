@@ -257,6 +257,16 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
     return result;
 }
 
+/// Options of solving: a range that was asked for takes the linear model, where every fill exists.
+SolveOptions solveOptions(const DropletOptions& options)
+{
+    SolveOptions solve = options.solve;
+    if (options.fill_range && !options.fill_range->may_shrink && solve.model == Model::Auto) {
+        solve.model = Model::Linear;
+    }
+    return solve;
+}
+
 }  // namespace
 
 void validateStages(const DropletOptions& options)
@@ -282,8 +292,9 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
 DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 {
     DomainMeshes result{triangulate(domain, options.mesh), options.mesh.grading == 1};
-    if (spreads(options.solve)) {
-        std::vector<PlanarMesh> moved = spread(result.meshes, options.solve);
+    const SolveOptions solve = solveOptions(options);
+    if (spreads(solve)) {
+        std::vector<PlanarMesh> moved = spread(result.meshes, solve);
         for (std::size_t k = 0; k < moved.size(); ++k) {
             result.are_even = result.are_even && moved[k].vertices == result.meshes[k].vertices;
         }
@@ -295,7 +306,7 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress)
 {
-    SolveOptions solved = options.solve;
+    SolveOptions solved = solveOptions(options);
     const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress);
     const std::string less = lessWarning(shapes, droplet.meshes.size());
     droplet.solution = shapes.solution;

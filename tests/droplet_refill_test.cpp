@@ -129,6 +129,66 @@ TEST(DropletRefill, IsRefusedBeforeAnythingIsSolved)
     EXPECT_THAT(refusal([](DropletOptions& o) { o.fill_range->max = 0.5; }), HasSubstr("fill_range"));
 }
 
+/// Droplets that are no height fields, of the same mask.
+DropletOptions hangingOptions(double degrees, FillRange range)
+{
+    DropletOptions result = options(FillSharing::Each);
+    result.solve.model = Model::Exact;
+    result.solve.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
+    result.fill_range = range;
+    return result;
+}
+
+TEST(DropletRefill, HasSolvedStatesWhereTheModelIsNotAffine)
+{
+    for (const double degrees : {35.0, 65.0}) {
+        SCOPED_TRACE(degrees);
+        const Droplet droplet = makeDroplet(sceneMask(), hangingOptions(degrees, {0.4, 1.5}));
+        ASSERT_TRUE(droplet.surface.refill);
+        const Refill& refill = *droplet.surface.refill;
+        ASSERT_EQ(refill.states.size(), 4U);
+        EXPECT_EQ(refill.min, 0.4);
+        EXPECT_EQ(refill.max, 1.5);
+        for (const double fill : {0.4, 0.5, 0.7, 1.2, 1.5}) {
+            const Surface found = refilled(droplet.surface, fill);
+            EXPECT_TRUE(isClosed(found));
+            const bool is_state = std::any_of(refill.states.begin(), refill.states.end(),
+                                              [&](const RefillState& state) { return state.fill == fill; });
+            const double wanted = fill * droplet.total.volume;
+            EXPECT_NEAR(enclosedVolume(found), wanted, (is_state ? 1e-9 : 1e-2) * wanted);
+            DropletOptions again = hangingOptions(degrees, {});
+            again.fill_range.reset();
+            for (const ShapeFigures& figures : droplet.figures) {
+                again.solve.volumes.push_back(fill * figures.volume);
+            }
+            again.solve.fill = {};
+            const Droplet solved = makeDroplet(sceneMask(), again);
+            double height = 0.0;
+            for (const Vec3& place : found.positions) {
+                height = std::max(height, place.z);
+            }
+            EXPECT_NEAR(height, solved.total.height_max, 1e-2 * height) << "at fill " << fill;
+        }
+    }
+}
+
+TEST(DropletRefill, KeepsToTheRangeThatExists)
+{
+    // With more liquid the bar would touch the ring.
+    try {
+        makeDroplet(sceneMask(), hangingOptions(65.0, {1.0, 8.0}));
+        FAIL() << "fill 8 does not exist";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        EXPECT_THAT(error.what(), HasSubstr("fills 1 to 8 do not all exist"));
+    }
+    const Droplet some = makeDroplet(sceneMask(), hangingOptions(65.0, {1.0, 8.0, true}));
+    ASSERT_TRUE(some.surface.refill);
+    EXPECT_GT(some.surface.refill->max, 1.2);
+    EXPECT_LT(some.surface.refill->max, 8.0);
+    EXPECT_TRUE(isClosed(refilled(some.surface, some.surface.refill->max)));
+}
+
 TEST(DropletRefill, FillsBeyondTheRangeAndDamagedOnesAreRefused)
 {
     Surface surface = makeDroplet(sceneMask(), options(FillSharing::Each)).surface;

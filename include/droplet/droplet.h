@@ -30,7 +30,8 @@ struct DropletOptions {
                                                ///< not exist; warnings say so
     bool open = false;                         ///< leave out the base
     std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; not with
-                                               ///< solve.no_penetration
+                                               ///< solve.no_penetration. Model::Auto is then Linear, where every
+                                               ///< fill exists, unless the range may shrink
 };
 
 /// Results of all stages.
