@@ -197,9 +197,10 @@ std::vector<double> fillsTo(double end)
 {
     constexpr double kParts = 3.0;  // from 1 to 0, and for every doubling
     std::vector<double> fills;
-    const double count = std::ceil(kParts * (end < 1.0 ? 1.0 - end : std::log2(end)) - 1e-9);
-    for (double k = 1.0; k <= count; ++k) {
-        fills.push_back(end < 1.0 ? 1.0 - (1.0 - end) * k / count : std::pow(end, k / count));
+    const auto count = static_cast<int>(std::ceil(kParts * (end < 1.0 ? 1.0 - end : std::log2(end)) - 1e-9));
+    for (int k = 1; k <= count; ++k) {
+        const double part = static_cast<double>(k) / count;
+        fills.push_back(end < 1.0 ? 1.0 - (1.0 - end) * part : std::pow(end, part));
     }
     return fills;
 }

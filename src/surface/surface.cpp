@@ -355,7 +355,8 @@ std::vector<double> stateWeights(const Refill& refill, double fill)
     }
     const auto full = std::lower_bound(fills.begin(), fills.end(), 1.0) - fills.begin();
     fills.insert(fills.begin() + full, 1.0);
-    const auto above = std::upper_bound(fills.begin() + 1, fills.end() - 1, fill) - fills.begin();
+    const auto above =
+        static_cast<std::size_t>(std::upper_bound(fills.begin() + 1, fills.end() - 1, fill) - fills.begin());
     const double part = (fill - fills[above - 1]) / (fills[above] - fills[above - 1]);
     std::vector<double> weights(fills.size(), 0.0);
     weights[above - 1] = 1.0 - part;
