@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/version.h"
 #include "io/byte_stream.h"
+#include "shape/sheet_base.h"
 
 namespace droplet {
 namespace {
@@ -135,36 +136,53 @@ Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& p
     for (const double h : field.ground) {
         drop.ground.push_back(h / physics.unit);
     }
-    const auto add = [](Column& sum, const Column& part) {
-        sum.energy += part.energy;
-        sum.volume += part.volume;
-    };
     for (const Triangle& t : mesh.triangles) {
-        std::array<Vec3, 3> corners{drop.vertices[t[0]], drop.vertices[t[1]], drop.vertices[t[2]]};
+        const std::array<Vec3, 3> corners{drop.vertices[t[0]], drop.vertices[t[1]], drop.vertices[t[2]]};
         const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
         drop.area += 0.5 * length(normal);
-        add(drop.liquid, columnUnder(corners, 0.5 * normal.z, physics));
-        if (!drop.ground.empty()) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                corners[k].z = drop.ground[t[k]];
-            }
-            add(drop.under, columnUnder(corners, 0.5 * normal.z, physics));
-        }
+        const Column part = columnUnder(corners, 0.5 * normal.z, physics);
+        drop.liquid.energy += part.energy;
+        drop.liquid.volume += part.volume;
     }
     return drop;
 }
 
-/// Writes a sheet as a mesh, some of whose triangles may be seen from below, and its heights.
-void takeSheet(const ParametricSheet& sheet, PlanarMesh& mesh, HeightField& field)
+/// What lies below the liquid, over triangles of the footprint.
+/// @param ground  its height at every vertex [m]
+Column underOf(const PlanarMesh& footprint, const std::vector<double>& ground, const Physics& physics)
 {
+    Column under;
+    for (const Triangle& t : footprint.triangles) {
+        std::array<Vec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 p = footprint.vertices[t[k]];
+            corners[k] = {p.x / physics.unit, p.y / physics.unit, ground[t[k]] / physics.unit};
+        }
+        const double size = 0.5 * doubleArea(footprint, t) / (physics.unit * physics.unit);
+        const Column part = columnUnder(corners, size, physics);
+        under.energy += part.energy;
+        under.volume += part.volume;
+    }
+    return under;
+}
+
+/// Writes a sheet as a mesh, some of whose triangles may be seen from below, and its heights.
+void takeSheet(const ParametricSheet& sheet, const BaseSurface& ground, PlanarMesh& mesh, HeightField& field)
+{
+    const SheetBase base{ground, {}};
     mesh = {{}, sheet.triangles, sheet.footprint.loop_starts, nullptr};
     field.height.clear();
     field.dry.clear();
+    field.ground.clear();
     for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
         const Vec3& p = sheet.places[v];
+        const double clearance = base.clearance(p);
         mesh.vertices.push_back({p.x, p.y});
         field.height.push_back(p.z);
-        field.dry.push_back(v >= sheet.rim && p.z == 0.0 ? 1 : 0);  // on the ground, which holds it
+        field.dry.push_back(v >= sheet.rim && clearance <= 0.0 ? 1 : 0);  // on the ground, which holds it
+        if (!ground.flat()) {
+            field.ground.push_back(std::isfinite(clearance) ? p.z - clearance : p.z);
+        }
     }
 }
 
@@ -466,7 +484,7 @@ std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& mes
     for (std::size_t k = 0; k < std::min(sheets.size(), fields.size()); ++k) {
         if (sheets[k]) {
             has_sheets = true;
-            takeSheet(*sheets[k], all_meshes[k], all_fields[k]);
+            takeSheet(*sheets[k], options.ground, all_meshes[k], all_fields[k]);
         }
     }
     checkFits(all_meshes, all_fields);
@@ -474,6 +492,12 @@ std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& mes
     std::vector<Drop> drops;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         drops.push_back(makeDrop(all_meshes[k], all_fields[k], physics));
+        if (!drops.back().ground.empty()) {
+            const bool is_sheet = !sheets.empty() && sheets[k];
+            const PlanarMesh& footprint = is_sheet ? sheets[k]->footprint : meshes[k];
+            drops.back().under =
+                underOf(footprint, is_sheet ? heightsUnder(footprint, options.ground) : fields[k].ground, physics);
+        }
     }
     return Datafile(out, drops, physics, options, has_sheets).write();
 }

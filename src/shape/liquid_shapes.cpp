@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -14,6 +15,8 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "number_text.h"
+#include "shape/joined_sheet.h"
+#include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/sheet_mesh.h"
 
@@ -36,11 +39,24 @@ constexpr double kFlat = 30.0 * kDegree;
 constexpr double kLower = 2.0 * kDegree;
 constexpr int kMaxLowerings = 60;
 
+/// Error of the largest share of an amount at which neighbours do not touch, and most pairs that are looked at.
+constexpr double kShareError = 0.01;
+constexpr int kMaxPairs = 8;
+
 /// Whether liquid may hang over its rim.
 bool mayHang(const SolveOptions& options)
 {
-    return options.model != Model::Linear && options.ground.flat() && !options.no_penetration &&
-           options.fill.sharing == FillSharing::Each;
+    return options.model != Model::Linear;
+}
+
+/// Droplets that are solved together: all at one pressure, or each for itself.
+std::vector<std::vector<std::size_t>> groupsOf(std::size_t count, const SolveOptions& options)
+{
+    std::vector<std::vector<std::size_t>> groups(options.fill.sharing == FillSharing::Total ? 1 : count);
+    for (std::size_t k = 0; k < count; ++k) {
+        groups[std::min(k, groups.size() - 1)].push_back(k);
+    }
+    return groups;
 }
 
 /// Whether there is no height field for sure.
@@ -87,7 +103,8 @@ std::string refusal(const SolveReport& report, const std::string& which)
 }
 
 /// Why there is no sheet, and what to change.
-std::string refusal(const SheetResult& result, const std::string& which)
+/// @param droplets  at one pressure
+std::string refusal(const SheetResult& result, const std::string& which, std::size_t droplets)
 {
     const std::string at = numberText(result.volume / kMicrolitre, 4) + " uL";
     const std::string angle = numberText(result.contact_angle / kDegree, 3) + " degrees";
@@ -98,8 +115,10 @@ std::string refusal(const SheetResult& result, const std::string& which)
         case SheetEnd::NoHeight:
             return which + "no such droplet exists on this footprint: it is highest at " + at + "; ask for less";
         case SheetEnd::Contact:
-            return which + "such a droplet would touch itself at x " + numberText(result.contact->x / kMillimetre, 3) +
-                   " mm, y " + numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
+            return (droplets > 1 ? "at one pressure the liquid would touch itself at x "
+                                 : which + "such a droplet would touch itself at x ") +
+                   numberText(result.contact->x / kMillimetre, 3) + " mm, y " +
+                   numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
                    " (mean contact angle " + angle + "); ask for less";
         case SheetEnd::OutOfWork:
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
@@ -112,56 +131,57 @@ std::string refusal(const SheetResult& result, const std::string& which)
            angle + "); ask for less";
 }
 
-/// Shape of one droplet.
+/// Shape of one droplet, or of all at one pressure.
 struct Shape {
-    std::optional<HeightField> field;
+    std::vector<HeightField> fields;  ///< one per droplet, or empty
     std::optional<SheetResult> sheet;
-    SolveReport report;  ///< of the height field
+    SolveReport report;  ///< of the height fields
 };
 
-/// Height field of one droplet, and how it was found.
-Shape solveField(const PlanarMesh& mesh, const SolveOptions& options)
+/// Height fields of droplets, and how they were found.
+Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
 {
-    Solution solution = solve({mesh}, options);
+    Solution solution = solve(meshes, options);
     Shape shape{{}, {}, solution.report};
     if (solution.report.usable()) {
-        shape.field = std::move(solution.droplets.front());
+        shape.fields = std::move(solution.droplets);
     }
     return shape;
 }
 
-/// Options of one droplet.
-SolveOptions ownOptions(const SolveOptions& options, std::size_t k)
+/// Options of one group.
+SolveOptions ownOptions(const SolveOptions& options, std::size_t group)
 {
     SolveOptions own = options;
     if (!options.volumes.empty()) {
         own.volumes.clear();
-        own.fill = {FillBy::Volume, options.volumes[k], FillSharing::Each};
+        own.fill = {FillBy::Volume, options.volumes[group], FillSharing::Each};
     }
     return own;
 }
 
-/// Shape of a droplet that may hang over its rim.
-/// @param field  height field, if it was found before
-Shape solveShape(const PlanarMesh& mesh, const SolveOptions& options, std::optional<HeightField> field,
+/// Shape of droplets at one pressure, which may hang over their rims.
+/// @param fields  height fields, if they were found before
+Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, std::vector<HeightField> fields,
                  SheetEffort effort)
 {
-    Shape shape{std::move(field), {}, {}};
-    if (!shape.field && !mustHang(options)) {
+    Shape shape{std::move(fields), {}, {}};
+    if (shape.fields.empty() && !mustHang(options)) {
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
-        shape = solveField(mesh, quick);
+        shape = solveFields(meshes, quick);
     }
-    if (shape.field ? !isUpright(*shape.field) : shape.report.termination == Termination::Unstable) {
+    if (shape.fields.empty() ? shape.report.termination == Termination::Unstable
+                             : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright)) {
         return shape;
     }
-    shape.sheet = solveSheet(mesh, options, effort);
+    shape.sheet = solveSheet(meshes, options, effort);
     if (shape.sheet->end == SheetEnd::Reached) {
-        shape.field.reset();
-    } else if (!shape.field && !mustHang(options)) {
+        shape.fields.clear();
+    } else if (shape.fields.empty() && !mustHang(options)) {
         SolveOptions limited = options;
         limited.max_work = options.max_work.value_or(kMaxWork);
-        Shape upright = solveField(mesh, limited);
+        Shape upright = solveFields(meshes, limited);
         upright.sheet = std::move(shape.sheet);
         return upright;
     }
@@ -196,20 +216,28 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
     return firstContact(all);
 }
 
-/// Takes up the result of a droplet that is a sheet.
-void take(SheetResult& result, std::size_t k, LiquidShapes& shapes)
+/// Takes up the result of droplets that are sheets.
+void take(SheetResult& result, const std::vector<std::size_t>& droplets, LiquidShapes& shapes)
 {
-    HeightField& field = shapes.solution.droplets[k];
-    field = {};
-    field.contact_angle = result.sheet.contact_angle;
-    field.pressure = result.sheet.pressure;
-    shapes.sheets[k] = std::move(result.sheet);
+    std::vector<ParametricSheet> sheets;
+    if (droplets.size() == 1) {
+        sheets.push_back(std::move(result.sheet));
+    } else {
+        sheets = separate(result.sheet);
+    }
+    for (std::size_t i = 0; i < droplets.size(); ++i) {
+        HeightField& field = shapes.solution.droplets[droplets[i]];
+        field = {};
+        field.contact_angle = sheets[i].contact_angle;
+        field.pressure = sheets[i].pressure;
+        shapes.sheets[droplets[i]] = std::move(sheets[i]);
+    }
     SolveReport& report = shapes.solution.report;
     report.newton_steps = std::max(report.newton_steps, result.newton_steps);
 }
 
 /// Lowers the contact angles of droplets that touch until they do not.
-void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, LiquidShapes& shapes)
+void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, LiquidShapes& shapes)
 {
     std::vector<bool> is_lowered(meshes.size(), false);
     for (int round = 0; round < kMaxLowerings; ++round) {
@@ -230,7 +258,7 @@ void separate(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
                 SheetResult lower = solveSheet(meshes[k], own, SheetEffort::Modest);
                 if (lower.end == SheetEnd::Reached) {
                     shapes.least_angle = std::min(shapes.least_angle, own.fill.amount);
-                    take(lower, k, shapes);
+                    take(lower, {k}, shapes);
                     shapes.with_less += is_lowered[k] ? 0 : 1;
                     is_lowered[k] = true;
                     break;
@@ -308,54 +336,15 @@ std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& optio
     return shapes;
 }
 
-}  // namespace
-
-std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
-                                   const std::vector<double>& volumes, const SolveOptions& options)
-{
-    if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0.0; })) {
-        return empty(shapes, options);
-    }
-    LiquidShapes result = shapes;
-    if (!refillFields(meshes, volumes, options, result)) {
-        return std::nullopt;
-    }
-    if (shapes.sheets.empty()) {
-        return result;
-    }
-    std::vector<std::optional<SheetResult>> found(meshes.size());
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
-        if (shapes.sheets[k] && volumes[k] > 0.0) {
-            found[k] = refill(*shapes.sheets[k], volumes[k], options);
-        }
-    });
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (shapes.sheets[k]) {
-            if (!found[k] || found[k]->end != SheetEnd::Reached) {
-                return std::nullopt;
-            }
-            take(*found[k], k, result);
-        }
-    }
-    return neighbourContact(meshes, result) ? std::nullopt : std::optional(std::move(result));
-}
-
-LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
-                         const Progress& progress)
+/// Solves every droplet, whether or not neighbours touch.
+LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
+                      const Progress& progress)
 {
     const std::size_t count = meshes.size();
     LiquidShapes shapes;
     Solution& solution = shapes.solution;
     if (!mayHang(options)) {
         solution = solve(meshes, options, progress);
-        if (!solution.report.usable() && options.model == Model::Auto) {
-            // On such ground the linear model is all there is.
-            SolveOptions linear = options;
-            linear.model = Model::Linear;
-            if (Solution flat = solve(meshes, linear); flat.report.usable()) {
-                solution = std::move(flat);
-            }
-        }
         if (!solution.report.usable()) {
             throw Error(ErrorCode::NoSuchDroplet,
                         refusal(solution.report, options.fill.sharing == FillSharing::Each
@@ -374,11 +363,19 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     } else if (progress) {
         progress(Stage::Solve);
     }
+    const std::vector<std::vector<std::size_t>> groups = groupsOf(count, options);
     const bool has_fields = solution.report.usable();
-    std::vector<Shape> found(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        found[k] = solveShape(meshes[k], ownOptions(options, k),
-                              has_fields ? std::optional(std::move(solution.droplets[k])) : std::nullopt,
+    std::vector<Shape> found(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        std::vector<PlanarMesh> own;
+        std::vector<HeightField> fields;
+        for (const std::size_t k : groups[g]) {
+            own.push_back(meshes[k]);
+            if (has_fields) {
+                fields.push_back(std::move(solution.droplets[k]));
+            }
+        }
+        found[g] = solveShape(own, ownOptions(options, g), std::move(fields),
                               allow_less ? SheetEffort::Modest : SheetEffort::Full);
     });
     solution.droplets.assign(count, {});
@@ -390,19 +387,24 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
         report.method = "simplicial-ldlt";
     }
     report.unknowns = 0;
+    for (const PlanarMesh& mesh : meshes) {
+        report.unknowns += mesh.vertices.size() - mesh.rimVertexCount();
+    }
     shapes.least_angle = std::numbers::pi;
-    for (std::size_t k = 0; k < count; ++k) {
-        Shape& shape = found[k];
-        report.unknowns += meshes[k].vertices.size() - meshes[k].rimVertexCount();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        Shape& shape = found[g];
+        const std::string which = groups.size() == 1 ? "" : ofDroplet(g, count);
         report.residual = std::max(report.residual, shape.report.usable() ? shape.report.residual : 0.0);
-        if (shape.field) {
-            solution.droplets[k] = *std::move(shape.field);
+        if (!shape.fields.empty()) {
+            for (std::size_t i = 0; i < groups[g].size(); ++i) {
+                solution.droplets[groups[g][i]] = std::move(shape.fields[i]);
+            }
         } else if (!shape.sheet) {
-            throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, ofDroplet(k, count)));
+            throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, which));
         } else {
             if (shape.sheet->end != SheetEnd::Reached) {
                 if (!allow_less) {
-                    throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, ofDroplet(k, count)));
+                    throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, which, groups[g].size()));
                 }
                 if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
                     shape.sheet->contact_angle < kLeastShare * options.fill.amount) {
@@ -412,23 +414,142 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
                         return {std::move(flat), {}};
                     }
                 }
-                ++shapes.with_less;
+                shapes.with_less += groups[g].size();
                 shapes.least_angle = std::min(shapes.least_angle, shape.sheet->contact_angle);
             }
-            take(*shape.sheet, k, shapes);
+            take(*shape.sheet, groups[g], shapes);
         }
     }
-    if (count > 1) {
-        if (allow_less) {
-            separate(meshes, options, shapes);
+    return shapes;
+}
+
+/// Options with a share of the amount.
+SolveOptions scaled(const SolveOptions& options, double share)
+{
+    SolveOptions own = options;
+    own.fill.amount *= share;
+    for (double& volume : own.volumes) {
+        volume *= share;
+    }
+    return own;
+}
+
+/// Whether droplets with a share of their amount exist, and do not touch.
+bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, double share)
+{
+    try {
+        const LiquidShapes shapes = solveAll(meshes, scaled(options, share), false, {});
+        return shapes.sheets.empty() || !neighbourContact(meshes, shapes);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::NoSuchDroplet) {
+            throw;
         }
-        if (const std::optional<SheetContact> contact = neighbourContact(meshes, shapes)) {
-            throw Error(
-                ErrorCode::NoSuchDroplet,
-                fmt::format("droplets {} and {} would touch at x {} mm, y {} mm; ask for less", contact->first + 1,
-                            contact->second + 1, numberText(contact->place.x / kMillimetre, 3),
-                            numberText(contact->place.y / kMillimetre, 3)));
+        return false;
+    }
+}
+
+/// Why neighbours are refused, with the largest amount at which no droplets touch.
+std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, SheetContact contact)
+{
+    const std::string where =
+        fmt::format("droplets {} and {} would touch at x {} mm, y {} mm; ", contact.first + 1, contact.second + 1,
+                    numberText(contact.place.x / kMillimetre, 3), numberText(contact.place.y / kMillimetre, 3));
+    double share = 1.0;
+    for (int round = 0; round < kMaxPairs; ++round) {
+        const std::array<std::size_t, 2> pair{contact.first, contact.second};
+        SolveOptions own = options;
+        if (!options.volumes.empty()) {
+            own.volumes = {options.volumes[pair[0]], options.volumes[pair[1]]};
         }
+        double apart = 0.0;
+        for (double touching = share; touching - apart > kShareError * touching;) {
+            const double middle = 0.5 * (apart + touching);
+            (areApart({meshes[pair[0]], meshes[pair[1]]}, own, middle) ? apart : touching) = middle;
+            if (touching < kShareError) {
+                break;
+            }
+        }
+        share = apart;
+        if (share == 0.0) {
+            return where + "they do with less, too";
+        }
+        const LiquidShapes shapes = solveAll(meshes, scaled(options, share), true, {});
+        const std::optional<SheetContact> next =
+            shapes.sheets.empty() ? std::nullopt : neighbourContact(meshes, shapes);
+        if (!next) {
+            break;
+        }
+        contact = *next;
+    }
+    const double amount = share * options.fill.amount;
+    if (!options.volumes.empty()) {
+        return where + "none do with " + numberText(100.0 * share, 3) + " % of their volumes";
+    }
+    switch (options.fill.by) {
+        case FillBy::ContactAngle:
+            return where + "none do up to a mean contact angle of " + numberText(amount / kDegree, 3) + " degrees";
+        case FillBy::Height:
+            return where + "none do up to a height of " + numberText(amount / kMillimetre, 3) + " mm";
+        case FillBy::Volume:
+            break;
+    }
+    return where + "none do up to " + numberText(amount / kMicrolitre, 3) + " uL for each";
+}
+
+}  // namespace
+
+std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
+                                   const std::vector<double>& volumes, const SolveOptions& options)
+{
+    if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume == 0.0; })) {
+        return empty(shapes, options);
+    }
+    LiquidShapes result = shapes;
+    if (!refillFields(meshes, volumes, options, result)) {
+        return std::nullopt;
+    }
+    if (shapes.sheets.empty()) {
+        return result;
+    }
+    const std::vector<std::vector<std::size_t>> groups = groupsOf(meshes.size(), options);
+    std::vector<std::optional<SheetResult>> found(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        if (!shapes.sheets[groups[g].front()]) {
+            return;
+        }
+        std::vector<ParametricSheet> sheets;
+        double volume = 0.0;
+        for (const std::size_t k : groups[g]) {
+            sheets.push_back(*shapes.sheets[k]);
+            volume += volumes[k];
+        }
+        if (volume > 0.0) {
+            found[g] = refill(sheets.size() == 1 ? sheets.front() : join(sheets), volume, options);
+        }
+    });
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (shapes.sheets[groups[g].front()]) {
+            if (!found[g] || found[g]->end != SheetEnd::Reached) {
+                return std::nullopt;
+            }
+            take(*found[g], groups[g], result);
+        }
+    }
+    return neighbourContact(meshes, result) ? std::nullopt : std::optional(std::move(result));
+}
+
+LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
+                         const Progress& progress)
+{
+    LiquidShapes shapes = solveAll(meshes, options, allow_less, progress);
+    if (shapes.sheets.empty() || options.fill.sharing == FillSharing::Total) {
+        return shapes;
+    }
+    if (allow_less) {
+        lowerUntilApart(meshes, options, shapes);
+    }
+    if (const std::optional<SheetContact> contact = neighbourContact(meshes, shapes)) {
+        throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact));
     }
     return shapes;
 }

@@ -2,7 +2,7 @@
 // Newton's method on area and gravity under a volume constraint, along normals as Surface Evolver's hessian_normal
 // does (K. A. Brakke). The inertia of one factorisation tells minima from saddles: N. Gould, "On practical conditions
 // for the existence and uniqueness of solutions to the general equality quadratic programming problem" (1985). The
-// ground is a bound on heights, by a primal-dual active set: M. Hintermüller, K. Ito, K. Kunisch, SIAM J. Optim. 13
+// ground is a bound, by a primal-dual active set: M. Hintermüller, K. Ito, K. Kunisch, SIAM J. Optim. 13
 // (2002).
 #include "shape/sheet_newton.h"
 
@@ -48,9 +48,10 @@ bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimit
     });
 }
 
-SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight)
+SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
     : rim_(sheet.rim),
       weight_(weight),
+      base_(std::move(base)),
       pattern_(sheet),
       held_(sheet.places.size() - sheet.rim, 0),
       held_motion_(sheet.places.size() - sheet.rim, 0.0),
@@ -69,6 +70,8 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
     linear_.volume.resize(size);
     linear_.mass.resize(size);
     linear_.directions.assign(sheet.places.size(), {});
+    linear_.clearance.resize(count);
+    linear_.rise.resize(count);
     std::vector<double> area(sheet.places.size(), 0.0);
     for (const Triangle& t : sheet.triangles) {
         const double third = length(areaVector(sheet.places, t)) / 3.0;
@@ -81,11 +84,15 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
         const auto k = static_cast<Eigen::Index>(i);
         const double size_of = length(gradients.volume[v]);
         Vec3 direction = size_of > 0.0 ? (1.0 / size_of) * gradients.volume[v] : Vec3{0.0, 0.0, 1.0};
-        if (sheet.places[v].z <= 0.0) {
-            direction = {0.0, 0.0, direction.z < 0.0 ? -1.0 : 1.0};
+        const GroundPoint ground = base_.under(sheet.places[v]);
+        linear_.clearance[i] = sheet.places[v].z - ground.height;
+        if (linear_.clearance[i] <= 0.0) {
+            const Vec3 up = normalOf(ground);
+            direction = dot(direction, up) < 0.0 ? -1.0 * up : up;
         } else {
             held_[i] = 0;
         }
+        linear_.rise[i] = dot(direction, {-ground.gradient.x, -ground.gradient.y, 1.0});
         linear_.directions[v] = direction;
         linear_.gradient[k] = dot(direction, gradients.energy[v]);
         linear_.volume[k] = dot(direction, gradients.volume[v]);
@@ -212,6 +219,11 @@ double SheetSolver::residual(double pressure) const
     return std::sqrt(rest / scale) / std::max(std::abs(pressure), 2.0 / std::sqrt(area));
 }
 
+double SheetSolver::volumeOf(const SheetMesh& sheet) const
+{
+    return integrate(sheet, weight_).volume - base_.integrals.volume;
+}
+
 double SheetSolver::volumeScale(double volume) const
 {
     // Without liquid, a sheet that gravity pulls along its plane is no plane.
@@ -224,7 +236,7 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
     const SheetIntegrals start = integrate(before, weight_);
     // A step that first has to reach the volume may cost energy.
     const double scale = volumeScale(volume);
-    const bool has_volume = std::abs(start.volume - volume) <= 1e-9 * scale;
+    const bool has_volume = std::abs(volumeOf(before) - volume) <= 1e-9 * scale;
     // Slope of the energy along the step at fixed volume.
     const double slope = std::min(0.0, linear_.gradient.dot(step.motion));
     const double across = linear_.volume.dot(response_);
@@ -242,17 +254,15 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
         move(step.motion, part);
         bool is_full = false;
         for (int round = 0; round < 8 && !is_full; ++round) {
-            for (std::size_t v = rim_; v < sheet.places.size(); ++v) {
-                sheet.places[v].z = std::max(sheet.places[v].z, 0.0);  // the ground
-            }
-            const double missing = volume - integrate(sheet, weight_).volume;
+            base_.lift(sheet.places, rim_);
+            const double missing = volume - volumeOf(sheet);
             is_full = std::abs(missing) <= 1e-13 * scale;
             if (!is_full) {
                 move(along, missing);
             }
         }
         const SheetIntegrals now = integrate(sheet, weight_);
-        if (std::abs(now.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
+        if (std::abs(now.volume - base_.integrals.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
             continue;
         }
         if (!has_volume || now.energy() <= start.energy() + 1e-4 * part * slope + 1e-12 * std::abs(start.energy())) {
@@ -280,9 +290,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
     NewtonResult result;
     const std::vector<double> angles = minAngles(sheet);
     std::fill(damping_.begin(), damping_.end(), 0.0);
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-        held_[i] = sheet.places[rim_ + i].z <= 0.0 ? 1 : 0;
-    }
+    std::fill(held_.begin(), held_.end(), 1);  // until it turns out that they are above the ground
     int shifted = 0;
     double last = std::numeric_limits<double>::infinity();
     for (;; ++result.steps) {
@@ -292,15 +300,14 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             // Vertices on the ground are held while the energy presses them down.
             const auto k = static_cast<Eigen::Index>(i);
             if (held_[i] != 0) {
-                const double up = linear_.directions[rim_ + i].z;
-                held_motion_[i] = -sheet.places[rim_ + i].z * up;
-                if (up * (linear_.gradient[k] - pressure * linear_.volume[k]) <= 0.0) {
+                held_motion_[i] = -linear_.clearance[i] / linear_.rise[i];
+                if (linear_.rise[i] * (linear_.gradient[k] - pressure * linear_.volume[k]) <= 0.0) {
                     held_[i] = 0;
                 }
             }
         }
         result.residual = residual(pressure);
-        const double missing = volume - integrate(sheet, weight_).volume;
+        const double missing = volume - volumeOf(sheet);
         const bool is_full = std::abs(missing) <= 1e-10 * volumeScale(volume);
         const double area = linear_.mass.sum();
         const double least = 0.05 * std::max(pressure * pressure, 4.0 * std::numbers::pi / area);
@@ -341,17 +348,16 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             const Vector pushed =
                 linear_.full.selfadjointView<Eigen::Lower>() * step.motion - forces - step.pressure * linear_.volume;
             for (std::size_t i = 0; i < held_.size(); ++i) {
-                const std::size_t v = rim_ + i;
                 const auto k = static_cast<Eigen::Index>(i);
-                const double up = linear_.directions[v].z;
+                const double rise = linear_.rise[i];
                 if (held_[i] != 0) {
-                    if (round < kReleaseRounds && up * pushed[k] < 0.0) {
+                    if (round < kReleaseRounds && rise * pushed[k] < 0.0) {
                         held_[i] = 0;
                         has_changed = true;
                     }
-                } else if (std::abs(up) > kLevel && sheet.places[v].z + step.motion[k] * up < 0.0) {
+                } else if (std::abs(rise) > kLevel && linear_.clearance[i] + step.motion[k] * rise < 0.0) {
                     held_[i] = 1;
-                    held_motion_[i] = -sheet.places[v].z / up;
+                    held_motion_[i] = -linear_.clearance[i] / rise;
                     has_changed = true;
                 }
             }

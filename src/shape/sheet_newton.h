@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
 
 namespace droplet {
@@ -30,12 +31,13 @@ struct NewtonResult {
 };
 
 /// Equilibria of sheets with one topology: area and gravity are least at a given volume, and nothing is below the
-/// ground, z = 0.
+/// ground.
 class SheetSolver {
 public:
     /// @param sheet   gives the topology
     /// @param weight  as in integrate()
-    SheetSolver(const SheetMesh& sheet, Vec3 weight);
+    /// @param base    what the sheet lies on; volumes are those above it
+    SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base = {});
 
     /// Moves the vertices inside until the sheet is in equilibrium; the volume is exact in every step.
     /// @param sheet     start, near enough; receives the result, also of a failure
@@ -49,6 +51,8 @@ private:
         Eigen::VectorXd volume;    ///< of the volume, b
         Eigen::VectorXd mass;      ///< area around every vertex
         std::vector<Vec3> directions;
+        std::vector<double> clearance;       ///< of every unknown's vertex, above the ground [m]
+        std::vector<double> rise;            ///< its change per motion
         Eigen::SparseMatrix<double> matrix;  ///< with rows of held unknowns cleared
         Eigen::SparseMatrix<double> full;    ///< without shift and holding
     };
@@ -66,6 +70,7 @@ private:
     [[nodiscard]] int negatives() const;
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
+    [[nodiscard]] double volumeOf(const SheetMesh& sheet) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
     bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
@@ -73,6 +78,7 @@ private:
 
     std::uint32_t rim_;
     Vec3 weight_;
+    SheetBase base_;
     SheetPattern pattern_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
     Linear linear_;

@@ -53,6 +53,8 @@ constexpr double kConfirmWork = 1.5;
 constexpr int kRenewals = 6;
 constexpr int kWorse = 2;
 constexpr NewtonLimits kSettling{.steps = 20, .shifted_steps = 8, .worn = 0.4};
+/// Doublings of the first volume, until it wets the ground: on a ball, little liquid leaves the top dry.
+constexpr int kWetter = 8;
 /// Growth of edges when a sheet fails with small ones.
 constexpr double kCoarser = 1.6;
 /// Change of the pressure by new triangles above which they are not the same liquid.
@@ -62,11 +64,12 @@ constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
 constexpr double kLower = 0.99;
 
-double heightOf(const SheetMesh& sheet)
+double heightOf(const SheetMesh& sheet, const SheetBase& base)
 {
     double height = 0.0;
     for (const Vec3& p : sheet.places) {
-        height = std::max(height, p.z);
+        const double clearance = base.clearance(p);
+        height = std::isfinite(clearance) ? std::max(height, clearance) : height;
     }
     return height;
 }
@@ -93,39 +96,45 @@ std::vector<Vec3> movedPlaces(const State& state, double size)
 class Path {
 public:
     Path(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options)
-        : target_(target), options_(options)
+        : target_(target), options_(options), base_(baseOf(footprint, options.ground, options.weight))
     {
-        now_.sheet.rim = footprint.rimVertexCount();
-        now_.sheet.triangles = footprint.triangles;
-        for (const Vec2 p : footprint.vertices) {
-            now_.sheet.places.push_back({p.x, p.y, 0.0});
-        }
         options_.path_edge = std::max(options_.edge, options_.path_edge);
-        now_.sheet = remesh(now_.sheet, {options_.path_edge, options_.path_edge / 8.0});
-        use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
-        // The flat sheet is in equilibrium with no liquid, but not where gravity pulls along it.
-        const bool is_level = options_.weight.x == 0.0 && options_.weight.y == 0.0;
-        now_.volume = is_level ? 0.0 : kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
-        // Under the largest weight all of the sheet is free to rise at first.
-        for (const Vec3& place : now_.sheet.places) {
-            now_.pressure = is_level ? 0.0 : std::max(now_.pressure, dot(options_.weight, place));
+        now_.sheet = newTriangles(drySheet(footprint, options.ground), options_.path_edge);
+        for (Vec3& place : now_.sheet.places) {
+            place.z = base_.under(place).height;
         }
-        now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
-        count(now_, true);
+        use(solverOf(now_.sheet), now_.sheet);
+        const SheetMesh dry = now_.sheet;
+        // The flat sheet is in equilibrium with no liquid, but not where gravity pulls along it, or on other ground.
+        const bool is_level = base_.ground.flat() && options_.weight.x == 0.0 && options_.weight.y == 0.0;
+        const double most = target_.by == FillBy::Volume ? target_.amount : std::numeric_limits<double>::infinity();
+        const double first = kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
+        double volume = is_level ? 0.0 : std::min(first, most);
+        for (int k = 0; k <= kWetter; ++k, volume = std::min(2.0 * volume, most)) {
+            now_.sheet = dry;
+            now_.volume = volume;
+            now_.pressure = is_level ? 0.0 : liftingPressure(dry);
+            now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
+            count(now_, k == 0);
+            if (now_.newton.converged || is_level || volume == most) {
+                break;
+            }
+        }
         firm_ = {now_};
     }
 
     /// Begins at an equilibrium, and keeps its triangles.
-    Path(const SheetMesh& sheet, double pressure, double volume, Vec3 weight)
+    Path(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base)
         : target_{FillBy::Volume, volume},
           options_{weight},
-          now_{sheet, pressure, integrate(sheet, weight).volume, {}},
+          base_(base),
+          now_{sheet, pressure, integrate(sheet, weight).volume - base.integrals.volume, {}},
           is_final_(true),
           keeps_triangles_(true)
     {
         options_.min_step = kKeptStep;
         options_.max_work = kKeptWork * std::pow(static_cast<double>(sheet.triangles.size()), 1.5);
-        use(std::make_unique<SheetSolver>(now_.sheet, weight), now_.sheet);
+        use(solverOf(now_.sheet), now_.sheet);
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
         count(now_, false);
         firm_ = {now_};
@@ -159,8 +168,8 @@ private:
         return {now_.sheet,
                 now_.pressure,
                 now_.volume,
-                heightOf(now_.sheet),
-                rimAngles(now_.sheet, options_.weight, now_.pressure).mean(),
+                heightOf(now_.sheet, base_),
+                rimAngles(now_.sheet, options_.weight, now_.pressure, base_.ground).mean(),
                 end,
                 end == SheetEnd::Contact ? std::optional(contact_->place) : std::nullopt,
                 newton_steps_};
@@ -241,7 +250,8 @@ private:
     /// Height or mean contact angle, whichever is the target.
     [[nodiscard]] double amountOf(const SheetMesh& sheet, double pressure) const
     {
-        return target_.by == FillBy::Height ? heightOf(sheet) : rimAngles(sheet, options_.weight, pressure).mean();
+        return target_.by == FillBy::Height ? heightOf(sheet, base_)
+                                            : rimAngles(sheet, options_.weight, pressure, base_.ground).mean();
     }
 
     /// Volume that is missing to the target, by the tangent.
@@ -285,9 +295,7 @@ private:
         contact_.reset();
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
-        for (std::size_t v = next.sheet.rim; v < next.sheet.places.size(); ++v) {
-            next.sheet.places[v].z = std::max(next.sheet.places[v].z, 0.0);
-        }
+        base_.lift(next.sheet.places, next.sheet.rim);
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure);
         count(next, false);
         if (!next.newton.converged) {
@@ -315,7 +323,8 @@ private:
     bool repair(State& state)
     {
         if (isWorn(meshed_angles_, state.sheet, kWorn)) {
-            state.sheet = relax(state.sheet, kRelaxations);
+            state.sheet = relax(state.sheet, kRelaxations, base_.ground.flat());
+            base_.lift(state.sheet.places, state.sheet.rim);
             state.newton = solver_->solve(state.sheet, state.volume, state.pressure, kSettling);
             count(state, false);
         }
@@ -336,7 +345,7 @@ private:
     {
         now_ = firm_.back();
         gap_ = std::min(gap_, kConfirmed);
-        use(std::make_unique<SheetSolver>(now_.sheet, options_.weight), now_.sheet);
+        use(solverOf(now_.sheet), now_.sheet);
     }
 
     /// Whether the last sheet stands on new triangles. If not, the path goes back, and confirms every step.
@@ -437,8 +446,8 @@ private:
         // At inner corners a sheet may have far to go; there triangles wear out on the way.
         double nearest = std::numeric_limits<double>::infinity();
         for (int round = 0, worse = 0; round < kRenewals && worse < kWorse && hasWork(); ++round) {
-            next.sheet = remesh(next.sheet, {edge, edge / 8.0});
-            solver = std::make_unique<SheetSolver>(next.sheet, options_.weight);
+            next.sheet = newTriangles(next.sheet, edge);
+            solver = solverOf(next.sheet);
             next.newton = solver->solve(next.sheet, next.volume, next.pressure, kSettling);
             count(next, true);
             if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
@@ -462,6 +471,30 @@ private:
         return true;
     }
 
+    [[nodiscard]] SheetMesh newTriangles(const SheetMesh& sheet, double edge) const
+    {
+        SheetMesh made = remesh(sheet, {edge, edge / 8.0, base_.ground.flat()});
+        base_.lift(made.places, made.rim);
+        return made;
+    }
+
+    [[nodiscard]] std::unique_ptr<SheetSolver> solverOf(const SheetMesh& sheet) const
+    {
+        return std::make_unique<SheetSolver>(sheet, options_.weight, base_);
+    }
+
+    /// Pressure under which all of a dry sheet rises: more than the largest force on a vertex over its area [1/m].
+    [[nodiscard]] double liftingPressure(const SheetMesh& sheet) const
+    {
+        const SheetGradients gradients = gradientsOf(sheet, options_.weight);
+        double pressure = 0.0;
+        for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
+            const Vec3& volume = gradients.volume[v];
+            pressure = std::max(pressure, dot(gradients.energy[v], volume) / dot(volume, volume));
+        }
+        return pressure;
+    }
+
     /// Counts the work of Newton's method on new triangles or the same ones: a factorisation costs the power 3/2 of the
     /// triangles.
     void count(const State& state, bool is_remeshed)
@@ -483,6 +516,7 @@ private:
 
     SheetTarget target_;
     SheetOptions options_;
+    SheetBase base_;
     State now_;
     std::unique_ptr<SheetSolver> solver_;                   ///< for the triangles of now_
     double meshed_area_ = 0.0;                              ///< when the triangles were made
@@ -509,12 +543,16 @@ double RimAngles::mean() const
     return sum / total;
 }
 
-RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure)
+RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const BaseSurface& ground)
 {
     const SheetGradients gradients = gradientsOf(sheet, weight);
     RimAngles rim;
     rim.angle.resize(sheet.rim);
     rim.weight.resize(sheet.rim, 0.0);
+    std::vector<Vec3> up(sheet.rim);
+    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+        up[v] = normalOf(ground.at({sheet.places[v].x, sheet.places[v].y}));
+    }
     std::vector<Vec3> outward(sheet.rim);
     for (const Triangle& t : sheet.triangles) {
         for (std::size_t a = 0; a < 3; ++a) {
@@ -523,9 +561,8 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure)
             // No inner edge joins two rim vertices.
             if (i < sheet.rim && j < sheet.rim) {
                 const Vec3 side = sheet.places[j] - sheet.places[i];
-                const Vec3 half = 0.5 * cross(side, {0.0, 0.0, 1.0});
-                outward[i] = outward[i] + half;
-                outward[j] = outward[j] + half;
+                outward[i] = outward[i] + 0.5 * cross(side, up[i]);
+                outward[j] = outward[j] + 0.5 * cross(side, up[j]);
                 rim.weight[i] += 0.5 * length(side);
                 rim.weight[j] += 0.5 * length(side);
             }
@@ -534,7 +571,7 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure)
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
         const Vec3 force = gradients.energy[v] - pressure * gradients.volume[v];
         const double along = dot(force, outward[v]) / length(outward[v]);
-        const double angle = std::atan2(-force.z, along);
+        const double angle = std::atan2(-dot(force, up[v]), along);
         // At the tips of dry wedges forces may point up a little, or beyond the ground.
         rim.angle[v] = angle >= 0.0 ? angle : along < 0.0 ? std::numbers::pi : 0.0;
     }
@@ -546,9 +583,9 @@ FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, co
     return Path(footprint, target, options).run();
 }
 
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight)
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base)
 {
-    return Path(sheet, pressure, volume, weight).run();
+    return Path(sheet, pressure, volume, weight, base).run();
 }
 
 }  // namespace droplet

@@ -6,6 +6,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/sheet.h"
+#include "shape/sheet_base.h"
 #include "shape/sheet_mesh.h"
 
 namespace droplet {
@@ -24,6 +25,7 @@ struct SheetOptions {
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
     bool is_end_confirmed = true;  ///< on triangles of the final size
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds
+    BaseSurface ground = {};       ///< under the footprint, and around it
 };
 
 /// Angles between liquid and ground along the rim.
@@ -36,7 +38,8 @@ struct RimAngles {
 
 /// Angles from the forces that the rim holds; they include the pressure and gravity on the triangles there.
 /// @param pressure  λ over the surface tension [1/m]
-RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure);
+/// @param ground    to which the angles are measured
+RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const BaseSurface& ground = {});
 
 /// Equilibrium of a liquid that may hang over its rim.
 struct FilledSheet {
@@ -53,8 +56,9 @@ struct FilledSheet {
 /// Fills a footprint from dry ground up to a target, by steps of the volume.
 ///
 /// Guarantees: the sheet is in equilibrium, a minimum of its energy at its volume, which is met to 1e-10; its rim is
-/// that of the footprint; nothing is below z = 0. If the target is not reached, it is the
-/// last equilibrium before the end.
+/// that of the footprint; nothing is below the ground. If the target is not reached, it is the last equilibrium before
+/// the end.
+/// @param footprint  of one droplet, or of several at one pressure, which touch each other no more than themselves
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
 
 /// Fills or drains an equilibrium to another volume on the same triangles. They can follow only so far: the end is
@@ -62,6 +66,7 @@ FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, co
 /// @param sheet     an equilibrium
 /// @param pressure  of it, over the surface tension [1/m]
 /// @param volume    wanted [m³]
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight);
+/// @param base      what it lies on
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base);
 
 }  // namespace droplet

@@ -103,7 +103,8 @@ private:
 
     [[nodiscard]] bool onGround(VertexHandle v) const
     {
-        return mesh_.point(v)[2] <= 0.0 && normals_[static_cast<std::size_t>(v.idx())][2] < 0.0;
+        return options_.is_ground_flat && mesh_.point(v)[2] <= 0.0 &&
+               normals_[static_cast<std::size_t>(v.idx())][2] < 0.0;
     }
 
     void findNormals()
@@ -429,7 +430,7 @@ private:
             const Point normal = onGround(v) ? Point(0.0, 0.0, -1.0) : normals_[static_cast<std::size_t>(v.idx())];
             way -= (way | normal) * normal;
             Point place = mesh_.point(v) + way;
-            if (place[2] < 0.0 && normal[2] < 0.0) {
+            if (options_.is_ground_flat && place[2] < 0.0 && normal[2] < 0.0) {
                 place[2] = 0.0;
             }
             if (staysFlat(v, place, VertexHandle())) {
@@ -472,9 +473,9 @@ SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options)
     return Remesher(sheet, options).run();
 }
 
-SheetMesh relax(const SheetMesh& sheet, int rounds)
+SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat)
 {
-    SheetMesh relaxed = Remesher(sheet, {}).relax(rounds);
+    SheetMesh relaxed = Remesher(sheet, {.is_ground_flat = is_ground_flat}).relax(rounds);
     relaxed.triangles = sheet.triangles;  // half-edges may turn them
     return relaxed;
 }

@@ -9,9 +9,10 @@ namespace droplet {
 
 /// Sizes of new triangles.
 struct RemeshOptions {
-    double edge = 0.0;      ///< largest edge inside [m], > 0
-    double min_edge = 0.0;  ///< smallest edge that curvature may ask for [m], > 0
-    int rounds = 4;         ///< of splitting, collapsing, flipping and smoothing
+    double edge = 0.0;           ///< largest edge inside [m], > 0
+    double min_edge = 0.0;       ///< smallest edge that curvature may ask for [m], > 0
+    bool is_ground_flat = true;  ///< vertices on the ground, z = 0, stay there
+    int rounds = 4;              ///< of splitting, collapsing, flipping and smoothing
 };
 
 /// Gives a sheet new triangles: as long as the rim's edges at the rim, shorter where the sheet is bent, growing
@@ -23,7 +24,8 @@ struct RemeshOptions {
 SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
 
 /// Moves the inner vertices of a sheet along it, to make its triangles more even. They stay the same triangles.
-SheetMesh relax(const SheetMesh& sheet, int rounds);
+/// @param is_ground_flat  as in RemeshOptions
+SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat);
 
 /// Smallest angle of every triangle [rad].
 std::vector<double> minAngles(const SheetMesh& sheet);

@@ -246,8 +246,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     if (options.fill.by == FillBy::ContactAngle && options.fill.amount >= 0.5 * std::numbers::pi) {
         throw Error(
             ErrorCode::InvalidArgument,
-            fmt::format("contact_angle {} degrees must be below 90: liquid hangs over its rim in the exact model "
-                        "alone, on flat ground, with an amount of its own for every droplet",
+            fmt::format("contact_angle {} degrees must be below 90 for a height field; solveSheet() goes beyond",
                         numberText(options.fill.amount / kDegree)));
     }
     requireGround(meshes, options.ground);

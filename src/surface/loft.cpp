@@ -18,6 +18,7 @@
 #include "droplet/mesh/triangulate.h"
 #include "number_text.h"
 #include "shape/recovered_gradients.h"
+#include "shape/sheet_base.h"
 #include "shape/sheet_mesh.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
@@ -337,13 +338,18 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
         throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
     }
-    const HeightField level;
-    Piece piece{&footprint, &level, false, {}, {}, {sheet.places.size(), sheet.triangles.size()}};
+    HeightField ground;
+    if (!options.ground.flat()) {
+        ground.ground = heightsUnder(footprint, options.ground);
+    }
+    Piece piece{&footprint, &ground, !options.ground.flat(), {}, {}, {sheet.places.size(), sheet.triangles.size()}};
     Counts total = piece.base;
     if (!options.open) {
-        piece.cover = options.bases.empty() ? cover(footprint) : options.bases.front();
-        total.vertices += piece.cover.vertices.size();
-        total.triangles += piece.cover.triangles.size();
+        if (!piece.mirrored) {
+            piece.cover = options.bases.empty() ? cover(footprint) : options.bases.front();
+        }
+        total.vertices += piece.baseMesh().vertices.size();
+        total.triangles += piece.baseMesh().triangles.size();
     }
     Surface surface;
     surface.positions = sheet.places;
@@ -358,8 +364,12 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     // On the rim the mean is one-sided; there the contact angle is exact.
     const std::vector<Vec2> outward = rimNormals(footprint);
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        const Vec2 side = std::sin(sheet.contact_angle[v]) * outward[v];
-        surface.normals[v] = {side.x, side.y, std::cos(sheet.contact_angle[v])};
+        const Vec2 slope = options.ground.at(footprint.vertices[v]).gradient;
+        const Vec2 along{-outward[v].y, outward[v].x};
+        const Vec3 up = normalOf(slope);
+        const Vec3 side = cross({along.x, along.y, dot(slope, along)}, up);
+        surface.normals[v] =
+            std::sin(sheet.contact_angle[v]) / length(side) * side + std::cos(sheet.contact_angle[v]) * up;
     }
     surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
     for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {

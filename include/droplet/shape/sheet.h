@@ -13,15 +13,16 @@
 
 namespace droplet {
 
-/// Surface of a droplet that may hang over its rim: triangles in space.
+/// Surface of a droplet, or of several at one pressure, that may hang over its rim: triangles in space.
 ///
 /// Invariants: a manifold whose boundary is the rim of its footprint; the rim's vertices come first, in the order of
 /// the footprint's; triangles are counter-clockwise from outside.
 struct ParametricSheet {
-    PlanarMesh footprint;               ///< that of the droplet, with rounded inner corners
+    PlanarMesh footprint;               ///< that of the droplet, with rounded inner corners; of several, one after
+                                        ///< another, each beginning with its outer loop
     std::vector<Vec3> places;           ///< vertices [m]
     std::vector<Triangle> triangles;    ///< indices of three vertices
-    std::uint32_t rim = 0;              ///< number of rim vertices, at z = 0
+    std::uint32_t rim = 0;              ///< number of rim vertices, on the ground
     std::vector<double> contact_angle;  ///< angle between liquid and ground at every rim vertex, 0 … π [rad]
     double pressure = 0.0;              ///< λ, the pressure at the plane's origin [Pa]
 };
@@ -62,15 +63,24 @@ struct SheetResult {
 /// one. The work is limited, to about half a minute at 40 000 triangles. An end is confirmed on the final triangles,
 /// that of a footprint of up to 10 000 triangles on edges half as long.
 ///
-/// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground where it leans over, and does not
-/// cross itself; the same input gives the same bits.
-/// @param footprint  valid; its inner triangles are not used at the end
-/// @param options    liquid, gravity, tilt and fill, of one droplet; the ground is flat; model, no_penetration, volumes
-///                   and solver are not used
+/// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
+/// input gives the same bits.
+/// @param footprint  valid; on flat ground its inner triangles are not used at the end
+/// @param options    liquid, gravity, tilt, ground and fill; model, no_penetration, volumes and solver are not used.
+///                   Beyond the end of a ball or a pipe there is no ground
 /// @param effort     how much work an end is worth
-/// @throws Error     InvalidArgument: options, or ground that is not flat
+/// @throws Error     InvalidArgument: options, or a footprint beyond the end of the ground
 SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
                        SheetEffort effort = SheetEffort::Full);
+
+/// Fills several footprints at one pressure, as one reservoir, whatever the fill's sharing.
+/// @param footprints  at least one
+/// @return            the sheet holds all of them; separate() gives each its own
+SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options,
+                       SheetEffort effort = SheetEffort::Full);
+
+/// Sheets of the single footprints of one that holds several, in their order.
+std::vector<ParametricSheet> separate(const ParametricSheet& sheet);
 
 /// Fills or drains a sheet on the same triangles. They can follow only so far: beyond, the end is SheetEnd::Unstable.
 /// @param sheet    result of solveSheet

@@ -45,10 +45,10 @@ struct LoftOptions {
 ///                 anything is dry and there are gains
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
-/// Closes a sheet that hangs over its rim with a flat base. Normals on the rim come from the contact angle; texture
+/// Closes a sheet that hangs over its rim with a base on the ground. Normals on the rim come from the contact angle; texture
 /// coordinates are those of the place above or below in the picture.
 /// @param sheet    with its footprint
-/// @param options  open or closed, extent of the image, a base if known; the ground is flat; no refill
+/// @param options  open or closed, extent of the image, the ground, a base if it is flat and known; no refill
 /// @return         surface without a mean height
 /// @throws Error   InvalidArgument: options, or the rims differ
 Surface loft(const ParametricSheet& sheet, const LoftOptions& options);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape/sheet_base.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "droplet/error.h"
+
+namespace droplet {
+
+GroundPoint SheetBase::under(Vec3 place) const
+{
+    try {
+        return ground.at({place.x, place.y});
+    } catch (const Error&) {
+        return {-std::numeric_limits<double>::infinity(), {}};
+    }
+}
+
+void SheetBase::lift(std::vector<Vec3>& places, std::size_t first) const
+{
+    for (std::size_t v = first; v < places.size(); ++v) {
+        places[v].z = std::max(places[v].z, under(places[v]).height);
+    }
+}
+
+Vec3 normalOf(const GroundPoint& ground)
+{
+    const Vec3 up{-ground.gradient.x, -ground.gradient.y, 1.0};
+    return (1.0 / length(up)) * up;
+}
+
+std::vector<double> heightsUnder(const PlanarMesh& footprint, const BaseSurface& ground)
+{
+    std::vector<double> heights;
+    heights.reserve(footprint.vertices.size());
+    for (const Vec2 p : footprint.vertices) {
+        heights.push_back(ground.at(p).height);
+    }
+    return heights;
+}
+
+SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground)
+{
+    SheetMesh sheet{{}, footprint.triangles, footprint.rimVertexCount()};
+    const std::vector<double> heights = heightsUnder(footprint, ground);
+    sheet.places.reserve(heights.size());
+    for (std::size_t v = 0; v < heights.size(); ++v) {
+        sheet.places.push_back({footprint.vertices[v].x, footprint.vertices[v].y, heights[v]});
+    }
+    return sheet;
+}
+
+SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 weight)
+{
+    return {ground, ground.flat() ? SheetIntegrals{} : integrate(drySheet(footprint, ground), weight)};
+}
+
+}  // namespace droplet

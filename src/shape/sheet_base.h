@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/base_surface.h"
+#include "shape/sheet_energy.h"
+
+namespace droplet {
+
+/// What a sheet lies on: ground that no part of it may sink below, and the part of it that is the liquid's base.
+struct SheetBase {
+    BaseSurface ground = {};
+    SheetIntegrals integrals = {};  ///< of the base, to be subtracted from those of the sheet; 0 on flat ground
+
+    /// Ground below a place. Beyond the end of a ball or a pipe it is infinitely deep.
+    [[nodiscard]] GroundPoint under(Vec3 place) const;
+    /// Height of a place above the ground [m].
+    [[nodiscard]] double clearance(Vec3 place) const { return place.z - under(place).height; }
+    /// Lifts places that are below the ground onto it.
+    /// @param first  index of the first place that may be moved
+    void lift(std::vector<Vec3>& places, std::size_t first) const;
+};
+
+/// Upward unit normal of the ground.
+Vec3 normalOf(const GroundPoint& ground);
+
+/// Height of the ground at every vertex of a footprint [m].
+std::vector<double> heightsUnder(const PlanarMesh& footprint, const BaseSurface& ground);
+
+/// Ground under a footprint, as a sheet without liquid.
+SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground);
+
+/// Base with the footprint's triangles.
+/// @param weight  as in integrate()
+SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 weight);
+
+}  // namespace droplet

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sheets on balls, in bowls and gutters, where caps are exact.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "droplet/mesh/triangulate.h"
+#include "droplet/shape/base_surface.h"
+#include "droplet/shape/figures.h"
+#include "droplet/shape/sheet.h"
+#include "droplet/shape/solve.h"
+#include "droplet/units.h"
+#include "support/domains.h"
+#include "support/equilibrium.h"
+#include "support/young_laplace.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Volume of a cap on the circle of radius 1, whose sphere meets the circle's plane at an angle; < 0 below the plane.
+double capVolume(double angle)
+{
+    const double radius = 1.0 / std::sin(angle);
+    const double rise = radius * (1.0 - std::cos(angle));
+    return kPi / 3.0 * rise * rise * (3.0 * radius - rise);
+}
+
+/// Relative errors of a bead on a ball, or in a bowl, and the largest error of an angle at a rim vertex [rad].
+struct BeadErrors {
+    double area = 0.0;
+    double pressure = 0.0;
+    double height = 0.0;
+    double mean_angle = 0.0;
+    double angle = 0.0;
+};
+
+/// @param radius  of the ball; negative: a bowl
+/// @param angle   of the liquid to the ground
+BeadErrors beadErrors(double radius, double angle, double edge)
+{
+    const double slope = std::asin(1.0 / radius);  // by which the ground falls at the rim
+    const double cap = angle + slope;              // to the plane
+    SolveOptions options = testing::unitOptions(Model::Exact, 0.0, capVolume(cap) - capVolume(slope));
+    options.ground = BaseSurface::sphere(radius);
+    const SheetResult result = solveSheet(testing::discMeshes(edge).front(), options);
+    EXPECT_EQ(result.end, SheetEnd::Reached);
+    const ShapeFigures figures = measure(result.sheet, options);
+    EXPECT_NEAR(figures.volume, options.fill.amount, 1e-9 * options.fill.amount);
+    EXPECT_LT(figures.depth_max, 1e-12);
+    const double rise = std::tan(0.5 * cap) - std::tan(0.5 * slope);
+    const double sphere = 1.0 / std::sin(cap);
+    BeadErrors errors{std::abs(figures.liquid_area / (2.0 * kPi * sphere * sphere * (1.0 - std::cos(cap))) - 1.0),
+                      std::abs(result.sheet.pressure * sphere / 2.0 - 1.0), std::abs(figures.height_max / rise - 1.0),
+                      std::abs(figures.contact_angle.mean - angle), 0.0};
+    for (const double own : result.sheet.contact_angle) {
+        errors.angle = std::max(errors.angle, std::abs(own - angle));
+    }
+    return errors;
+}
+
+TEST(SheetGround, BeadsOnBallsAndInBowlsConvergeAtSecondOrder)
+{
+    struct Bead {
+        double radius;
+        double degrees;
+    };
+    for (const Bead& bead : {Bead{3.0, 110.0}, Bead{1.5, 70.0}, Bead{-2.5, 120.0}}) {
+        SCOPED_TRACE(std::to_string(bead.radius) + " " + std::to_string(bead.degrees));
+        const BeadErrors coarse = beadErrors(bead.radius, bead.degrees * kDegree, 0.12);
+        const BeadErrors fine = beadErrors(bead.radius, bead.degrees * kDegree, 0.06);
+        EXPECT_GT(coarse.area / fine.area, 3.0);
+        EXPECT_GT(coarse.pressure / fine.pressure, 3.0);
+        EXPECT_LT(fine.area, 1e-3);
+        EXPECT_LT(fine.pressure, 1.5e-3);
+        EXPECT_LT(fine.height, 2e-3);
+        EXPECT_LT(fine.mean_angle, 0.1 * kDegree);
+        EXPECT_LT(fine.angle, 0.7 * coarse.angle);
+    }
+}
+
+/// In a gutter, gravity and ground act together: a steep height field and the sheet are the same droplet.
+TEST(SheetGround, IsTheExactHeightFieldWhereThatExists)
+{
+    const std::vector<PlanarMesh> meshes = testing::discMeshes(0.06);
+    SolveOptions options = testing::unitOptions(Model::Exact, 2.0, 0.9);
+    options.ground = BaseSurface::cylinder(-2.0, 0.4);
+    options.tilt = 20.0 * kDegree;
+    const Solution solution = solve(meshes, options);
+    ASSERT_TRUE(solution.report.usable());
+    const ShapeFigures field = measure(meshes.front(), solution.droplets.front(), options);
+    const SheetResult result = solveSheet(meshes.front(), options);
+    ASSERT_EQ(result.end, SheetEnd::Reached);
+    const ShapeFigures sheet = measure(result.sheet, options);
+    EXPECT_NEAR(sheet.volume, field.volume, 1e-9);
+    EXPECT_NEAR(sheet.surface_energy, field.surface_energy, 2e-3 * field.surface_energy);
+    EXPECT_NEAR(sheet.gravity_energy, field.gravity_energy, 2e-3 * std::abs(field.gravity_energy) + 1e-4);
+    EXPECT_NEAR(result.sheet.pressure, solution.droplets.front().pressure, 1e-2 * result.sheet.pressure);
+    EXPECT_NEAR(sheet.contact_angle.mean, field.contact_angle.mean, 0.5 * kDegree);
+    EXPECT_NEAR(sheet.contact_angle.max, field.contact_angle.max, 1.5 * kDegree);
+}
+
+/// Little liquid leaves the top of a ball dry: the sheet lies on it.
+TEST(SheetGround, LiesOnTheTopOfABall)
+{
+    const double slope = std::asin(1.0 / 1.5);
+    SolveOptions options = testing::unitOptions(Model::Exact, 4.0, 0.05 * capVolume(slope));
+    options.ground = BaseSurface::sphere(1.5);
+    const SheetResult result = solveSheet(testing::discMeshes(0.08).front(), options);
+    ASSERT_EQ(result.end, SheetEnd::Reached);
+    const ShapeFigures figures = measure(result.sheet, options);
+    EXPECT_NEAR(figures.volume, options.fill.amount, 1e-9 * options.fill.amount);
+    EXPECT_EQ(figures.depth_max, 0.0);
+    EXPECT_GE(figures.contact_angle.min, 0.0);
+}
+
+/// Two discs at one pressure: caps of one sphere. The larger one is beyond a hemisphere, where more liquid lowers its
+/// pressure, so that the smaller one drains into it.
+TEST(SharedSheet, DiscsAtOnePressureAreCapsOfOneSphere)
+{
+    constexpr double kSmall = 0.7;
+    const double large_angle = 125.0 * kDegree;
+    const double radius = 1.0 / std::sin(large_angle);
+    const double small_angle = std::asin(kSmall / radius);
+    const double large_volume = capVolume(large_angle);
+    const double small_volume = std::pow(kSmall, 3) * capVolume(small_angle);
+    std::vector<PlanarMesh> discs = testing::discMeshes(0.07);
+    Loop loop = testing::ellipseLoop(kSmall, kSmall);
+    for (Vec2& p : loop.points) {
+        p.x += 5.0;
+    }
+    discs.push_back(triangulate(testing::domainOf(loop), {.edge = 0.07}).front());
+    SolveOptions options = testing::unitOptions(Model::Exact, 0.0, large_volume + small_volume);
+    options.fill.sharing = FillSharing::Total;
+    const SheetResult result = solveSheet(discs, options);
+    ASSERT_EQ(result.end, SheetEnd::Reached);
+    const std::vector<ParametricSheet> sheets = separate(result.sheet);
+    ASSERT_EQ(sheets.size(), 2U);
+    const ShapeFigures large = measure(sheets[0], options);
+    const ShapeFigures small = measure(sheets[1], options);
+    EXPECT_NEAR(large.volume + small.volume, options.fill.amount, 1e-9 * options.fill.amount);
+    EXPECT_EQ(sheets[0].pressure, sheets[1].pressure);
+    EXPECT_NEAR(sheets[0].pressure, 2.0 / radius, 2e-3 * 2.0 / radius);
+    EXPECT_NEAR(large.volume, large_volume, 5e-3 * large_volume);
+    EXPECT_NEAR(small.volume, small_volume, 5e-3 * small_volume);
+    EXPECT_NEAR(large.contact_angle.mean, large_angle, 0.2 * kDegree);
+    EXPECT_NEAR(small.contact_angle.mean, small_angle, 0.2 * kDegree);
+    for (const ParametricSheet& sheet : sheets) {
+        EXPECT_EQ(sheet.rim, sheet.footprint.rimVertexCount());
+        EXPECT_EQ(sheet.contact_angle.size(), sheet.rim);
+        sheet.footprint.validate();
+    }
+}
+
+}  // namespace
+}  // namespace droplet
