@@ -437,15 +437,8 @@ SolveOptions scaled(const SolveOptions& options, double share)
 /// Whether droplets with a share of their amount exist, and do not touch.
 bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, double share)
 {
-    try {
-        const LiquidShapes shapes = solveAll(meshes, scaled(options, share), false, {});
-        return shapes.sheets.empty() || !neighbourContact(meshes, shapes);
-    } catch (const Error& error) {
-        if (error.code() != ErrorCode::NoSuchDroplet) {
-            throw;
-        }
-        return false;
-    }
+    const LiquidShapes shapes = solveAll(meshes, scaled(options, share), true, {});
+    return shapes.with_less == 0 && (shapes.sheets.empty() || !neighbourContact(meshes, shapes));
 }
 
 /// Why neighbours are refused, with the largest amount at which no droplets touch.

@@ -563,8 +563,9 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const 
                 const Vec3 side = sheet.places[j] - sheet.places[i];
                 outward[i] = outward[i] + 0.5 * cross(side, up[i]);
                 outward[j] = outward[j] + 0.5 * cross(side, up[j]);
-                rim.weight[i] += 0.5 * length(side);
-                rim.weight[j] += 0.5 * length(side);
+                const double seen_from_above = length(Vec2{side.x, side.y});  // as of height fields
+                rim.weight[i] += 0.5 * seen_from_above;
+                rim.weight[j] += 0.5 * seen_from_above;
             }
         }
     }
