@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <cstdint>
 #include <vector>
 
 #include "shape/sheet_energy.h"
+#include "shape/sheet_factor.h"
 
 namespace droplet {
 
@@ -68,13 +69,14 @@ private:
     [[nodiscard]] double residual(double pressure) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
-    bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
+    /// @param sums  integrals over the sheet, before and after
+    bool moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums);
     void describe(NewtonResult& result) const;
 
     std::uint32_t rim_;
     Vec3 weight_;
     SheetPattern pattern_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+    SheetFactor factor_;
     Linear linear_;
     Eigen::VectorXd response_;         ///< w = L⁻¹b
     std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
