@@ -11,6 +11,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "blocks.h"
+
 namespace droplet {
 namespace {
 
@@ -20,6 +22,8 @@ constexpr std::int32_t kLeaf = 12;
 constexpr std::size_t kColumns = 32;
 /// Unknowns from which on the parts of a front are worth a thread.
 constexpr std::size_t kParallel = 1000;
+/// Fronts of a block: some 0.1 ms of work.
+constexpr std::size_t kFronts = 256;
 
 using Matrix = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
@@ -35,24 +39,23 @@ Eigen::Index index(std::size_t i)
     return static_cast<Eigen::Index>(i);
 }
 
-double along(const Vec3& p, int axis)
-{
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 }  // namespace
 
 SheetFactor::SheetFactor(const Eigen::SparseMatrix<double>& lower, const std::vector<Vec3>& places)
 {
     const auto size = static_cast<std::int32_t>(lower.cols());
     const Neighbours near = neighboursOf(lower);
-    order_.resize(static_cast<std::size_t>(size));
-    position_.resize(order_.size());
+    std::vector<Node> nodes;
+    nodes.reserve(places.size());
     for (std::int32_t i = 0; i < size; ++i) {
-        order_[static_cast<std::size_t>(i)] = i;
-        position_[static_cast<std::size_t>(i)] = i;
+        nodes.push_back({places[static_cast<std::size_t>(i)], i});
     }
-    dissect(0, size, near, places);
+    position_.resize(nodes.size());
+    dissect(0, size, near, nodes, fronts_);
+    order_.reserve(nodes.size());
+    for (const Node& node : nodes) {
+        order_.push_back(node.unknown);
+    }
     findRows(near);
     findEntries(near);
 }
@@ -89,72 +92,83 @@ SheetFactor::Neighbours SheetFactor::neighboursOf(const Eigen::SparseMatrix<doub
 }
 
 std::int32_t SheetFactor::dissect(std::int32_t begin, std::int32_t end, const Neighbours& near,
-                                  const std::vector<Vec3>& places)
+                                  std::vector<Node>& nodes, std::vector<Front>& fronts)
 {
     if (begin == end) {
         return -1;
     }
     Front front{begin, end};
     front.size = static_cast<std::size_t>(end - begin);
+    const auto first = nodes.begin() + begin;
+    const auto last = nodes.begin() + end;
+    const auto renumber = [&] {
+        for (auto node = first; node != last; ++node) {
+            position_[static_cast<std::size_t>(node->unknown)] = static_cast<std::int32_t>(node - nodes.begin());
+        }
+    };
     if (end - begin > kLeaf) {
-        const auto first = order_.begin() + begin;
-        const auto last = order_.begin() + end;
-        const auto place = [&](std::int32_t i) -> const Vec3& { return places[static_cast<std::size_t>(i)]; };
-        Vec3 least = place(*first);
+        Vec3 least = first->place;
         Vec3 most = least;
-        for (auto i = first; i != last; ++i) {
-            const Vec3& p = place(*i);
+        for (auto node = first; node != last; ++node) {
+            const Vec3& p = node->place;
             least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
             most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
         }
         const Vec3 size = most - least;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto middle = first + (end - begin) / 2;
-        std::nth_element(first, middle, last, [&](std::int32_t i, std::int32_t j) {
-            const double a = along(place(i), axis);
-            const double b = along(place(j), axis);
-            return a != b ? a < b : i < j;
-        });
-        const auto renumber = [&] {
-            for (std::int32_t k = begin; k < end; ++k) {
-                position_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = k;
-            }
-        };
-        renumber();
         const std::int32_t half = begin + (end - begin) / 2;
-        const auto touches = [&](std::int32_t i, std::int32_t from, std::int32_t to) {
-            const auto begin_at = static_cast<std::size_t>(near.starts[static_cast<std::size_t>(i)]);
-            const auto end_at = static_cast<std::size_t>(near.starts[static_cast<std::size_t>(i) + 1]);
-            for (std::size_t k = begin_at; k < end_at; ++k) {
-                const std::int32_t there = position_[static_cast<std::size_t>(near.entries[k].to)];
-                if (there >= from && there < to) {
-                    return true;
-                }
-            }
-            return false;
+        const auto middle = nodes.begin() + half;
+        const auto halve = [&](double Vec3::*axis) {
+            std::nth_element(first, middle, last, [&](const Node& one, const Node& other) {
+                const double a = one.place.*axis;
+                const double b = other.place.*axis;
+                return a != b ? a < b : one.unknown < other.unknown;
+            });
+        };
+        halve(size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z);
+        renumber();
+        // Neighbours of a node are in the range, or are eliminated after it, and do not move any more.
+        const auto touches = [&](const Node& node, std::int32_t from, std::int32_t to) {
+            const auto i = static_cast<std::size_t>(node.unknown);
+            const auto here = near.entries.begin();
+            return std::any_of(here + near.starts[i], here + near.starts[i + 1], [&](const Entry& entry) {
+                const std::int32_t there = position_[static_cast<std::size_t>(entry.to)];
+                return there >= from && there < to;
+            });
         };
         // What separates the halves is the edge of one of them, the shorter one.
-        const auto left_edge = std::stable_partition(first, middle, [&](auto i) { return !touches(i, half, end); });
-        const auto right_edge = std::stable_partition(middle, last, [&](auto i) { return !touches(i, begin, half); });
+        const auto left_edge =
+            std::partition(first, middle, [&](const Node& node) { return !touches(node, half, end); });
+        const auto right_edge =
+            std::partition(middle, last, [&](const Node& node) { return !touches(node, begin, half); });
+        std::int32_t split = half;
         if (middle - left_edge <= last - right_edge) {
+            split = static_cast<std::int32_t>(left_edge - nodes.begin());
             front.begin = end - static_cast<std::int32_t>(middle - left_edge);
             std::rotate(left_edge, middle, last);
-            renumber();
-            const auto split = static_cast<std::int32_t>(left_edge - order_.begin());
-            front.left = dissect(begin, split, near, places);
-            front.right = dissect(split, front.begin, near, places);
         } else {
-            front.begin = end - static_cast<std::int32_t>(last - right_edge);
-            renumber();
-            front.left = dissect(begin, half, near, places);
-            front.right = dissect(half, front.begin, near, places);
+            front.begin = static_cast<std::int32_t>(right_edge - nodes.begin());
         }
+        renumber();
+        if (front.size >= kParallel) {
+            std::vector<Front> others;
+            tbb::parallel_invoke([&] { front.left = dissect(begin, split, near, nodes, fronts); },
+                                 [&] { front.right = dissect(split, front.begin, near, nodes, others); });
+            const auto before = static_cast<std::int32_t>(fronts.size());
+            for (Front& other : others) {
+                other.left += other.left >= 0 ? before : 0;
+                other.right += other.right >= 0 ? before : 0;
+                fronts.push_back(other);
+            }
+            front.right += front.right >= 0 ? before : 0;
+        } else {
+            front.left = dissect(begin, split, near, nodes, fronts);
+            front.right = dissect(split, front.begin, near, nodes, fronts);
+        }
+    } else {
+        renumber();
     }
-    for (std::int32_t k = front.begin; k < end; ++k) {
-        position_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = k;
-    }
-    fronts_.push_back(front);
-    return static_cast<std::int32_t>(fronts_.size()) - 1;
+    fronts.push_back(front);
+    return static_cast<std::int32_t>(fronts.size()) - 1;
 }
 
 void SheetFactor::findRows(const Neighbours& near)
@@ -190,7 +204,8 @@ void SheetFactor::findRows(const Neighbours& near)
         front.first_panel = panel;
         panel += front.columns() * front.height();
     }
-    panels_.resize(panel);
+    panel_size_ = panel;
+    panels_ = std::make_unique_for_overwrite<double[]>(panel);
     above_.resize(rows_.size());
     for (const Front& front : fronts_) {
         for (const std::int32_t c : {front.left, front.right}) {
@@ -215,28 +230,54 @@ void SheetFactor::findRows(const Neighbours& near)
 
 void SheetFactor::findEntries(const Neighbours& near)
 {
-    entries_.reserve(near.entries.size() / 2 + order_.size());
-    std::vector<std::int32_t> local(order_.size());
-    for (Front& front : fronts_) {
-        front.first_entry = entries_.size();
-        for (std::size_t k = 0; k < front.row_count; ++k) {
-            local[static_cast<std::size_t>(rows_[front.first_row + k])] =
-                static_cast<std::int32_t>(front.columns() + k);
-        }
+    // Of every column, the entries on the diagonal and below.
+    const auto forEntries = [&](const Front& front, const auto& use) {
         for (std::int32_t column = front.begin; column < front.end; ++column) {
             const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(column)]);
             for (auto k = static_cast<std::size_t>(near.starts[i]); k < static_cast<std::size_t>(near.starts[i + 1]);
                  ++k) {
                 const std::int32_t row = position_[static_cast<std::size_t>(near.entries[k].to)];
                 if (row >= column) {
-                    const std::int32_t at = row < front.end ? row - front.begin : local[static_cast<std::size_t>(row)];
-                    const std::int32_t height = static_cast<std::int32_t>(front.height());
-                    entries_.push_back({near.entries[k].from, at + (column - front.begin) * height});
+                    use(near.entries[k].from, row, column - front.begin);
                 }
             }
         }
-        front.last_entry = entries_.size();
+    };
+    forBlocks(
+        fronts_.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f) {
+                fronts_[f].last_entry = 0;
+                forEntries(fronts_[f], [&](auto, auto, auto) { ++fronts_[f].last_entry; });
+            }
+        },
+        kFronts);
+    std::size_t count = 0;
+    for (Front& front : fronts_) {
+        front.first_entry = count;
+        count += front.last_entry;
+        front.last_entry = count;
     }
+    entries_.resize(count);
+    forBlocks(
+        fronts_.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f) {
+                const Front& front = fronts_[f];
+                const auto own = static_cast<std::int32_t>(front.columns());
+                const auto height = static_cast<std::int32_t>(front.height());
+                const auto first = rows_.begin() + index(front.first_row);
+                const auto last = first + index(front.row_count);
+                std::size_t next = front.first_entry;
+                forEntries(front, [&](std::int32_t from, std::int32_t row, std::int32_t column) {
+                    const std::int32_t at =
+                        row < front.end ? row - front.begin
+                                        : own + static_cast<std::int32_t>(std::lower_bound(first, last, row) - first);
+                    entries_[next++] = {from, at + column * height};
+                });
+            }
+        },
+        kFronts);
 }
 
 template <typename Work>
@@ -250,7 +291,6 @@ void SheetFactor::climb(std::int32_t at, const Work& work) const
         tbb::parallel_invoke([&] { climb(front.left, work); }, [&] { climb(front.right, work); });
         work(at);
     } else {
-        // The unknowns of a front and of its parts are neighbours in the order, and so are the fronts.
         climb(front.left, work);
         climb(front.right, work);
         work(at);
@@ -301,7 +341,7 @@ bool SheetFactor::eliminate(const Front& front, const double* values, std::vecto
     const std::size_t own = front.columns();
     const std::size_t height = front.height();
     const std::size_t below = front.row_count;
-    double* panel = panels_.data() + front.first_panel;
+    double* panel = panels_.get() + front.first_panel;
     std::fill(panel, panel + own * height, 0.0);
     for (std::size_t k = front.first_entry; k < front.last_entry; ++k) {
         panel[entries_[k].to] = values[entries_[k].from];
@@ -397,7 +437,7 @@ Eigen::VectorXd SheetFactor::solve(const Eigen::VectorXd& right) const
                 }
             }
         }
-        const double* panel = panels_.data() + front.first_panel;
+        const double* panel = panels_.get() + front.first_panel;
         for (std::size_t j = 0; j < own; ++j) {
             const double value = here[j];
             const double* l = panel + j * height;
@@ -418,7 +458,7 @@ Eigen::VectorXd SheetFactor::solve(const Eigen::VectorXd& right) const
             below[k] = x[rows_[front.first_row + k]];
         }
         double* here = x.data() + front.begin;
-        const double* panel = panels_.data() + front.first_panel;
+        const double* panel = panels_.get() + front.first_panel;
         for (std::size_t j = own; j-- > 0;) {
             const double* l = panel + j * height;
             double value = here[j] / l[j];

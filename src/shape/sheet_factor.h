@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "droplet/vector.h"
@@ -35,7 +36,7 @@ public:
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
     /// Number of entries of L.
-    [[nodiscard]] std::size_t entryCount() const { return panels_.size(); }
+    [[nodiscard]] std::size_t entryCount() const { return panel_size_; }
 
 private:
     /// Dense part: columns that are eliminated together, and the rows below that they touch.
@@ -65,7 +66,15 @@ private:
     };
 
     static Neighbours neighboursOf(const Eigen::SparseMatrix<double>& lower);
-    std::int32_t dissect(std::int32_t begin, std::int32_t end, const Neighbours& near, const std::vector<Vec3>& places);
+    /// Unknown and its place.
+    struct Node {
+        Vec3 place;
+        std::int32_t unknown = 0;
+    };
+    /// Orders the nodes of a range, and adds the fronts of its parts.
+    /// @return  that of the last one, −1 without nodes
+    std::int32_t dissect(std::int32_t begin, std::int32_t end, const Neighbours& near, std::vector<Node>& nodes,
+                         std::vector<Front>& fronts);
     void findRows(const Neighbours& near);
     void findEntries(const Neighbours& near);
     /// Calls work(front) for a front and all before it, those before first, in parallel where it pays.
@@ -83,7 +92,8 @@ private:
     std::vector<std::int32_t> rows_;
     std::vector<std::int32_t> above_;  ///< of every row in rows_: its row in the front that this one is a part of
     std::vector<Entry> entries_;
-    std::vector<double> panels_;  ///< columns of L, with D on its diagonal
+    std::unique_ptr<double[]> panels_;  ///< columns of L, with D on its diagonal
+    std::size_t panel_size_ = 0;
 };
 
 }  // namespace droplet
