@@ -250,6 +250,8 @@ def run(root, build, native, quick):
     results["view"] = tables(build / "bench" / "bench_view")
     log("droplets on meshes")
     results["flow"] = tables(build / "bench" / "bench_flow", *(["--quick"] if quick else []))
+    log("sheets")
+    results["sheet"] = tables(build / "bench" / "bench_sheet", *(["--quick"] if quick else []))
     log("liquids in the plane")
     results["liquid2d"] = tables(build / "bench" / "bench_liquid2d", *(["--quick"] if quick else []))
     return results

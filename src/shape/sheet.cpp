@@ -54,22 +54,35 @@ Vec3 weightOf(const SolveOptions& options)
 /// Distance of a place to the footprint, 0 inside [m].
 double distanceTo(const PlanarMesh& footprint, Vec2 place)
 {
-    bool is_inside = false;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
-        for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
-            const Vec2 a = footprint.vertices[v];
-            const Vec2 b = footprint.vertices[nextOnRim(footprint, loop, v)];
-            const Vec2 side = b - a;
-            if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / side.y * side.x) {
-                is_inside = !is_inside;
+    const auto forSides = [&](const auto& use) {
+        for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
+            Vec2 a = footprint.vertices[footprint.loop_starts[loop + 1] - 1];
+            for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
+                const Vec2 b = footprint.vertices[v];
+                use(a, b);
+                a = b;
             }
-            const double along = std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0);
-            const Vec2 arm = place - a - along * side;
-            nearest = std::min(nearest, dot(arm, arm));
         }
+    };
+    // Most places are inside: these need no distance.
+    bool is_inside = false;
+    forSides([&](Vec2 a, Vec2 b) {
+        const Vec2 side = b - a;
+        if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / side.y * side.x) {
+            is_inside = !is_inside;
+        }
+    });
+    if (is_inside) {
+        return 0.0;
     }
-    return is_inside ? 0.0 : std::sqrt(nearest);
+    double nearest = std::numeric_limits<double>::infinity();
+    forSides([&](Vec2 a, Vec2 b) {
+        const Vec2 side = b - a;
+        const double along = std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0);
+        const Vec2 arm = place - a - along * side;
+        nearest = std::min(nearest, dot(arm, arm));
+    });
+    return std::sqrt(nearest);
 }
 
 /// How far a sheet leans out over its rim [m].

@@ -16,10 +16,26 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Face = Mesh::Face_index;
 
+/// Least upward part of a normal that no rounding makes.
+constexpr double kUpward = 1e-6;
+
+/// Whether a sheet is a graph over the plane: nowhere is it upright or upside down, and its rim does not cross itself,
+/// so that its projection covers every place once.
+bool isGraph(const SheetMesh& sheet)
+{
+    return std::all_of(sheet.triangles.begin(), sheet.triangles.end(), [&](const Triangle& t) {
+        const Vec3 normal = areaVector(sheet.places, t);
+        return normal.z > kUpward * length(normal);
+    });
+}
+
 }  // namespace
 
 std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets)
 {
+    if (sheets.size() == 1 && isGraph(*sheets.front())) {
+        return std::nullopt;
+    }
     Mesh mesh;
     std::vector<std::size_t> first_face;  // of every sheet
     for (const SheetMesh* sheet : sheets) {

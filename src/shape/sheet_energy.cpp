@@ -7,12 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "blocks.h"
 
 namespace droplet {
 namespace {
 
 /// Pairs of corners: each with itself, then each with the next one.
 constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+/// Triangles of a block: some 0.1 ms of work.
+constexpr std::size_t kFacets = 2048;
 
 /// A triangle and its area vector N.
 struct Facet {
@@ -25,44 +32,128 @@ struct Facet {
     }
 };
 
+void add(const Facet& f, Vec3 weight, SheetIntegrals& sum)
+{
+    const Vec3 s = f.x[0] + f.x[1] + f.x[2];
+    // Means over a triangle: of x z, (Σx Σz + Σ x z) / 12.
+    double xz = s.x * s.z;
+    double yz = s.y * s.z;
+    double zz = s.z * s.z;
+    for (const Vec3& p : f.x) {
+        xz += p.x * p.z;
+        yz += p.y * p.z;
+        zz += p.z * p.z;
+    }
+    sum.area += length(f.normal);
+    sum.volume += f.normal.z * s.z / 3.0;
+    sum.gravity += f.normal.z * (0.5 * weight.z * zz + weight.x * xz + weight.y * yz) / 12.0;
+}
+
+/// Derivatives of a triangle's integrals by the places of its corners.
+struct Forces {
+    std::array<Vec3, 3> energy;
+    Vec3 volume;        ///< the same at every corner
+    double area = 0.0;  ///< a third of the triangle
+};
+
+Forces forcesOn(const Facet& f, Vec3 weight)
+{
+    const double area = length(f.normal);
+    const Vec3 n = area > 0.0 ? (1.0 / area) * f.normal : Vec3{};
+    const std::array<double, 3> phi{dot(weight, f.x[0]), dot(weight, f.x[1]), dot(weight, f.x[2])};
+    const double sum = phi[0] + phi[1] + phi[2];
+    Forces forces{{}, (1.0 / 3.0) * f.normal, area / 3.0};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Vec3 side = f.x[(a + 1) % 3] - f.x[(a + 2) % 3];
+        forces.energy[a] = 0.5 * cross(side, n) + ((phi[a] + sum) / 12.0) * f.normal;
+    }
+    return forces;
+}
+
+/// Second derivatives for kPairs, along directions d.
+std::array<double, 6> hessianOf(const Facet& f, const std::array<Vec3, 3>& d, Vec3 weight, double pressure)
+{
+    const double area = length(f.normal);
+    const Vec3 n = (1.0 / area) * f.normal;
+    const std::array<double, 3> phi{dot(weight, f.x[0]), dot(weight, f.x[1]), dot(weight, f.x[2])};
+    const double sum = phi[0] + phi[1] + phi[2];
+    std::array<Vec3, 3> g;  // ∂N along the directions
+    std::array<double, 3> ng{};
+    std::array<double, 3> lift{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        g[a] = 0.5 * cross(d[a], f.x[(a + 1) % 3] - f.x[(a + 2) % 3]);
+        ng[a] = dot(n, g[a]);
+        lift[a] = dot(d[a], f.normal);
+    }
+    std::array<double, 6> result{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        const std::size_t c = (a + 2) % 3;
+        result[a] = (dot(g[a], g[a]) - ng[a] * ng[a]) / area + lift[a] * dot(weight, d[a]) / 6.0;
+        const double bent = (dot(g[a], g[b]) - ng[a] * ng[b]) / area + 0.5 * dot(n, cross(d[a], d[b]));
+        const double heavy = 0.5 *
+                             (dot(d[a], g[b]) * (phi[a] + sum) + lift[a] * dot(weight, d[b]) +
+                              dot(d[b], g[a]) * (phi[b] + sum) + lift[b] * dot(weight, d[a])) /
+                             12.0;
+        const double full = dot(d[a], cross(d[b], 2.0 * f.x[c] - f.x[a] - f.x[b])) / 12.0;
+        result[3 + a] = bent + heavy - pressure * full;
+    }
+    return result;
+}
+
 }  // namespace
 
 SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight)
 {
-    SheetIntegrals sum;
-    for (const Triangle& t : sheet.triangles) {
-        const Facet f(sheet, t);
-        const Vec3 s = f.x[0] + f.x[1] + f.x[2];
-        // Means over a triangle: of x z, (Σx Σz + Σ x z) / 12.
-        double xz = s.x * s.z;
-        double yz = s.y * s.z;
-        double zz = s.z * s.z;
-        for (const Vec3& p : f.x) {
-            xz += p.x * p.z;
-            yz += p.y * p.z;
-            zz += p.z * p.z;
-        }
-        sum.area += length(f.normal);
-        sum.volume += f.normal.z * s.z / 3.0;
-        sum.gravity += f.normal.z * (0.5 * weight.z * zz + weight.x * xz + weight.y * yz) / 12.0;
+    SheetIntegrals total;
+    for (const SheetIntegrals& part : mapBlocks<SheetIntegrals>(
+             sheet.triangles.size(),
+             [&](std::size_t begin, std::size_t end) {
+                 SheetIntegrals sum;
+                 for (std::size_t k = begin; k < end; ++k) {
+                     add(Facet(sheet, sheet.triangles[k]), weight, sum);
+                 }
+                 return sum;
+             },
+             kFacets)) {
+        total.area += part.area;
+        total.gravity += part.gravity;
+        total.volume += part.volume;
     }
-    return sum;
+    return total;
 }
 
 SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
 {
-    SheetGradients result{std::vector<Vec3>(sheet.places.size()), std::vector<Vec3>(sheet.places.size())};
+    const std::size_t count = sheet.places.size();
+    SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
     for (const Triangle& t : sheet.triangles) {
-        const Facet f(sheet, t);
-        const double area = length(f.normal);
-        const Vec3 n = area > 0.0 ? (1.0 / area) * f.normal : Vec3{};
-        const std::array<double, 3> phi{dot(weight, f.x[0]), dot(weight, f.x[1]), dot(weight, f.x[2])};
-        const double sum = phi[0] + phi[1] + phi[2];
+        const Forces forces = forcesOn(Facet(sheet, t), weight);
         for (std::size_t a = 0; a < 3; ++a) {
-            const Vec3 side = f.x[(a + 1) % 3] - f.x[(a + 2) % 3];
-            Vec3& energy = result.energy[t[a]];
-            energy = energy + 0.5 * cross(side, n) + ((phi[a] + sum) / 12.0) * f.normal;
-            result.volume[t[a]] = result.volume[t[a]] + (1.0 / 3.0) * f.normal;
+            result.energy[t[a]] = result.energy[t[a]] + forces.energy[a];
+            result.volume[t[a]] = result.volume[t[a]] + forces.volume;
+            result.area[t[a]] += forces.area;
+        }
+    }
+    return result;
+}
+
+SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& sum_of, std::size_t sums)
+{
+    Gathering result;
+    result.starts.assign(sums + 1, 0);
+    for (const std::int32_t sum : sum_of) {
+        if (sum >= 0) {
+            ++result.starts[static_cast<std::size_t>(sum) + 1];
+        }
+    }
+    std::partial_sum(result.starts.begin(), result.starts.end(), result.starts.begin());
+    result.parts.resize(static_cast<std::size_t>(result.starts.back()));
+    std::vector<std::int32_t> next(result.starts.begin(), result.starts.end() - 1);
+    for (std::size_t part = 0; part < sum_of.size(); ++part) {
+        if (sum_of[part] >= 0) {
+            const auto sum = static_cast<std::size_t>(sum_of[part]);
+            result.parts[static_cast<std::size_t>(next[sum]++)] = static_cast<std::int32_t>(part);
         }
     }
     return result;
@@ -70,76 +161,120 @@ SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
 
 SheetPattern::SheetPattern(const SheetMesh& sheet)
 {
-    const auto unknowns = static_cast<Eigen::Index>(sheet.places.size() - sheet.rim);
+    const std::size_t unknowns = sheet.places.size() - sheet.rim;
     const auto row_of = [&](std::uint32_t v) {
         return static_cast<std::int32_t>(v) - static_cast<std::int32_t>(sheet.rim);
     };
-    std::vector<Eigen::Triplet<double>> triplets;
-    triplets.reserve(6 * sheet.triangles.size());
+    std::vector<std::int32_t> corner_of;
+    corner_of.reserve(3 * sheet.triangles.size());
+    for (const Triangle& t : sheet.triangles) {
+        for (const std::uint32_t v : t) {
+            corner_of.push_back(static_cast<std::int32_t>(v));
+        }
+    }
+    corners_ = gather(corner_of, sheet.places.size());
+
+    // Rows of a column: its vertex, and those of its triangles with larger numbers.
+    std::vector<int> outer{0};
+    std::vector<int> inner;
+    inner.reserve(4 * unknowns);
+    outer.reserve(unknowns + 1);
+    for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
+        const auto first = static_cast<std::ptrdiff_t>(inner.size());
+        inner.push_back(row_of(static_cast<std::uint32_t>(v)));
+        for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
+            for (const std::uint32_t w :
+                 sheet.triangles[static_cast<std::size_t>(corners_.parts[static_cast<std::size_t>(k)] / 3)]) {
+                if (w > v) {
+                    inner.push_back(row_of(w));
+                }
+            }
+        }
+        std::sort(inner.begin() + first, inner.end());
+        inner.erase(std::unique(inner.begin() + first, inner.end()), inner.end());
+        outer.push_back(static_cast<int>(inner.size()));
+    }
+    const std::vector<double> values(inner.size(), 0.0);
+    const auto size = static_cast<Eigen::Index>(unknowns);
+    empty_ = Eigen::Map<const Eigen::SparseMatrix<double>>(size, size, static_cast<Eigen::Index>(inner.size()),
+                                                           outer.data(), inner.data(), values.data());
+
+    std::vector<std::int32_t> entry_of;
+    entry_of.reserve(6 * sheet.triangles.size());
     for (const Triangle& t : sheet.triangles) {
         for (const auto& [a, b] : kPairs) {
             const std::int32_t i = row_of(t[a]);
             const std::int32_t j = row_of(t[b]);
+            std::int32_t entry = -1;
             if (i >= 0 && j >= 0) {
-                triplets.emplace_back(std::max(i, j), std::min(i, j), 0.0);
+                const auto column = static_cast<std::size_t>(std::min(i, j));
+                entry = static_cast<std::int32_t>(
+                    std::lower_bound(inner.begin() + outer[column], inner.begin() + outer[column + 1], std::max(i, j)) -
+                    inner.begin());
             }
+            entry_of.push_back(entry);
         }
     }
-    empty_.resize(unknowns, unknowns);
-    empty_.setFromTriplets(triplets.begin(), triplets.end());
-    entries_.reserve(sheet.triangles.size());
-    const int* outer = empty_.outerIndexPtr();
-    const int* inner = empty_.innerIndexPtr();
-    for (const Triangle& t : sheet.triangles) {
-        std::array<std::int32_t, 6>& places = entries_.emplace_back();
-        for (std::size_t k = 0; k < kPairs.size(); ++k) {
-            const std::int32_t i = row_of(t[kPairs[k][0]]);
-            const std::int32_t j = row_of(t[kPairs[k][1]]);
-            places[k] = -1;
-            if (i >= 0 && j >= 0) {
-                const int column = std::min(i, j);
-                places[k] = static_cast<std::int32_t>(
-                    std::lower_bound(inner + outer[column], inner + outer[column + 1], std::max(i, j)) - inner);
+    entries_ = gather(entry_of, inner.size());
+}
+
+SheetGradients SheetPattern::gradients(const SheetMesh& sheet, Vec3 weight) const
+{
+    std::vector<Forces> forces(sheet.triangles.size());
+    forBlocks(
+        forces.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                forces[k] = forcesOn(Facet(sheet, sheet.triangles[k]), weight);
             }
-        }
-    }
+        },
+        kFacets);
+    const std::size_t count = sheet.places.size();
+    SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
+    forBlocks(
+        count,
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
+                    const auto part = static_cast<std::size_t>(corners_.parts[static_cast<std::size_t>(k)]);
+                    const Forces& f = forces[part / 3];
+                    result.energy[v] = result.energy[v] + f.energy[part % 3];
+                    result.volume[v] = result.volume[v] + f.volume;
+                    result.area[v] += f.area;
+                }
+            }
+        },
+        kFacets);
+    return result;
 }
 
 Eigen::SparseMatrix<double> SheetPattern::hessian(const SheetMesh& sheet, const std::vector<Vec3>& directions,
                                                   Vec3 weight, double pressure) const
 {
+    std::vector<std::array<double, 6>> parts(sheet.triangles.size());
+    forBlocks(
+        parts.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                const Triangle& t = sheet.triangles[k];
+                parts[k] = hessianOf(Facet(sheet, t), {directions[t[0]], directions[t[1]], directions[t[2]]}, weight,
+                                     pressure);
+            }
+        },
+        kFacets);
     Eigen::SparseMatrix<double> matrix = empty_;
     double* values = matrix.valuePtr();
-    for (std::size_t k = 0; k < sheet.triangles.size(); ++k) {
-        const Triangle& t = sheet.triangles[k];
-        const Facet f(sheet, t);
-        const double area = length(f.normal);
-        const Vec3 n = (1.0 / area) * f.normal;
-        const std::array<Vec3, 3> d{directions[t[0]], directions[t[1]], directions[t[2]]};
-        const std::array<double, 3> phi{dot(weight, f.x[0]), dot(weight, f.x[1]), dot(weight, f.x[2])};
-        const double sum = phi[0] + phi[1] + phi[2];
-        std::array<Vec3, 3> g;  // ∂N along the directions
-        std::array<double, 3> ng{};
-        for (std::size_t a = 0; a < 3; ++a) {
-            g[a] = 0.5 * cross(d[a], f.x[(a + 1) % 3] - f.x[(a + 2) % 3]);
-            ng[a] = dot(n, g[a]);
-        }
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (const std::int32_t at = entries_[k][a]; at >= 0) {
-                values[at] += (dot(g[a], g[a]) - ng[a] * ng[a]) / area + dot(d[a], f.normal) * dot(weight, d[a]) / 6.0;
+    forBlocks(
+        static_cast<std::size_t>(matrix.nonZeros()),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t entry = begin; entry < end; ++entry) {
+                for (auto k = entries_.starts[entry]; k < entries_.starts[entry + 1]; ++k) {
+                    const auto part = static_cast<std::size_t>(entries_.parts[static_cast<std::size_t>(k)]);
+                    values[entry] += parts[part / 6][part % 6];
+                }
             }
-            const std::size_t b = (a + 1) % 3;
-            const std::size_t c = (a + 2) % 3;
-            if (const std::int32_t at = entries_[k][3 + a]; at >= 0) {
-                const double bent = (dot(g[a], g[b]) - ng[a] * ng[b]) / area + 0.5 * dot(n, cross(d[a], d[b]));
-                const double heavy =
-                    0.5 * (dot(d[a], g[b]) * (phi[a] + sum) / 12.0 + dot(d[a], f.normal) * dot(weight, d[b]) / 12.0 +
-                           dot(d[b], g[a]) * (phi[b] + sum) / 12.0 + dot(d[b], f.normal) * dot(weight, d[a]) / 12.0);
-                const double full = dot(d[a], cross(d[b], 2.0 * f.x[c] - f.x[a] - f.x[b])) / 12.0;
-                values[at] += bent + heavy - pressure * full;
-            }
-        }
-    }
+        },
+        kFacets);
     return matrix;
 }
 

@@ -27,6 +27,7 @@ SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight);
 struct SheetGradients {
     std::vector<Vec3> energy;  ///< of area and gravity [m]
     std::vector<Vec3> volume;  ///< [m²]; twice a third of the area around the vertex, along its normal
+    std::vector<double> area;  ///< a third of the triangles around the vertex [m²]
 };
 
 /// Gradients at all vertices, on the rim too: there they are forces.
@@ -43,9 +44,24 @@ public:
     [[nodiscard]] Eigen::SparseMatrix<double> hessian(const SheetMesh& sheet, const std::vector<Vec3>& directions,
                                                       Vec3 weight, double pressure) const;
 
+    /// Lower triangle with the entries that may differ from 0, all 0.
+    [[nodiscard]] const Eigen::SparseMatrix<double>& empty() const { return empty_; }
+
+    /// The same as gradientsOf(), in parallel.
+    [[nodiscard]] SheetGradients gradients(const SheetMesh& sheet, Vec3 weight) const;
+
 private:
+    /// Lists of what adds up to every one of many sums.
+    struct Gathering {
+        std::vector<std::int32_t> starts;
+        std::vector<std::int32_t> parts;  ///< in ascending order
+    };
+    /// @param sum_of  of every part, −1 for none
+    static Gathering gather(const std::vector<std::int32_t>& sum_of, std::size_t sums);
+
     Eigen::SparseMatrix<double> empty_;
-    std::vector<std::array<std::int32_t, 6>> entries_;  ///< of a triangle's pairs of corners; −1 on the rim
+    Gathering entries_;  ///< for values of the matrix: six times a triangle and a pair of its corners
+    Gathering corners_;  ///< for vertices: three times a triangle and its corner
 };
 
 }  // namespace droplet

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "blocks.h"
 #include "shape/sheet_remesh.h"
 
 namespace droplet {
@@ -30,6 +31,13 @@ constexpr int kDampingRounds = 6;
 constexpr double kDamped = 4.0;
 constexpr double kReleased = 0.2;
 constexpr double kUndamped = 0.05;
+/// Relative residual of a linear system that needs no refinement: that of Newton's next step is larger.
+constexpr double kSolved = 1e-11;
+/// Relative residual of an equilibrium from which on its matrix serves for the next place as well: the places differ by
+/// as much, and Newton's next step ends.
+constexpr double kSamePlace = 1e-5;
+/// Triangles of a block: some 0.05 ms of work.
+constexpr std::size_t kTriangles = 4096;
 
 }  // namespace
 
@@ -43,9 +51,19 @@ bool isGentle(Vec3 area_before, Vec3 area_after, const MotionLimits& limits)
 
 bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits)
 {
-    return std::all_of(before.triangles.begin(), before.triangles.end(), [&](const Triangle& t) {
-        return isGentle(areaVector(before.places, t), areaVector(after.places, t), limits);
-    });
+    const std::vector<std::uint8_t> are_gentle = mapBlocks<std::uint8_t>(
+        before.triangles.size(),
+        [&](std::size_t begin, std::size_t end) {
+            const auto first = before.triangles.begin();
+            return std::all_of(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
+                               [&](const Triangle& t) {
+                                   return isGentle(areaVector(before.places, t), areaVector(after.places, t), limits);
+                               })
+                       ? std::uint8_t{1}
+                       : std::uint8_t{0};
+        },
+        kTriangles);
+    return std::find(are_gentle.begin(), are_gentle.end(), 0) == are_gentle.end();
 }
 
 SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
@@ -57,13 +75,13 @@ SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
       held_motion_(sheet.places.size() - sheet.rim, 0.0),
       damping_(sheet.places.size() - sheet.rim, 0.0)
 {
-    factor_.analyzePattern(
-        pattern_.hessian(sheet, std::vector<Vec3>(sheet.places.size(), {0.0, 0.0, 1.0}), weight, 0.0));
+    linear_.matrix = pattern_.empty();
+    factor_ = SheetFactor(linear_.matrix, {sheet.places.begin() + rim_, sheet.places.end()});
 }
 
 void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
 {
-    const SheetGradients gradients = gradientsOf(sheet, weight_);
+    const SheetGradients gradients = pattern_.gradients(sheet, weight_);
     const std::size_t count = sheet.places.size() - rim_;
     const auto size = static_cast<Eigen::Index>(count);
     linear_.gradient.resize(size);
@@ -72,13 +90,6 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
     linear_.directions.assign(sheet.places.size(), {});
     linear_.clearance.resize(count);
     linear_.rise.resize(count);
-    std::vector<double> area(sheet.places.size(), 0.0);
-    for (const Triangle& t : sheet.triangles) {
-        const double third = length(areaVector(sheet.places, t)) / 3.0;
-        for (const std::uint32_t v : t) {
-            area[v] += third;
-        }
-    }
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t v = rim_ + i;
         const auto k = static_cast<Eigen::Index>(i);
@@ -96,29 +107,31 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
         linear_.directions[v] = direction;
         linear_.gradient[k] = dot(direction, gradients.energy[v]);
         linear_.volume[k] = dot(direction, gradients.volume[v]);
-        linear_.mass[k] = area[v];
+        linear_.mass[k] = gradients.area[v];
     }
     linear_.full = pattern_.hessian(sheet, linear_.directions, weight_, pressure);
 }
 
 bool SheetSolver::factor(double shift)
 {
-    linear_.matrix = linear_.full;
     Eigen::SparseMatrix<double>& matrix = linear_.matrix;
+    const int* outer = matrix.outerIndexPtr();
+    const int* inner = matrix.innerIndexPtr();
+    const double* full = linear_.full.valuePtr();
+    double* values = matrix.valuePtr();
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
-        for (Eigen::SparseMatrix<double>::InnerIterator at(matrix, column); at; ++at) {
-            const bool is_held =
-                held_[static_cast<std::size_t>(at.row())] != 0 || held_[static_cast<std::size_t>(column)] != 0;
-            if (at.row() == column) {
-                const double damping = damping_[static_cast<std::size_t>(column)] * std::abs(at.value());
-                at.valueRef() = is_held ? 1.0 : at.value() + shift * linear_.mass[column] + damping;
-            } else if (is_held) {
-                at.valueRef() = 0.0;
+        const auto c = static_cast<std::size_t>(column);
+        for (int at = outer[column]; at < outer[column + 1]; ++at) {
+            const bool is_held = held_[static_cast<std::size_t>(inner[at])] != 0 || held_[c] != 0;
+            if (inner[at] == column) {
+                const double damping = damping_[c] * std::abs(full[at]);
+                values[at] = is_held ? 1.0 : full[at] + shift * linear_.mass[column] + damping;
+            } else {
+                values[at] = is_held ? 0.0 : full[at];
             }
         }
     }
-    factor_.factorize(matrix);
-    if (factor_.info() != Eigen::Success) {
+    if (!factor_.factorize(matrix)) {
         return false;
     }
     Vector border = linear_.volume;
@@ -133,7 +146,7 @@ bool SheetSolver::factor(double shift)
 
 int SheetSolver::negatives() const
 {
-    return static_cast<int>((factor_.vectorD().array() < 0.0).count()) + (linear_.volume.dot(response_) > 0.0 ? 1 : 0);
+    return static_cast<int>(factor_.negatives()) + (linear_.volume.dot(response_) > 0.0 ? 1 : 0);
 }
 
 SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume_change) const
@@ -172,6 +185,11 @@ SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume
         step.pressure += change;
         rest = right - linear_.matrix.selfadjointView<Eigen::Lower>() * step.motion + step.pressure * free_volume;
         rest_volume = volume_change - free_volume.dot(step.motion);
+        if (rest.norm() <= kSolved * (right.norm() + std::abs(step.pressure) * free_volume.norm()) &&
+            std::abs(rest_volume) <=
+                kSolved * (std::abs(volume_change) + free_volume.cwiseAbs().dot(step.motion.cwiseAbs()))) {
+            break;
+        }
     }
     step.motion += given;
     return step;
@@ -219,9 +237,10 @@ double SheetSolver::residual(double pressure) const
     return std::sqrt(rest / scale) / std::max(std::abs(pressure), 2.0 / std::sqrt(area));
 }
 
-double SheetSolver::volumeOf(const SheetMesh& sheet) const
+SheetIntegrals SheetSolver::liquidUnder(const SheetMesh& sheet) const
 {
-    return integrate(sheet, weight_).volume - base_.integrals.volume;
+    const SheetIntegrals sums = integrate(sheet, weight_);
+    return {sums.area, sums.gravity - base_.integrals.gravity, sums.volume - base_.integrals.volume};
 }
 
 double SheetSolver::volumeScale(double volume) const
@@ -230,13 +249,13 @@ double SheetSolver::volumeScale(double volume) const
     return std::max(volume, 1e-6 * std::pow(linear_.mass.sum(), 1.5));
 }
 
-bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
+bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums)
 {
     const SheetMesh before = sheet;
-    const SheetIntegrals start = integrate(before, weight_);
+    const SheetIntegrals start = sums;
     // A step that first has to reach the volume may cost energy.
     const double scale = volumeScale(volume);
-    const bool has_volume = std::abs(volumeOf(before) - volume) <= 1e-9 * scale;
+    const bool has_volume = std::abs(start.volume - volume) <= 1e-9 * scale;
     // Slope of the energy along the step at fixed volume.
     const double slope = std::min(0.0, linear_.gradient.dot(step.motion));
     const double across = linear_.volume.dot(response_);
@@ -252,20 +271,18 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume)
             }
         };
         move(step.motion, part);
-        bool is_full = false;
-        for (int round = 0; round < 8 && !is_full; ++round) {
+        base_.lift(sheet.places, rim_);
+        SheetIntegrals now = liquidUnder(sheet);
+        for (int round = 0; round < 8 && std::abs(volume - now.volume) > 1e-13 * scale; ++round) {
+            move(along, volume - now.volume);
             base_.lift(sheet.places, rim_);
-            const double missing = volume - volumeOf(sheet);
-            is_full = std::abs(missing) <= 1e-13 * scale;
-            if (!is_full) {
-                move(along, missing);
-            }
+            now = liquidUnder(sheet);
         }
-        const SheetIntegrals now = integrate(sheet, weight_);
-        if (std::abs(now.volume - base_.integrals.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
+        if (std::abs(now.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
             continue;
         }
         if (!has_volume || now.energy() <= start.energy() + 1e-4 * part * slope + 1e-12 * std::abs(start.energy())) {
+            sums = now;
             return true;
         }
     }
@@ -288,7 +305,9 @@ void SheetSolver::describe(NewtonResult& result) const
 NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
 {
     NewtonResult result;
-    const std::vector<double> angles = minAngles(sheet);
+    const std::vector<double> angles = limits.worn > 0.0 ? minAngles(sheet) : std::vector<double>{};
+    SheetIntegrals sums = liquidUnder(sheet);
+    std::vector<std::uint8_t> same_held;  // with the last factorisation, if it was that of an equilibrium, nearly
     std::fill(damping_.begin(), damping_.end(), 0.0);
     std::fill(held_.begin(), held_.end(), 1);  // until it turns out that they are above the ground
     int shifted = 0;
@@ -307,7 +326,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             }
         }
         result.residual = residual(pressure);
-        const double missing = volume - volumeOf(sheet);
+        const double missing = volume - sums.volume;
         const bool is_full = std::abs(missing) <= 1e-10 * volumeScale(volume);
         const double area = linear_.mass.sum();
         const double least = 0.05 * std::max(pressure * pressure, 4.0 * std::numbers::pi / area);
@@ -315,7 +334,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                                          (result.residual <= limits.stagnated && result.residual > 0.3 * last));
         if (is_done) {
             std::fill(damping_.begin(), damping_.end(), 0.0);
-            if (factor(0.0) && negatives() == 1) {
+            if ((!same_held.empty() && same_held == held_) || (factor(0.0) && negatives() == 1)) {
                 describe(result);
             }
             return result;
@@ -329,6 +348,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
         }
 
         Step step;
+        bool is_plain = true;  // without shift and damping
         int damped = 0;
         for (int round = 0;; ++round) {
             double shift = 0.0;
@@ -339,6 +359,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                 }
             }
             shifted += shift > 0.0 && round == 0 ? 1 : 0;
+            is_plain = shift == 0.0 && std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0.0; });
             const Vector forces = pressure * linear_.volume - linear_.gradient;
             step = solveBordered(forces, missing);
             if (!step.motion.allFinite()) {
@@ -368,7 +389,11 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                 break;
             }
         }
-        if (shifted > limits.shifted_steps || !moveWithin(sheet, step, volume)) {
+        same_held.clear();
+        if (is_plain && result.residual <= kSamePlace) {
+            same_held = held_;
+        }
+        if (shifted > limits.shifted_steps || !moveWithin(sheet, step, volume, sums)) {
             return result;
         }
         pressure += step.pressure;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <cstdint>
 #include <vector>
 
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
+#include "shape/sheet_factor.h"
 
 namespace droplet {
 
@@ -70,17 +71,19 @@ private:
     [[nodiscard]] int negatives() const;
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
-    [[nodiscard]] double volumeOf(const SheetMesh& sheet) const;
+    /// Integrals over the liquid between a sheet and its base.
+    [[nodiscard]] SheetIntegrals liquidUnder(const SheetMesh& sheet) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
-    bool moveWithin(SheetMesh& sheet, const Step& step, double volume);
+    /// @param sums  integrals over the sheet, before and after
+    bool moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums);
     void describe(NewtonResult& result) const;
 
     std::uint32_t rim_;
     Vec3 weight_;
     SheetBase base_;
     SheetPattern pattern_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+    SheetFactor factor_;
     Linear linear_;
     Eigen::VectorXd response_;         ///< w = L⁻¹b
     std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -40,8 +41,64 @@ constexpr double kTurn = 0.707;
 /// Cosine of the sharpest edge that is flipped: 60°.
 constexpr double kSharp = 0.5;
 constexpr int kFlipRounds = 10;
+/// Classes of edges, per doubling of the length, of which the longest is split first.
+constexpr double kLengths = 4.0;
 /// Shape of a triangle, 1 if equilateral, below which a collapse must not make one, unless there is a worse one.
 constexpr double kGoodShape = 0.35;
+
+/// Bits of a number, with two zeros after each.
+std::uint64_t spread(std::uint64_t bits)
+{
+    std::uint64_t result = 0;
+    for (unsigned k = 0; k < 21; ++k) {
+        result |= (bits >> k & 1U) << (3 * k);
+    }
+    return result;
+}
+
+/// The same sheet, with inner vertices and triangles along a Z-curve: neighbours in space are so in memory.
+SheetMesh inSpaceOrder(const SheetMesh& sheet)
+{
+    Vec3 least = sheet.places.front();
+    Vec3 most = least;
+    for (const Vec3& p : sheet.places) {
+        least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+        most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+    }
+    constexpr double kCells = 1023.0;
+    const Vec3 size = most - least;
+    const double scale = kCells / std::max({size.x, size.y, size.z});
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    for (std::uint32_t v = sheet.rim; v < sheet.places.size(); ++v) {
+        const Vec3 at = scale * (sheet.places[v] - least);
+        keys.emplace_back(spread(static_cast<std::uint64_t>(at.x)) | spread(static_cast<std::uint64_t>(at.y)) << 1U |
+                              spread(static_cast<std::uint64_t>(at.z)) << 2U,
+                          v);
+    }
+    std::sort(keys.begin(), keys.end());
+    SheetMesh ordered;
+    ordered.rim = sheet.rim;
+    ordered.places.assign(sheet.places.begin(), sheet.places.begin() + sheet.rim);
+    std::vector<std::uint32_t> number(sheet.places.size());
+    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+        number[v] = v;
+    }
+    for (const auto& [key, v] : keys) {
+        number[v] = static_cast<std::uint32_t>(ordered.places.size());
+        ordered.places.push_back(sheet.places[v]);
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> first;  // largest number of a corner, triangle
+    for (std::uint32_t k = 0; k < sheet.triangles.size(); ++k) {
+        const Triangle& t = sheet.triangles[k];
+        first.emplace_back(std::max({number[t[0]], number[t[1]], number[t[2]]}), k);
+    }
+    std::sort(first.begin(), first.end());
+    for (const auto& [vertex, k] : first) {
+        const Triangle& t = sheet.triangles[k];
+        ordered.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    }
+    return ordered;
+}
 
 class Remesher {
 public:
@@ -73,7 +130,7 @@ public:
             smooth();
         }
         flip();
-        return result();
+        return inSpaceOrder(result());
     }
 
     SheetMesh relax(int rounds)
@@ -93,12 +150,23 @@ private:
         return 0.5 * OpenMesh::cross(b - a, c - a);
     }
 
-    [[nodiscard]] Point areaVector(FaceHandle face) const
+    [[nodiscard]] std::array<VertexHandle, 3> cornersOf(FaceHandle face) const
     {
-        auto v = mesh_.cfv_begin(face);
-        const Point a = mesh_.point(*v++);
-        const Point b = mesh_.point(*v++);
-        return areaVector(a, b, mesh_.point(*v));
+        const HalfedgeHandle h = mesh_.halfedge_handle(face);
+        const HalfedgeHandle next = mesh_.next_halfedge_handle(h);
+        return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h), mesh_.to_vertex_handle(next)};
+    }
+
+    /// Finds the vertices around one inside, counter-clockwise.
+    void findRing(VertexHandle v)
+    {
+        ring_.clear();
+        const HalfedgeHandle first = mesh_.halfedge_handle(v);
+        HalfedgeHandle h = first;
+        do {
+            ring_.push_back(mesh_.to_vertex_handle(h));
+            h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+        } while (h != first);
     }
 
     [[nodiscard]] bool onGround(VertexHandle v) const
@@ -111,8 +179,9 @@ private:
     {
         normals_.assign(mesh_.n_vertices(), Point(0.0, 0.0, 0.0));
         for (const FaceHandle face : mesh_.faces()) {
-            const Point normal = areaVector(face);
-            for (const VertexHandle v : mesh_.fv_range(face)) {
+            const std::array<VertexHandle, 3> corners = cornersOf(face);
+            const Point normal = areaVector(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2]));
+            for (const VertexHandle v : corners) {
                 normals_[static_cast<std::size_t>(v.idx())] += normal;
             }
         }
@@ -230,9 +299,10 @@ private:
             const auto [a, b] = endsOf(edge);
             const double ratio = lengthOf(edge) / wanted(a, b);
             if (onRim(a) && onRim(b)) {
-                edges.emplace_back(1e9 + ratio, edge);
+                edges.emplace_back(1e9, edge);
             } else if (ratio > kLong) {
-                edges.emplace_back(ratio, edge);
+                // Neighbours that are as long stay together in memory.
+                edges.emplace_back(std::floor(kLengths * std::log2(ratio)), edge);
             }
         }
         std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -257,29 +327,36 @@ private:
                ((b - a).sqrnorm() + (c - b).sqrnorm() + (a - c).sqrnorm());
     }
 
-    /// Whether triangles around a vertex that moves to a place stay much as they are; those of `gone` vanish.
-    [[nodiscard]] bool staysFlat(VertexHandle v, const Point& place, VertexHandle gone) const
+    /// Whether a triangle with a corner that moves stays much as it is.
+    [[nodiscard]] static bool staysFlat(const Point& before, const Point& after, const Point& b, const Point& c)
     {
-        for (const FaceHandle face : mesh_.vf_range(v)) {
-            std::array<Point, 3> before;
-            std::array<Point, 3> after;
-            bool vanishes = false;
-            std::size_t k = 0;
-            for (const VertexHandle corner : mesh_.fv_range(face)) {
-                vanishes = vanishes || corner == gone;
-                before[k] = mesh_.point(corner);
-                after[k++] = corner == v ? place : mesh_.point(corner);
-            }
-            if (vanishes) {
-                continue;
-            }
-            const Point a = areaVector(before[0], before[1], before[2]);
-            const Point b = areaVector(after[0], after[1], after[2]);
-            if ((a | b) < kTurn * a.norm() * b.norm() || b.norm() < 0.1 * a.norm()) {
-                return false;
-            }
-            const double shape = shapeOf(after[0], after[1], after[2]);
-            if (shape < kGoodShape && shape < shapeOf(before[0], before[1], before[2])) {
+        const Point old_normal = areaVector(before, b, c);
+        const Point new_normal = areaVector(after, b, c);
+        const double turn = old_normal | new_normal;
+        const double old_square = old_normal.sqrnorm();
+        const double new_square = new_normal.sqrnorm();
+        if (turn < 0.0 || turn * turn < kTurn * kTurn * old_square * new_square || new_square < 0.01 * old_square) {
+            return false;
+        }
+        const double base = (c - b).sqrnorm();
+        const double new_sum = base + (b - after).sqrnorm() + (after - c).sqrnorm();
+        // The square of shapeOf() is 48 A² over that of the sum.
+        if (48.0 * new_square < kGoodShape * kGoodShape * new_sum * new_sum) {
+            const double old_sum = base + (b - before).sqrnorm() + (before - c).sqrnorm();
+            return new_square * old_sum * old_sum >= old_square * new_sum * new_sum;
+        }
+        return true;
+    }
+
+    /// Whether triangles around a vertex inside that moves to a place stay much as they are; those of `gone` vanish.
+    [[nodiscard]] bool staysFlat(VertexHandle v, const Point& place, VertexHandle gone)
+    {
+        findRing(v);
+        const Point& before = mesh_.point(v);
+        for (std::size_t k = 0; k < ring_.size(); ++k) {
+            const VertexHandle b = ring_[k];
+            const VertexHandle c = ring_[k + 1 == ring_.size() ? 0 : k + 1];
+            if (b != gone && c != gone && !staysFlat(before, place, mesh_.point(b), mesh_.point(c))) {
                 return false;
             }
         }
@@ -348,14 +425,24 @@ private:
 
     void flip()
     {
+        is_open_.assign(mesh_.n_edges(), 1);
         for (int round = 0; round < kFlipRounds; ++round) {
             bool has_flipped = false;
             for (const EdgeHandle edge : mesh_.edges()) {
-                if (mesh_.is_boundary(edge) || !shouldFlip(edge) || !mesh_.is_flip_ok(edge)) {
+                // After the first round, only edges between triangles that have changed.
+                if (std::exchange(is_open_[static_cast<std::size_t>(edge.idx())], std::uint8_t{0}) == 0 ||
+                    mesh_.is_boundary(edge) || !shouldFlip(edge) || !mesh_.is_flip_ok(edge)) {
                     continue;
                 }
                 mesh_.flip(edge);
                 has_flipped = true;
+                for (const unsigned side : {0U, 1U}) {
+                    HalfedgeHandle h = mesh_.halfedge_handle(edge, side);
+                    for (int k = 0; k < 2; ++k) {
+                        h = mesh_.next_halfedge_handle(h);
+                        is_open_[static_cast<std::size_t>(mesh_.edge_handle(h).idx())] = 1;
+                    }
+                }
             }
             if (!has_flipped) {
                 return;
@@ -376,10 +463,16 @@ private:
         const Point& b = mesh_.point(mesh_.to_vertex_handle(h));
         const Point& c = mesh_.point(left);
         const Point& d = mesh_.point(right);
-        const auto angle = [](const Point& at, const Point& p, const Point& q) {
-            return std::atan2(OpenMesh::cross(p - at, q - at).norm(), (p - at) | (q - at));
-        };
-        if (angle(c, a, b) + angle(d, a, b) <= std::numbers::pi * (1.0 + 1e-6)) {
+        // The angles at c and d are more than 180° together if the sine of their sum is negative.
+        const double cos_c = (a - c) | (b - c);
+        const double cos_d = (a - d) | (b - d);
+        if (cos_c >= 0.0 && cos_d >= 0.0) {
+            return false;
+        }
+        const double sin_c = OpenMesh::cross(a - c, b - c).norm();
+        const double sin_d = OpenMesh::cross(a - d, b - d).norm();
+        const double scale = std::sqrt((sin_c * sin_c + cos_c * cos_c) * (sin_d * sin_d + cos_d * cos_d));
+        if (sin_c * cos_d + sin_d * cos_c >= -std::numbers::pi * 1e-6 * scale) {
             return false;
         }
         // In space, flips by angles alone may make needles where the sheet is folded.
@@ -412,15 +505,18 @@ private:
             if (onRim(v)) {
                 continue;
             }
+            findRing(v);
+            points_.clear();
+            for (const VertexHandle other : ring_) {
+                points_.push_back(mesh_.point(other));
+            }
+            points_.push_back(points_.front());
+            const Point& here = mesh_.point(v);
             Point centre(0.0, 0.0, 0.0);
             double total = 0.0;
-            for (const FaceHandle face : mesh_.vf_range(v)) {
-                const double area = areaVector(face).norm();
-                Point sum(0.0, 0.0, 0.0);
-                for (const VertexHandle corner : mesh_.fv_range(face)) {
-                    sum += mesh_.point(corner);
-                }
-                centre += area / 3.0 * sum;
+            for (std::size_t k = 0; k + 1 < points_.size(); ++k) {
+                const double area = areaVector(here, points_[k], points_[k + 1]).norm();
+                centre += area / 3.0 * (here + points_[k] + points_[k + 1]);
                 total += area;
             }
             if (!(total > 0.0)) {
@@ -433,7 +529,11 @@ private:
             if (options_.is_ground_flat && place[2] < 0.0 && normal[2] < 0.0) {
                 place[2] = 0.0;
             }
-            if (staysFlat(v, place, VertexHandle())) {
+            bool stays_flat = true;
+            for (std::size_t k = 0; stays_flat && k + 1 < points_.size(); ++k) {
+                stays_flat = staysFlat(here, place, points_[k], points_[k + 1]);
+            }
+            if (stays_flat) {
                 mesh_.set_point(v, place);
             }
         }
@@ -452,7 +552,7 @@ private:
         for (const FaceHandle face : mesh_.faces()) {
             Triangle& t = sheet.triangles.emplace_back();
             std::size_t k = 0;
-            for (const VertexHandle v : mesh_.fv_range(face)) {
+            for (const VertexHandle v : cornersOf(face)) {
                 t[k++] = number[static_cast<std::size_t>(v.idx())];
             }
         }
@@ -464,6 +564,9 @@ private:
     HalfEdgeMesh mesh_;
     std::vector<Point> normals_;
     std::vector<double> sizes_;
+    std::vector<VertexHandle> ring_;     ///< around the vertex of the last findRing()
+    std::vector<Point> points_;          ///< places of its vertices, the first one again at the end
+    std::vector<std::uint8_t> is_open_;  ///< edges that may have to be flipped
 };
 
 }  // namespace
@@ -480,18 +583,31 @@ SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat)
     return relaxed;
 }
 
+namespace {
+
+/// Angle at the corner opposite to the shortest edge [rad].
+double minAngle(const SheetMesh& sheet, const Triangle& t)
+{
+    std::array<Vec3, 3> sides;  // opposite to every corner
+    std::array<double, 3> squares{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        sides[a] = sheet.places[t[(a + 2) % 3]] - sheet.places[t[(a + 1) % 3]];
+        squares[a] = dot(sides[a], sides[a]);
+    }
+    const auto a = static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+    const Vec3& p = sides[(a + 1) % 3];
+    const Vec3& q = sides[(a + 2) % 3];
+    return std::atan2(length(cross(p, q)), -dot(p, q));
+}
+
+}  // namespace
+
 std::vector<double> minAngles(const SheetMesh& sheet)
 {
     std::vector<double> angles;
     angles.reserve(sheet.triangles.size());
     for (const Triangle& t : sheet.triangles) {
-        double least = std::numbers::pi;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const Vec3 p = sheet.places[t[(a + 1) % 3]] - sheet.places[t[a]];
-            const Vec3 q = sheet.places[t[(a + 2) % 3]] - sheet.places[t[a]];
-            least = std::min(least, std::atan2(length(cross(p, q)), dot(p, q)));
-        }
-        angles.push_back(least);
+        angles.push_back(minAngle(sheet, t));
     }
     return angles;
 }
@@ -499,9 +615,8 @@ std::vector<double> minAngles(const SheetMesh& sheet)
 bool isWorn(const std::vector<double>& before, const SheetMesh& sheet, double share)
 {
     constexpr double kNarrow = std::numbers::pi / 10.0;
-    const std::vector<double> now = minAngles(sheet);
-    for (std::size_t k = 0; k < now.size(); ++k) {
-        if (now[k] < std::min(kNarrow, share * before[k])) {
+    for (std::size_t k = 0; k < sheet.triangles.size(); ++k) {
+        if (minAngle(sheet, sheet.triangles[k]) < std::min(kNarrow, share * before[k])) {
             return true;
         }
     }
