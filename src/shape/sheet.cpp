@@ -148,7 +148,7 @@ SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptio
     SheetResult result;
     result.sheet.footprint = sheet.footprint;
     take(refillSheet({sheet.places, sheet.triangles, sheet.rim}, sheet.pressure / options.liquid.surface_tension,
-                     volume, weightOf(options)),
+                     {FillBy::Volume, volume}, weightOf(options)),
          options, result);
     return result;
 }

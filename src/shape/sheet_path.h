@@ -57,11 +57,10 @@ struct FilledSheet {
 /// last equilibrium before the end.
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
 
-/// Fills or drains an equilibrium to another volume on the same triangles. They can follow only so far: the end is
-/// Unstable where they wear out.
+/// Fills or drains an equilibrium to a target on the same triangles. They can follow only so far: the end is Unstable
+/// where they wear out.
 /// @param sheet     an equilibrium
 /// @param pressure  of it, over the surface tension [1/m]
-/// @param volume    wanted [m³]
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight);
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight);
 
 }  // namespace droplet
