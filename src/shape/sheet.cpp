@@ -14,6 +14,7 @@
 #include "number_text.h"
 #include "shape/rim_figures.h"
 #include "shape/sheet_energy.h"
+#include "shape/sheet_follow.h"
 #include "shape/sheet_path.h"
 
 namespace droplet {
@@ -45,6 +46,18 @@ Vec3 weightOf(const SolveOptions& options)
     const double scale = options.liquid.density / options.liquid.surface_tension;
     const PlaneGravity gravity = planeGravity(options);
     return scale * Vec3{-gravity.along.x, -gravity.along.y, gravity.normal};
+}
+
+void requireFlat(const SolveOptions& options)
+{
+    if (!options.ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
+    }
+}
+
+SheetMesh meshOf(const ParametricSheet& sheet)
+{
+    return {sheet.places, sheet.triangles, sheet.rim};
 }
 
 /// Distance of a place to the footprint, 0 inside [m].
@@ -123,9 +136,7 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
 {
     options.liquid.validate();
     options.fill.validate();
-    if (!options.ground.flat()) {
-        throw Error(ErrorCode::InvalidArgument, "ground must be flat for liquid that hangs over its rim");
-    }
+    requireFlat(options);
     const double edge =
         std::min(meanEdge(area(footprint), footprint.triangles.size()), kLeastPart * std::sqrt(area(footprint)));
     SheetResult result = solveWith(footprint, options, edge, effort);
@@ -147,8 +158,33 @@ SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptio
     }
     SheetResult result;
     result.sheet.footprint = sheet.footprint;
-    take(refillSheet({sheet.places, sheet.triangles, sheet.rim}, sheet.pressure / options.liquid.surface_tension,
-                     {FillBy::Volume, volume}, weightOf(options)),
+    take(refillSheet(meshOf(sheet), sheet.pressure / options.liquid.surface_tension, {FillBy::Volume, volume},
+                     weightOf(options)),
+         options, result);
+    return result;
+}
+
+SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, const PlanarMesh& footprint,
+                   const SolveOptions& options)
+{
+    options.liquid.validate();
+    options.fill.validate();
+    requireFlat(options);
+    if (first.triangles != last.triangles || first.rim != last.rim ||
+        footprint.loop_starts != first.footprint.loop_starts) {
+        throw Error(ErrorCode::InvalidArgument, "first, last and footprint must have the same triangles and loops");
+    }
+    SheetResult result;
+    if (hasInnerCorner(footprint) && !hasInnerCorner(first.footprint)) {
+        // It needs rounding, which solveSheet() does.
+        result.sheet = last;
+        result.end = SheetEnd::Unstable;
+        return result;
+    }
+    result.sheet.footprint = footprint;
+    const std::vector<Vec2> rim(footprint.vertices.begin(), footprint.vertices.begin() + footprint.rimVertexCount());
+    take(followSheet(meshOf(first), meshOf(last), last.pressure / options.liquid.surface_tension, rim,
+                     {options.fill.by, options.fill.amount}, weightOf(options)),
          options, result);
     return result;
 }
