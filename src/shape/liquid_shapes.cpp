@@ -341,7 +341,7 @@ std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const 
 }
 
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
-                         const Progress& progress)
+                         const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
     const std::size_t count = meshes.size();
     LiquidShapes shapes;
@@ -364,7 +364,9 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
         }
         return shapes;
     }
-    if (!mustHang(options)) {
+    followed.resize(count);
+    const bool any_followed = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return !!one; });
+    if (!mustHang(options) && !any_followed) {
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         solution = solve(meshes, quick, progress);
@@ -377,6 +379,10 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     const bool has_fields = solution.report.usable();
     std::vector<Shape> found(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        if (followed[k]) {
+            found[k].sheet = std::move(followed[k]);
+            return;
+        }
         found[k] = solveShape(meshes[k], ownOptions(options, k),
                               has_fields ? std::optional(std::move(solution.droplets[k])) : std::nullopt,
                               allow_less ? SheetEffort::Modest : SheetEffort::Full);
