@@ -275,10 +275,12 @@ struct Meshed {
 };
 
 /// Moves a droplet's mesh and base with its footprint, if possible.
-std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint)
+/// @param as_sheet  the mesh serves a sheet that follows: its rim alone counts
+std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint, bool as_sheet = false)
 {
     const TriangulatedMeshes& first = *before.lineage->first;
-    std::optional<PlanarMesh> mesh = follow(first.meshes[k], before.droplet.meshes[k], footprint);
+    std::optional<PlanarMesh> mesh = as_sheet ? follow(first.meshes[k], before.droplet.meshes[k], footprint, 0.0)
+                                              : follow(first.meshes[k], before.droplet.meshes[k], footprint);
     if (!mesh) {
         return std::nullopt;
     }
@@ -295,15 +297,19 @@ std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footpr
 }
 
 /// Moves all meshes and bases with their footprints.
-/// @param domain  new footprints
-/// @param meshes  receives the moved meshes
-/// @return        none unless all of them can be moved
-std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, std::vector<PlanarMesh>& meshes)
+/// @param domain       new footprints
+/// @param with_sheets  sheets follow, too
+/// @param meshes       receives the moved meshes
+/// @return             none unless all of them can be moved
+std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, bool with_sheets,
+                                      std::vector<PlanarMesh>& meshes)
 {
     const std::size_t count = before.lineage->first->meshes.size();
     std::vector<std::optional<Meshed>> moved(count);
-    tbb::parallel_for(std::size_t{0}, count,
-                      [&](std::size_t k) { moved[k] = followOne(before, k, domain.droplets[k]); });
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        const bool as_sheet = with_sheets && sheetOf(before.droplet, k) != nullptr;
+        moved[k] = followOne(before, k, domain.droplets[k], as_sheet);
+    });
     if (!std::all_of(moved.begin(), moved.end(), [](const auto& one) { return one.has_value(); })) {
         return std::nullopt;
     }
@@ -446,6 +452,18 @@ Frame dryFrame(Outline outline, FrameLineage lineage)
     return frame;
 }
 
+/// Options of a frame whose droplets are those of the frame before.
+SolveOptions followedOptions(const Frame& before, const SequenceOptions& options, SolveOptions solve)
+{
+    if (options.volume_mode == VolumeMode::Track) {
+        solve.fill = {FillBy::Volume, solve.fill.amount, FillSharing::Each};
+        for (const Ancestry& droplet : before.droplets) {
+            solve.volumes.push_back(droplet.volume);
+        }
+    }
+    return solve;
+}
+
 /// Number of vertices of a droplet's mesh, or of its sheet.
 std::size_t vertexCount(const Droplet& droplet, std::size_t k)
 {
@@ -554,8 +572,19 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         frame_options.solve.fill = {FillBy::Volume, *reservoir, FillSharing::Total};
     }
     std::optional<FrameLineage> lineage;
+    std::optional<FollowedSheets> sheets;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
-        lineage = followAll(before, domain, frame.droplet.meshes);
+        if (!before.droplet.sheets.empty()) {
+            lineage = followAll(before, domain, true, frame.droplet.meshes);
+            if (lineage) {
+                sheets = followSheets(before.lineage->sheets, before.droplet, frame.droplet.meshes, lineage->bases,
+                                      followedOptions(before, options, frame_options.solve));
+            }
+        }
+        if (!sheets) {
+            frame.droplet.meshes.clear();
+            lineage = followAll(before, domain, false, frame.droplet.meshes);
+        }
     }
     const bool followed = lineage.has_value();
     std::vector<std::size_t> kept;
@@ -576,11 +605,6 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         for (const Ancestry& droplet : frame.droplets) {
             frame_options.solve.volumes.push_back(droplet.volume);
         }
-    }
-    std::optional<FollowedSheets> sheets;
-    if (followed) {
-        sheets = followSheets(before.lineage->sheets, before.droplet, frame.droplet.meshes, lineage->bases,
-                              frame_options.solve);
     }
     const SheetOrigins origins = sheets ? before.lineage->sheets : SheetOrigins{};
     if (!sheets) {

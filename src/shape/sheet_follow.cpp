@@ -25,9 +25,9 @@ constexpr int kFew = 4;
 constexpr double kGrow = 1.6;
 constexpr double kGentler = 0.6;
 constexpr double kRefused = 0.4;
-/// Angle of a triangle, over that when it was made, below which a sheet is solved anew: triangles of even sheets have
-/// 40°, those of moved footprints at least 15°.
-constexpr double kMostWorn = 0.4;
+/// Angle of a triangle, over that when it was made, below which a sheet is solved anew. With 0.4, a word that swells
+/// kept its vertices in 14 of 23 frames, with 0.2 and 0.1 in 16.
+constexpr double kMostWorn = 0.2;
 /// Growth of the area above which, or below the inverse of which, it is: as for the edges of moved footprints.
 constexpr double kMostGrowth = 2.25;
 
@@ -180,7 +180,11 @@ public:
             double next_pressure = pressure_ + size * pressing + missing * newton_.pressure_slope;
             const bool is_gentle = isGentle(sheet_, next, kPredicted);
             const NewtonResult before = newton_;
-            if (is_gentle && solve(next, next_volume, next_pressure, {}) && repair(next, next_volume, next_pressure)) {
+            const bool is_solved = is_gentle && solve(next, next_volume, next_pressure, {});
+            if (is_solved && !repair(next, next_volume, next_pressure)) {
+                return false;  // smaller steps would lead to the same triangles
+            }
+            if (is_solved) {
                 sheet_ = std::move(next);
                 pressure_ = next_pressure;
                 volume_ = next_volume;

@@ -176,10 +176,18 @@ TEST(SheetFollow, ABeadThatTurnsAtOnceKeepsItsShape)
     const SolveOptions options = optionsFor(1.0, angleOf(115.0));
     const SheetResult first = solveSheet(triangulate(domainOf(ellipseLoop(1.3, 0.8)), {.edge = 0.1}).front(), options);
     ASSERT_EQ(first.end, SheetEnd::Reached);
-    const PlanarMesh footprint = moved(first.sheet.footprint, [](Vec2 p) { return Vec2{-p.y, p.x}; });
+    const double c = std::cos(15.0 * kDegree);
+    const double s = std::sin(15.0 * kDegree);
+    const PlanarMesh footprint = moved(first.sheet.footprint, [=](Vec2 p) {
+        return Vec2{c * p.x - s * p.y, s * p.x + c * p.y};
+    });
     const SheetResult next = follow(first.sheet, first.sheet, footprint, options);
     ASSERT_EQ(next.end, SheetEnd::Reached);
-    EXPECT_LT(gap(first.sheet, next.sheet, [](Vec3 p) { return Vec3{-p.y, p.x, p.z}; }), 1e-6);
+    EXPECT_LT(gap(first.sheet, next.sheet,
+                  [=](Vec3 p) {
+                      return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+                  }),
+              1e-8);
 }
 
 TEST(SheetFollow, RoundedInnerCornersMoveAlong)
