@@ -45,9 +45,8 @@ struct Frame {
     Droplet droplet;                 ///< the droplets; without meshes and surface if the frame has no liquid
     std::vector<Ancestry> droplets;  ///< one per droplet
     bool continues = false;          ///< the surface has the triangles of the frame before; only its vertices moved
-    std::optional<double>
-        vertices_kept;           ///< share of the vertices of meshes and sheets that the frame before had, in place or
-                                 ///< moved; empty if there is no frame before, or one of the two is dry
+    std::optional<double> vertices_kept;  ///< share of the vertices of meshes and sheets that the frame before had, in
+                                          ///< place or moved; empty if there is none, or one of the two is dry
     double volume_gained = 0.0;  ///< volume of new droplets [m³]; with VolumeMode::Total only after a dry frame; with
                                  ///< VolumeMode::Fill how much the total volume grew
     double volume_lost = 0.0;  ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame; with
