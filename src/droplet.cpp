@@ -151,13 +151,6 @@ std::string lessWarning(const LiquidShapes& shapes, std::size_t count)
            rounded(shapes.least_angle / kDegree) + " degrees" + (shapes.with_less > 1 ? " or more" : "");
 }
 
-/// Whether two meshes have the same rim.
-bool sameRim(const PlanarMesh& a, const PlanarMesh& b)
-{
-    return a.loop_starts == b.loop_starts &&
-           std::equal(a.vertices.begin(), a.vertices.begin() + a.rimVertexCount(), b.vertices.begin());
-}
-
 /// Surfaces of all droplets: of height fields first.
 Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const LoftOptions& options)
 {
@@ -270,6 +263,12 @@ SolveOptions solveOptions(const DropletOptions& options)
 
 }  // namespace
 
+bool sameRim(const PlanarMesh& a, const PlanarMesh& b)
+{
+    return a.loop_starts == b.loop_starts &&
+           std::equal(a.vertices.begin(), a.vertices.begin() + a.rimVertexCount(), b.vertices.begin());
+}
+
 void validateStages(const DropletOptions& options)
 {
     options.mesh.validate();
@@ -305,10 +304,10 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 }
 
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
-            const Progress& progress)
+            const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
     SolveOptions solved = solveOptions(options);
-    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress);
+    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(followed));
     const std::string less = lessWarning(shapes, droplet.meshes.size());
     droplet.solution = shapes.solution;
     droplet.sheets = shapes.sheets;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "droplet/droplet.h"
@@ -15,11 +16,15 @@ struct DomainMeshes {
 DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 
 /// Runs the stages after meshing: solve, measure, loft.
-/// @param droplet  with outline, domain and meshes
-/// @param bases    cover() of every mesh, if known; otherwise empty
-/// @throws Error   NoSuchDroplet if the solver failed
+/// @param droplet   with outline, domain and meshes
+/// @param bases     cover() of every mesh, or of its sheet's footprint, if known; otherwise empty
+/// @param followed  sheets that are solved already, one per droplet; or empty
+/// @throws Error    NoSuchDroplet if the solver failed
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
-            const Progress& progress);
+            const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});
+
+/// Whether two meshes have the same rim.
+bool sameRim(const PlanarMesh& a, const PlanarMesh& b);
 
 /// Checks the options of all stages but trace.
 /// @throws Error InvalidArgument

@@ -24,7 +24,6 @@ namespace {
 
 /// Limits beyond which a mesh is rejected; see follow().
 constexpr double kMinAngle = 15.0 * kDegree;
-constexpr double kMinAngleShare = 0.75;
 constexpr double kMaxStretch = 1.5;
 constexpr double kMaxSagitta = 0.2;
 
@@ -390,7 +389,8 @@ PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
     return moved;
 }
 
-std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint)
+std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint,
+                                 double angles)
 {
     if (first.vertices.size() != last.vertices.size() || first.loop_starts != last.loop_starts ||
         first.triangles != last.triangles) {
@@ -412,7 +412,7 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     PlanarMesh mesh = moveRim(first, rim);
     const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                                    [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
-    if (!whole || minAngle(mesh) < std::min(kMinAngle, kMinAngleShare * minAngle(first))) {
+    if (!whole || minAngle(mesh) < std::min(kMinAngle, angles * minAngle(first))) {
         return std::nullopt;
     }
     return mesh;

@@ -137,6 +137,11 @@ Footprint footprintOf(const Paths& paths, double unit, double edge)
 
 }  // namespace
 
+bool hasInnerCorner(const PlanarMesh& footprint)
+{
+    return hasInnerCorner(loopsOf(footprint));
+}
+
 std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge)
 {
     const std::vector<std::vector<Vec2>> loops = loopsOf(footprint);

@@ -18,4 +18,7 @@ namespace droplet {
 /// @return           new triangles; none if there is no such corner and edges are not much shorter
 std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge);
 
+/// Whether a rim has a corner that points inward and that roundInward() rounds.
+bool hasInnerCorner(const PlanarMesh& footprint);
+
 }  // namespace droplet

@@ -22,6 +22,7 @@
 #include "droplet/units.h"
 #include "mesh/mean_edge.h"
 #include "pipeline.h"
+#include "sequence/followed_sheets.h"
 
 namespace droplet {
 
@@ -35,6 +36,7 @@ struct TriangulatedMeshes {
 struct FrameLineage {
     std::shared_ptr<const TriangulatedMeshes> first;  ///< meshes in which the frame's connections were made
     std::vector<PlanarMesh> bases;                    ///< bases, if surfaces are closed and the ground is flat
+    SheetOrigins sheets;                              ///< of droplets that hang over their rims; or empty
     double edge = 0.0;                                ///< length of an edge at the start of a run of frames [m]
     bool are_even = true;                             ///< whether all triangles have about the same size
     std::size_t next_id = 0;                          ///< next unused id
@@ -273,10 +275,12 @@ struct Meshed {
 };
 
 /// Moves a droplet's mesh and base with its footprint, if possible.
-std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint)
+/// @param as_sheet  the mesh serves a sheet that follows: its rim alone counts
+std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footprint& footprint, bool as_sheet = false)
 {
     const TriangulatedMeshes& first = *before.lineage->first;
-    std::optional<PlanarMesh> mesh = follow(first.meshes[k], before.droplet.meshes[k], footprint);
+    std::optional<PlanarMesh> mesh = as_sheet ? follow(first.meshes[k], before.droplet.meshes[k], footprint, 0.0)
+                                              : follow(first.meshes[k], before.droplet.meshes[k], footprint);
     if (!mesh) {
         return std::nullopt;
     }
@@ -293,15 +297,19 @@ std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footpr
 }
 
 /// Moves all meshes and bases with their footprints.
-/// @param domain  new footprints
-/// @param meshes  receives the moved meshes
-/// @return        none unless all of them can be moved
-std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, std::vector<PlanarMesh>& meshes)
+/// @param domain       new footprints
+/// @param with_sheets  sheets follow, too
+/// @param meshes       receives the moved meshes
+/// @return             none unless all of them can be moved
+std::optional<FrameLineage> followAll(const Frame& before, const Domain& domain, bool with_sheets,
+                                      std::vector<PlanarMesh>& meshes)
 {
     const std::size_t count = before.lineage->first->meshes.size();
     std::vector<std::optional<Meshed>> moved(count);
-    tbb::parallel_for(std::size_t{0}, count,
-                      [&](std::size_t k) { moved[k] = followOne(before, k, domain.droplets[k]); });
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        const bool as_sheet = with_sheets && sheetOf(before.droplet, k) != nullptr;
+        moved[k] = followOne(before, k, domain.droplets[k], as_sheet);
+    });
     if (!std::all_of(moved.begin(), moved.end(), [](const auto& one) { return one.has_value(); })) {
         return std::nullopt;
     }
@@ -359,11 +367,11 @@ bool anglesAreGood(const PlanarMesh& mesh, const Footprint& footprint, double ed
 
 /// Meshes a frame and keeps as many vertices as possible. Droplets that only move are moved. Others keep triangles far
 /// from changes of their rims. New ones are triangulated with edges of the same length.
-/// @param kept  receives the number of vertices that the frame before had
+/// @param kept  receives the number of vertices that the frame before had, of every mesh
 /// @return      none if it is better to triangulate the whole frame
 std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<Group>& groups, const Domain& domain,
                                          const DropletOptions& options, std::vector<PlanarMesh>& meshes,
-                                         std::size_t& kept)
+                                         std::vector<std::size_t>& kept)
 {
     if (!before.lineage->are_even) {
         return std::nullopt;
@@ -378,7 +386,7 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
     }
     std::vector<Meshed> made(count);
     std::vector<std::optional<std::size_t>> followed(count);  // the droplet before that was moved
-    std::vector<std::size_t> kept_of(count, 0);
+    kept.assign(count, 0);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
         const Footprint& footprint = domain.droplets[k];
         const Group& group = *group_of[k];
@@ -386,7 +394,7 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
             if (auto moved = followOne(before, group.before.front(), footprint)) {
                 made[k] = std::move(*moved);
                 followed[k] = group.before.front();
-                kept_of[k] = made[k].mesh.vertices.size();
+                kept[k] = made[k].mesh.vertices.size();
                 return;
             }
         }
@@ -399,7 +407,7 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
             patched = patch(parents, footprint, edge);
         }
         if (patched && anglesAreGood(patched->mesh, footprint, edge)) {
-            kept_of[k] = patched->kept;
+            kept[k] = patched->kept;
             made[k].mesh = std::move(patched->mesh);
         } else {
             made[k].mesh = triangulate({{footprint}, {}}, {.edge = edge}).front();
@@ -408,14 +416,13 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
             made[k].base = cover(made[k].mesh);
         }
     });
-    kept = std::accumulate(kept_of.begin(), kept_of.end(), std::size_t{0});
     std::size_t triangles = 0;
     for (const Meshed& one : made) {
         triangles += one.mesh.triangles.size();
     }
-    if (kept == 0 ||
+    if (std::all_of(kept.begin(), kept.end(), [](std::size_t vertices) { return vertices == 0; }) ||
         (!options.mesh.edge && (triangles > 2 * options.mesh.triangles || 2 * triangles < options.mesh.triangles))) {
-        kept = 0;
+        kept.clear();
         return std::nullopt;
     }
     FrameLineage lineage;
@@ -440,8 +447,47 @@ Frame dryFrame(Outline outline, FrameLineage lineage)
     frame.droplet.outline = std::move(outline);
     lineage.first.reset();
     lineage.bases.clear();
+    lineage.sheets.clear();
     frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
     return frame;
+}
+
+/// Options of a frame whose droplets are those of the frame before.
+SolveOptions followedOptions(const Frame& before, const SequenceOptions& options, SolveOptions solve)
+{
+    if (options.volume_mode == VolumeMode::Track) {
+        solve.fill = {FillBy::Volume, solve.fill.amount, FillSharing::Each};
+        for (const Ancestry& droplet : before.droplets) {
+            solve.volumes.push_back(droplet.volume);
+        }
+    }
+    return solve;
+}
+
+/// Number of vertices of a droplet's mesh, or of its sheet.
+std::size_t vertexCount(const Droplet& droplet, std::size_t k)
+{
+    const ParametricSheet* sheet = sheetOf(droplet, k);
+    return sheet != nullptr ? sheet->places.size() : droplet.meshes[k].vertices.size();
+}
+
+/// Share of the vertices of a frame that the frame before had; new sheets have none.
+/// @param followed  whether the meshes are those of the frame before, moved
+/// @param kept      otherwise: vertices that they kept; or empty
+double keptShare(const Droplet& before, const Droplet& after, bool followed, const std::vector<std::size_t>& kept)
+{
+    std::size_t all = 0;
+    std::size_t known = 0;
+    for (std::size_t k = 0; k < after.meshes.size(); ++k) {
+        const std::size_t count = vertexCount(after, k);
+        all += count;
+        if (followed) {
+            known += isSameSheet(before, after, k) ? count : 0;
+        } else if (!kept.empty() && sheetOf(after, k) == nullptr) {
+            known += kept[k];
+        }
+    }
+    return static_cast<double>(known) / static_cast<double>(all);
 }
 
 }  // namespace
@@ -479,6 +525,7 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
         frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
     }
     lineage.reservoir = volumeOf(frame.droplets);
+    lineage.sheets = originsOf(frame.droplet, {}, lineage.bases);
     frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
     return frame;
 }
@@ -525,11 +572,22 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         frame_options.solve.fill = {FillBy::Volume, *reservoir, FillSharing::Total};
     }
     std::optional<FrameLineage> lineage;
+    std::optional<FollowedSheets> sheets;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
-        lineage = followAll(before, domain, frame.droplet.meshes);
+        if (!before.droplet.sheets.empty()) {
+            lineage = followAll(before, domain, true, frame.droplet.meshes);
+            if (lineage) {
+                sheets = followSheets(before.lineage->sheets, before.droplet, frame.droplet.meshes, lineage->bases,
+                                      followedOptions(before, options, frame_options.solve));
+            }
+        }
+        if (!sheets) {
+            frame.droplet.meshes.clear();
+            lineage = followAll(before, domain, false, frame.droplet.meshes);
+        }
     }
     const bool followed = lineage.has_value();
-    std::size_t kept = 0;
+    std::vector<std::size_t> kept;
     if (!followed && options.keep_vertices && count > 0) {
         lineage = keepVertices(before, groups, domain, frame_options, frame.droplet.meshes, kept);
     }
@@ -537,13 +595,6 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         frame_options.mesh.edge = lineage->edge;  // the edge length stays the same, not the number of triangles
     } else {
         lineage = triangulateAnew(domain, frame_options, frame.droplet.meshes);
-    }
-    if (count > 0) {
-        std::size_t vertices = 0;
-        for (const PlanarMesh& mesh : frame.droplet.meshes) {
-            vertices += mesh.vertices.size();
-        }
-        frame.vertices_kept = followed ? 1.0 : static_cast<double>(kept) / static_cast<double>(vertices);
     }
     frame.droplets.resize(domain.droplets.size());
     lineage->next_id = assignIds(before, groups, links, frame);
@@ -555,7 +606,14 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
             frame_options.solve.volumes.push_back(droplet.volume);
         }
     }
-    finish(frame.droplet, frame_options, lineage->bases, progress);
+    const SheetOrigins origins = sheets ? before.lineage->sheets : SheetOrigins{};
+    if (!sheets) {
+        sheets = FollowedSheets{{}, lineage->bases};
+    }
+    finish(frame.droplet, frame_options, sheets->bases, progress, std::move(sheets->sheets));
+    if (count > 0) {
+        frame.vertices_kept = keptShare(before.droplet, frame.droplet, followed, kept);
+    }
     if (options.volume_mode == VolumeMode::Fill) {
         for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
             frame.droplets[k].volume = frame.droplet.figures[k].volume;
@@ -574,9 +632,8 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
         }
     }
     lineage->reservoir = reservoir.value_or(volumeOf(frame.droplets));
-    // Sheets that hang over their rims have triangles of their own in every frame.
-    frame.continues =
-        followed && !anyDry(frame.droplet) && frame.droplet.sheets.empty() && before.droplet.sheets.empty();
+    frame.continues = followed && !anyDry(frame.droplet) && frame.vertices_kept == 1.0;
+    lineage->sheets = originsOf(frame.droplet, origins, sheets->bases);
     frame.lineage = std::make_shared<const FrameLineage>(*std::move(lineage));
     return frame;
 }

@@ -337,8 +337,9 @@ std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& optio
 }
 
 /// Solves every droplet, whether or not neighbours touch.
+/// @param followed  as of solveShapes()
 LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
-                      const Progress& progress)
+                      const Progress& progress, std::vector<std::optional<SheetResult>> followed = {})
 {
     const std::size_t count = meshes.size();
     LiquidShapes shapes;
@@ -353,7 +354,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         }
         return shapes;
     }
-    if (!mustHang(options)) {
+    followed.resize(count);
+    const bool any_followed = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return !!one; });
+    if (!mustHang(options) && !any_followed) {
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         solution = solve(meshes, quick, progress);
@@ -367,6 +370,10 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     const bool has_fields = solution.report.usable();
     std::vector<Shape> found(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        if (groups[g].size() == 1 && followed[groups[g].front()]) {
+            found[g].sheet = std::move(followed[groups[g].front()]);
+            return;
+        }
         std::vector<PlanarMesh> own;
         std::vector<HeightField> fields;
         for (const std::size_t k : groups[g]) {
@@ -384,7 +391,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     report.model = Model::Exact;
     report.termination = Termination::Converged;
     if (report.method.empty()) {
-        report.method = "simplicial-ldlt";
+        report.method = "multifrontal-ldlt";
     }
     report.unknowns = 0;
     for (const PlanarMesh& mesh : meshes) {
@@ -532,9 +539,9 @@ std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const 
 }
 
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
-                         const Progress& progress)
+                         const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
-    LiquidShapes shapes = solveAll(meshes, options, allow_less, progress);
+    LiquidShapes shapes = solveAll(meshes, options, allow_less, progress, std::move(followed));
     if (shapes.sheets.empty() || options.fill.sharing == FillSharing::Total) {
         return shapes;
     }

@@ -28,9 +28,10 @@ struct LiquidShapes {
 /// @param meshes      footprints
 /// @param options     of solve()
 /// @param allow_less  take the most liquid that a footprint can hold where the fill does not exist
+/// @param followed    sheets that are solved already, one per droplet; or empty
 /// @throws Error      NoSuchDroplet, with the reason and what to change
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
-                         const Progress& progress);
+                         const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});
 
 /// Solves droplets again with other volumes, on the same triangles.
 /// @param shapes   result of solveShapes

@@ -16,6 +16,7 @@
 #include "shape/rim_figures.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
+#include "shape/sheet_follow.h"
 #include "shape/sheet_path.h"
 
 namespace droplet {
@@ -49,6 +50,18 @@ Vec3 weightOf(const SolveOptions& options)
     const double scale = options.liquid.density / options.liquid.surface_tension;
     const PlaneGravity gravity = planeGravity(options);
     return scale * Vec3{-gravity.along.x, -gravity.along.y, gravity.normal};
+}
+
+void requireFlat(const SolveOptions& options)
+{
+    if (!options.ground.flat()) {
+        throw Error(ErrorCode::InvalidArgument, "ground must be flat for sheets that follow their rims");
+    }
+}
+
+SheetMesh meshOf(const ParametricSheet& sheet)
+{
+    return {sheet.places, sheet.triangles, sheet.rim};
 }
 
 /// Distance of a place to the footprint, 0 inside [m].
@@ -221,8 +234,33 @@ SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptio
     SheetResult result;
     result.sheet.footprint = sheet.footprint;
     const Vec3 weight = weightOf(options);
-    take(refillSheet({sheet.places, sheet.triangles, sheet.rim}, sheet.pressure / options.liquid.surface_tension,
-                     volume, weight, baseOf(sheet.footprint, options.ground, weight)),
+    take(refillSheet(meshOf(sheet), sheet.pressure / options.liquid.surface_tension, {FillBy::Volume, volume}, weight,
+                     baseOf(sheet.footprint, options.ground, weight)),
+         options, result);
+    return result;
+}
+
+SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, const PlanarMesh& footprint,
+                   const SolveOptions& options)
+{
+    options.liquid.validate();
+    options.fill.validate();
+    requireFlat(options);
+    if (first.triangles != last.triangles || first.rim != last.rim ||
+        footprint.loop_starts != first.footprint.loop_starts) {
+        throw Error(ErrorCode::InvalidArgument, "first, last and footprint must have the same triangles and loops");
+    }
+    SheetResult result;
+    if (hasInnerCorner(footprint) && !hasInnerCorner(first.footprint)) {
+        // It needs rounding, which solveSheet() does.
+        result.sheet = last;
+        result.end = SheetEnd::Unstable;
+        return result;
+    }
+    result.sheet.footprint = footprint;
+    const std::vector<Vec2> rim(footprint.vertices.begin(), footprint.vertices.begin() + footprint.rimVertexCount());
+    take(followSheet(meshOf(first), meshOf(last), last.pressure / options.liquid.surface_tension, rim,
+                     {options.fill.by, options.fill.amount}, weightOf(options)),
          options, result);
     return result;
 }

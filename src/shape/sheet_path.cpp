@@ -15,23 +15,20 @@
 
 #include "shape/sheet_contact.h"
 #include "shape/sheet_energy.h"
+#include "shape/sheet_limits.h"
 #include "shape/sheet_newton.h"
 #include "shape/sheet_remesh.h"
 
 namespace droplet {
 namespace {
 
-/// Limits of a predicted step: no triangle turns by more than 22°.
-constexpr MotionLimits kPredicted{0.927, 0.4, 2.5};
 /// Steps of Newton's method after which steps of the volume grow or shrink.
 constexpr int kFew = 4;
 constexpr int kMany = 7;
 constexpr double kGrow = 1.6;
 constexpr double kShrink = 0.7;
 constexpr double kRefused = 0.4;
-/// Angle of a triangle, over that when it was made, below which, and growth of the area above which, a sheet needs new
-/// triangles.
-constexpr double kWorn = 0.7;
+/// Growth of the area above which a sheet needs new triangles.
 constexpr double kGrowth = 1.25;
 /// First step of the volume, in cubes of the radius of a disc as large as the footprint.
 constexpr double kFirstPart = 0.02;
@@ -41,18 +38,14 @@ constexpr double kRemeshWork = 20.0;
 /// number of confirmed ones that are kept.
 constexpr double kConfirmed = 0.02;
 constexpr std::size_t kFirm = 6;
-/// Smallest step, over the volume, most work, in factorisations, wear, as above, and smoothings of triangles that stay.
-constexpr double kKeptStep = 0.03;
-constexpr double kKeptWork = 60.0;
+/// Angle of a triangle that stays, over that when it was made, below which the sheet ends.
 constexpr double kKeptWorn = 0.1;
-constexpr int kRelaxations = 5;
 /// Growth of the most work to confirm the end of a path.
 constexpr double kConfirmWork = 1.5;
-/// Most times that a sheet gets new triangles until it is in equilibrium, most times of these without getting nearer to
-/// it, and limits of Newton's method then.
+/// Most times that a sheet gets new triangles until it is in equilibrium, and most times of these without getting
+/// nearer to it.
 constexpr int kRenewals = 6;
 constexpr int kWorse = 2;
-constexpr NewtonLimits kSettling{.steps = 20, .shifted_steps = 8, .worn = 0.4};
 /// Doublings of the first volume, until it wets the ground: on a ball, little liquid leaves the top dry.
 constexpr int kWetter = 8;
 /// Growth of edges when a sheet fails with small ones.
@@ -124,8 +117,8 @@ public:
     }
 
     /// Begins at an equilibrium, and keeps its triangles.
-    Path(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base)
-        : target_{FillBy::Volume, volume},
+    Path(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight, const SheetBase& base)
+        : target_(target),
           options_{weight},
           base_(base),
           now_{sheet, pressure, integrate(sheet, weight).volume - base.integrals.volume, {}},
@@ -584,9 +577,10 @@ FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, co
     return Path(footprint, target, options).run();
 }
 
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base)
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight,
+                        const SheetBase& base)
 {
-    return Path(sheet, pressure, volume, weight, base).run();
+    return Path(sheet, pressure, target, weight, base).run();
 }
 
 }  // namespace droplet

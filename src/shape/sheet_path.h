@@ -61,12 +61,12 @@ struct FilledSheet {
 /// @param footprint  of one droplet, or of several at one pressure, which touch each other no more than themselves
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
 
-/// Fills or drains an equilibrium to another volume on the same triangles. They can follow only so far: the end is
-/// Unstable where they wear out.
+/// Fills or drains an equilibrium to a target on the same triangles. They can follow only so far: the end is Unstable
+/// where they wear out.
 /// @param sheet     an equilibrium
 /// @param pressure  of it, over the surface tension [1/m]
-/// @param volume    wanted [m³]
 /// @param base      what it lies on
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, double volume, Vec3 weight, const SheetBase& base);
+FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight,
+                        const SheetBase& base);
 
 }  // namespace droplet

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -161,6 +162,45 @@ TEST_F(AnimateTest, FillsEveryFrame)
         EXPECT_NEAR(frame["height_max_m"].get<double>(), 1e-3, 1e-9);
         EXPECT_TRUE(frame["closed"].get<bool>());
     }
+}
+
+/// JSON of a GLB: after a header of twelve bytes and the chunk's length and type.
+json jsonOf(const std::string& glb)
+{
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, sizeof length);
+    return json::parse(glb.substr(20, length));
+}
+
+TEST_F(AnimateTest, BeadsThatGrowAreMorphTargetsOfOneMesh)
+{
+    fs::create_directory(directory() / "beads");
+    for (int frame = 0; frame < 4; ++frame) {
+        const double radius = 14.0 + 0.2 * frame;
+        writeFile(directory() / "beads" / name(frame), greymap(64, 48, [=](int i, int j) {
+                      const double inside = radius - std::hypot(i + 0.5 - 32.0, j + 0.5 - 24.0);
+                      return static_cast<int>(std::lround(255.0 * std::clamp(inside + 0.5, 0.0, 1.0)));
+                  }));
+    }
+    const std::vector<std::string> arguments{"beads",           "film.glb", "--volume-mode", "fill",
+                                             "--contact-angle", "120deg",   "--threads"};
+    std::vector<std::string> films;
+    for (const char* threads : {"1", "2"}) {
+        std::vector<std::string> all = arguments;
+        all.emplace_back(threads);
+        const json result = report(all);
+        EXPECT_EQ(result["transitions"]["vertices_kept"], 3);
+        EXPECT_EQ(result["transitions"]["vertices_kept_share"], 1.0);
+        for (const json& frame : result["frames"]) {
+            EXPECT_NEAR(frame["contact_angle_deg"]["mean"].get<double>(), 120.0, 1e-6);
+            EXPECT_GT(frame["overhang_m"].get<double>(), 0.0);
+        }
+        films.push_back(bytesOf("film.glb"));
+    }
+    EXPECT_EQ(films[0], films[1]);
+    const json film = jsonOf(films[0]);
+    ASSERT_THAT(film["meshes"], SizeIs(1));
+    EXPECT_THAT(film["meshes"][0]["primitives"][0]["targets"], SizeIs(3));
 }
 
 TEST_F(AnimateTest, TracksDropletsWhenTheyMerge)

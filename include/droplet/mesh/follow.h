@@ -23,14 +23,16 @@ PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 /// gets a vertex. Finally the rim is widened or narrowed until its area is that of the footprint. Inner vertices move
 /// harmonically from their places in `first`, so errors do not add up over a run of frames.
 ///
-/// Guarantees: connections are those of `first`; no triangle is turned over; angles are at least 15°, or three quarters
-/// of the smallest angle of `first` if that is less; the mean edge is between 2/3 and 3/2 as long; chords lie off their
+/// Guarantees: connections are those of `first`; no triangle is turned over; angles are at least 15°, or a share of the
+/// smallest angle of `first` if that is less; the mean edge is between 2/3 and 3/2 as long; chords lie off their
 /// piece of the loop by less than a fifth of their length.
 /// @param first      mesh with which the run of frames began
 /// @param last       the same mesh at its present place, with the connections of `first`
 /// @param footprint  footprint to move to
+/// @param angles     that share, 0 … 1; with 0 the rim alone counts
 /// @return           the moved mesh; empty if the guarantees cannot be met, then triangulate the footprint anew
 /// @throws Error     InvalidArgument if the meshes have different connections
-std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint);
+std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint,
+                                 double angles = 0.75);
 
 }  // namespace droplet

@@ -45,8 +45,8 @@ struct Frame {
     Droplet droplet;                 ///< the droplets; without meshes and surface if the frame has no liquid
     std::vector<Ancestry> droplets;  ///< one per droplet
     bool continues = false;          ///< the surface has the triangles of the frame before; only its vertices moved
-    std::optional<double> vertices_kept;  ///< share of the meshes' vertices that the frame before had, in place or
-                                          ///< moved; empty if there is no frame before, or one of the two is dry
+    std::optional<double> vertices_kept;  ///< share of the vertices of meshes and sheets that the frame before had, in
+                                          ///< place or moved; empty if there is none, or one of the two is dry
     double volume_gained = 0.0;  ///< volume of new droplets [m³]; with VolumeMode::Total only after a dry frame; with
                                  ///< VolumeMode::Fill how much the total volume grew
     double volume_lost = 0.0;  ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame; with
@@ -72,9 +72,10 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// by droplet.solve.fill, or lost.
 ///
 /// If every droplet continues as one droplet with the same number of holes, meshes move along (mesh/follow.h) and
-/// droplets keep their order. Else, with the linear model and without grading, droplets keep their triangles far from
-/// changes of their rims (mesh/patch.h). The length of an edge then stays the same as long as it gives half to twice
-/// the requested number of triangles.
+/// droplets keep their order. Sheets follow their rims (shape/sheet.h); if one of them cannot, the surface does not
+/// continue. Else, with the linear model and without grading, droplets keep their triangles far from changes of their
+/// rims (mesh/patch.h). The length of an edge then stays the same as long as it gives half to twice the requested
+/// number of triangles.
 ///
 /// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next frame are new.
 /// The first droplets of a sequence are filled by droplet.solve.fill, in whatever frame they appear.

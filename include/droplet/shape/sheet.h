@@ -89,6 +89,24 @@ std::vector<ParametricSheet> separate(const ParametricSheet& sheet);
 /// @throws Error   InvalidArgument: options, or a volume that is not positive
 SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptions& options);
 
+/// Moves a sheet along with its rim, and fills or drains it to the amount of a fill, on the same triangles.
+///
+/// The rim goes to its new place in steps; each step is an equilibrium, and a minimum. The result is what liquid does
+/// whose rim moves slowly: where several equilibria exist, solveSheet() may find another one, as it fills dry ground.
+/// If the rim moves, turns or grows as a whole, so do the triangles.
+///
+/// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
+/// input gives the same bits. Triangles keep a fifth of the angles of `first`, or 18°, and their area is between 0.44
+/// and 2.25 times that of `first`.
+/// @param first      sheet with which the run of motions began, result of solveSheet
+/// @param last       the same sheet at its present place
+/// @param footprint  that of `first`, with the same loops, its rim moved
+/// @param options    liquid, gravity, tilt and fill, as for solveSheet
+/// @return           the end is Reached, or the triangles cannot follow: then solve the sheet anew
+/// @throws Error     InvalidArgument: options, or sheets and a footprint that do not belong together
+SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, const PlanarMesh& footprint,
+                   const SolveOptions& options);
+
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
 /// @param sheet    result of solveSheet
 /// @param options  options it was solved with

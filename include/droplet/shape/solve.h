@@ -55,7 +55,8 @@ enum class Termination {
 
 /// Figures of a solve.
 struct SolveReport {
-    std::string method;        ///< "simplicial-llt", "simplicial-ldlt" or "multigrid-pcg"; if droplets differ, that of
+    std::string method;        ///< "simplicial-llt", "simplicial-ldlt", "multigrid-pcg", or, where no height field was found,
+                               ///< "multifrontal-ldlt"; if droplets differ, that of
                                ///< the one with most unknowns
     std::size_t unknowns = 0;  ///< number of inner vertices of all droplets
     std::size_t iterations = 0;    ///< largest number for a linear system; 1 for a factorisation

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Continuation in the place of the rim, with Newton's method as corrector. What the rim's motion has of a translation,
+// a turn and a growth, the sheet takes over exactly; the rest goes inwards harmonically, by the cotangent Laplacian:
+// U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates" (1993).
+#include "shape/sheet_follow.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+
+#include "shape/sheet_energy.h"
+#include "shape/sheet_limits.h"
+#include "shape/sheet_newton.h"
+#include "shape/sheet_remesh.h"
+
+namespace droplet {
+namespace {
+
+/// Steps of Newton's method up to which steps of the rim grow, their growth, shortening until no triangle turns too
+/// far, and shortening of a step that was refused.
+constexpr int kFew = 4;
+constexpr double kGrow = 1.6;
+constexpr double kGentler = 0.6;
+constexpr double kRefused = 0.4;
+/// Angle of a triangle, over that when it was made, below which a sheet is solved anew. With 0.4, a word that swells
+/// kept its vertices in 14 of 23 frames, with 0.2 and 0.1 in 16.
+constexpr double kMostWorn = 0.2;
+/// Growth of the area above which, or below the inverse of which, it is: as for the edges of moved footprints.
+constexpr double kMostGrowth = 2.25;
+
+using Place = std::complex<double>;
+
+Place placeOf(const Vec3& p)
+{
+    return {p.x, p.y};
+}
+
+/// Motion z ↦ turn · (z − from) + to of the plane.
+struct Similarity {
+    Place turn;  ///< and growth
+    Place from;
+    Place to;
+
+    [[nodiscard]] Place operator()(Place z) const { return turn * (z - from) + to; }
+    [[nodiscard]] double growth() const { return std::abs(turn); }
+};
+
+/// Similarity that is nearest to the motion of a rim.
+Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& rim)
+{
+    Similarity similarity;
+    for (std::size_t v = 0; v < rim.size(); ++v) {
+        similarity.from += placeOf(sheet.places[v]);
+        similarity.to += Place(rim[v].x, rim[v].y);
+    }
+    similarity.from /= static_cast<double>(rim.size());
+    similarity.to /= static_cast<double>(rim.size());
+    Place turned;
+    double size = 0.0;
+    for (std::size_t v = 0; v < rim.size(); ++v) {
+        const Place arm = placeOf(sheet.places[v]) - similarity.from;
+        turned += std::conj(arm) * (Place(rim[v].x, rim[v].y) - similarity.to);
+        size += std::norm(arm);
+    }
+    similarity.turn = turned / size;
+    return similarity;
+}
+
+/// Harmonic motion of the vertices inside, along the ground.
+/// @param moves  of the rim's vertices, in two columns
+Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
+{
+    const auto inner = static_cast<Eigen::Index>(sheet.places.size() - sheet.rim);
+    const auto rowOf = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rim); };
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
+    for (const Triangle& t : sheet.triangles) {
+        const double twice = 2.0 * length(areaVector(sheet.places, t));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[(k + 1) % 3];
+            const std::uint32_t b = t[(k + 2) % 3];
+            const Vec3& tip = sheet.places[t[k]];
+            const double weight = 0.5 * dot(sheet.places[a] - tip, sheet.places[b] - tip) / twice;
+            for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+                if (from < sheet.rim) {
+                    continue;
+                }
+                entries.emplace_back(rowOf(from), rowOf(from), weight);
+                if (to < sheet.rim) {
+                    right.row(rowOf(from)) += weight * moves.row(static_cast<Eigen::Index>(to));
+                } else {
+                    entries.emplace_back(rowOf(from), rowOf(to), -weight);
+                }
+            }
+        }
+    }
+    Eigen::SparseMatrix<double> matrix(inner, inner);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+}
+
+/// Motion of all vertices when the rim goes to new places.
+std::vector<Vec3> motionOf(const SheetMesh& sheet, const std::vector<Vec2>& rim, const Similarity& similarity)
+{
+    std::vector<Vec3> motion;
+    motion.reserve(sheet.places.size());
+    for (const Vec3& p : sheet.places) {
+        const Place way = similarity(placeOf(p)) - placeOf(p);
+        motion.push_back({way.real(), way.imag(), (similarity.growth() - 1.0) * p.z});
+    }
+    Eigen::MatrixX2d rest(static_cast<Eigen::Index>(rim.size()), 2);
+    for (std::size_t v = 0; v < rim.size(); ++v) {
+        const Vec3 there = sheet.places[v] + motion[v];
+        rest.row(static_cast<Eigen::Index>(v)) << rim[v].x - there.x, rim[v].y - there.y;
+        motion[v] = {rim[v].x - sheet.places[v].x, rim[v].y - sheet.places[v].y, 0.0};
+    }
+    const Eigen::MatrixX2d inside = harmonic(sheet, rest);
+    for (std::size_t v = rim.size(); v < motion.size(); ++v) {
+        const auto row = static_cast<Eigen::Index>(v - rim.size());
+        motion[v] = motion[v] + Vec3{inside(row, 0), inside(row, 1), 0.0};
+    }
+    return motion;
+}
+
+/// Pressure after a motion, where gravity does not change the shape: it grows inversely to the sheet, at its middle.
+double pressureAfter(const Similarity& similarity, double pressure, Vec3 weight)
+{
+    const auto atMiddle = [&](Place middle) { return weight.x * middle.real() + weight.y * middle.imag(); };
+    return (pressure - atMiddle(similarity.from)) / similarity.growth() + atMiddle(similarity.to);
+}
+
+/// Sheet whose rim moves.
+class MovedSheet {
+public:
+    MovedSheet(const SheetMesh& first, const SheetMesh& last, double pressure, Vec3 weight)
+        : weight_(weight),
+          sheet_(last),
+          pressure_(pressure),
+          volume_(integrate(last, weight).volume),
+          made_angles_(minAngles(first)),
+          made_area_(integrate(first, weight).area),
+          solver_(last, weight)
+    {
+    }
+
+    /// Moves the rim to new places, in steps, and fills or drains the sheet on the way.
+    /// @return  false if the triangles cannot follow
+    bool move(const std::vector<Vec2>& rim, const SheetTarget& target)
+    {
+        if (!solve(sheet_, volume_, pressure_, kSettling)) {
+            return false;
+        }
+        const Similarity similarity = nearestSimilarity(sheet_, rim);
+        const std::vector<Vec3> motion = motionOf(sheet_, rim, similarity);
+        // With an angle or a height as the target, the volume comes near it if it grows as the rim does.
+        const double volume =
+            target.by == FillBy::Volume ? target.amount : volume_ * std::pow(similarity.growth(), 3.0);
+        const double filling = volume - volume_;
+        const double pressing = pressureAfter(similarity, pressure_, weight_) - pressure_;
+        double step = 1.0;
+        for (double left = 1.0; left > 0.0;) {
+            const bool is_last = step >= left;
+            const double size = std::min(step, left);
+            SheetMesh next = sheet_;
+            for (std::size_t v = 0; v < next.places.size(); ++v) {
+                next.places[v] = next.places[v] + size * motion[v];
+            }
+            for (std::size_t v = 0; is_last && v < rim.size(); ++v) {
+                next.places[v] = {rim[v].x, rim[v].y, 0.0};
+            }
+            const double next_volume = is_last ? volume : volume_ + size * filling;
+            const double missing = next_volume - integrate(next, weight_).volume;
+            for (std::size_t v = next.rim; v < next.places.size(); ++v) {
+                next.places[v] = next.places[v] + missing * newton_.tangent[v];
+                next.places[v].z = std::max(next.places[v].z, 0.0);
+            }
+            double next_pressure = pressure_ + size * pressing + missing * newton_.pressure_slope;
+            const bool is_gentle = isGentle(sheet_, next, kPredicted);
+            const NewtonResult before = newton_;
+            const bool is_solved = is_gentle && solve(next, next_volume, next_pressure, {});
+            if (is_solved && !repair(next, next_volume, next_pressure)) {
+                return false;  // smaller steps would lead to the same triangles
+            }
+            if (is_solved) {
+                sheet_ = std::move(next);
+                pressure_ = next_pressure;
+                volume_ = next_volume;
+                left -= size;
+                step = size * (newton_.steps <= kFew ? kGrow : 1.0);
+                continue;
+            }
+            newton_ = before;
+            step = size * (is_gentle ? kRefused : kGentler);
+            if (step < kKeptStep || factorisations_ > kKeptWork) {
+                return false;
+            }
+        }
+        const double growth = integrate(sheet_, weight_).area / made_area_;
+        return growth <= kMostGrowth && growth >= 1.0 / kMostGrowth;
+    }
+
+    [[nodiscard]] const SheetMesh& sheet() const { return sheet_; }
+    [[nodiscard]] double pressure() const { return pressure_; }
+    [[nodiscard]] int newtonSteps() const { return newton_steps_; }
+
+private:
+    bool solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
+    {
+        newton_ = solver_.solve(sheet, volume, pressure, limits);
+        newton_steps_ += newton_.steps;
+        factorisations_ += newton_.factorisations;
+        return newton_.converged;
+    }
+
+    /// Moves the vertices of an equilibrium along it where triangles are worn.
+    bool repair(SheetMesh& sheet, double volume, double& pressure)
+    {
+        if (!isWorn(made_angles_, sheet, kWorn)) {
+            return true;
+        }
+        sheet = relax(sheet, kRelaxations, true);
+        return solve(sheet, volume, pressure, kSettling) && !isWorn(made_angles_, sheet, kMostWorn);
+    }
+
+    Vec3 weight_;
+    SheetMesh sheet_;
+    double pressure_;
+    double volume_;
+    std::vector<double> made_angles_;
+    double made_area_;
+    SheetSolver solver_;
+    NewtonResult newton_;
+    int newton_steps_ = 0;
+    int factorisations_ = 0;
+};
+
+}  // namespace
+
+FilledSheet followSheet(const SheetMesh& first, const SheetMesh& last, double pressure, const std::vector<Vec2>& rim,
+                        const SheetTarget& target, Vec3 weight)
+{
+    MovedSheet moved(first, last, pressure, weight);
+    if (!moved.move(rim, target)) {
+        FilledSheet unmoved;
+        unmoved.mesh = last;
+        unmoved.pressure = pressure;
+        unmoved.end = SheetEnd::Unstable;
+        unmoved.newton_steps = moved.newtonSteps();
+        return unmoved;
+    }
+    FilledSheet filled = refillSheet(moved.sheet(), moved.pressure(), target, weight, {});
+    filled.newton_steps += moved.newtonSteps();
+    if (filled.end == SheetEnd::Reached && isWorn(minAngles(first), filled.mesh, kMostWorn)) {
+        filled.end = SheetEnd::Unstable;
+    }
+    return filled;
+}
+
+}  // namespace droplet

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sheets whose rims move, against sheets that are solved anew, and against spherical caps.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/mesh/follow.h"
+#include "droplet/mesh/triangulate.h"
+#include "droplet/shape/sheet.h"
+#include "droplet/units.h"
+#include "mesh/carry_points.h"
+#include "support/domains.h"
+#include "support/equilibrium.h"
+
+namespace droplet {
+namespace {
+
+using testing::discMeshes;
+using testing::domainOf;
+using testing::ellipseLoop;
+using testing::polygonLoop;
+using testing::smoothLoop;
+
+constexpr double kPi = std::numbers::pi;
+
+/// σ = ρ = 1, so that gravity is ρg/σ.
+SolveOptions optionsFor(double gravity, Fill fill)
+{
+    SolveOptions options;
+    options.liquid = {"unit", 1.0, 1.0};
+    options.gravity = gravity;
+    options.model = Model::Exact;
+    options.fill = fill;
+    return options;
+}
+
+Fill angleOf(double angle)
+{
+    return {FillBy::ContactAngle, angle * kDegree, FillSharing::Each};
+}
+
+PlanarMesh moved(const PlanarMesh& mesh, const std::function<Vec2(Vec2)>& motion)
+{
+    std::vector<Vec2> rim;
+    for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
+        rim.push_back(motion(mesh.vertices[v]));
+    }
+    return moveRim(mesh, rim);
+}
+
+double energyOf(const ParametricSheet& sheet, const SolveOptions& options)
+{
+    const ShapeFigures figures = measure(sheet, options);
+    return figures.surface_energy + figures.gravity_energy;
+}
+
+/// Largest distance of a sheet's vertices from where a motion brings those of another.
+double gap(const ParametricSheet& from, const ParametricSheet& to, const std::function<Vec3(Vec3)>& motion)
+{
+    double largest = 0.0;
+    for (std::size_t v = 0; v < from.places.size(); ++v) {
+        largest = std::max(largest, length(to.places[v] - motion(from.places[v])));
+    }
+    return largest;
+}
+
+TEST(SheetFollow, ABeadOnAGrowingDiscIsACap)
+{
+    const double angle = 140.0 * kDegree;
+    const SolveOptions options = optionsFor(0.0, angleOf(140.0));
+    const SheetResult first = solveSheet(discMeshes(0.05).front(), options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    ParametricSheet last = first.sheet;
+    double radius = 1.0;
+    for (int frame = 1; frame <= 10; ++frame) {
+        radius *= 1.01;
+        const PlanarMesh footprint = moved(first.sheet.footprint, [&](Vec2 p) { return radius * p; });
+        const SheetResult next = follow(first.sheet, last, footprint, options);
+        ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
+        EXPECT_EQ(next.sheet.triangles, first.sheet.triangles);
+        last = next.sheet;
+    }
+    const double ball = radius / std::sin(angle);
+    const ShapeFigures figures = measure(last, options);
+    EXPECT_NEAR(figures.contact_angle.mean, angle, 1e-8);
+    EXPECT_NEAR(figures.height_max, ball * (1.0 - std::cos(angle)), 1e-3 * figures.height_max);
+    EXPECT_NEAR(figures.liquid_area, 2.0 * kPi * ball * ball * (1.0 - std::cos(angle)), 5e-4 * figures.liquid_area);
+    EXPECT_NEAR(last.pressure, 2.0 / ball, 6e-4 * last.pressure);
+    // Without gravity all of it grows alike.
+    EXPECT_LT(gap(first.sheet, last, [&](Vec3 p) { return radius * p; }), 1e-8);
+}
+
+TEST(SheetFollow, APuddleOnAGrowingDiscIsAsSolvedAnew)
+{
+    SolveOptions options = optionsFor(2.0, {FillBy::Volume, 3.0, FillSharing::Each});
+    const SheetResult first = solveSheet(discMeshes(0.05).front(), options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    ParametricSheet last = first.sheet;
+    double radius = 1.0;
+    for (int frame = 1; frame <= 10; ++frame) {
+        radius *= 1.01;
+        options.fill.amount *= 1.02;
+        const PlanarMesh footprint = moved(first.sheet.footprint, [&](Vec2 p) { return radius * p; });
+        const SheetResult next = follow(first.sheet, last, footprint, options);
+        ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
+        EXPECT_NEAR(next.volume, options.fill.amount, 1e-10 * options.fill.amount);
+        EXPECT_NEAR(measure(next.sheet, options).volume, options.fill.amount, 1e-10 * options.fill.amount);
+        last = next.sheet;
+    }
+    EXPECT_EQ(last.triangles, first.sheet.triangles);
+    const SheetResult anew = solveSheet(last.footprint, options);
+    ASSERT_EQ(anew.end, SheetEnd::Reached);
+    EXPECT_NEAR(energyOf(last, options), energyOf(anew.sheet, options), 3e-4 * energyOf(anew.sheet, options));
+    EXPECT_NEAR(last.pressure, anew.sheet.pressure, 1e-3 * anew.sheet.pressure);
+    EXPECT_NEAR(measure(last, options).contact_angle.mean, anew.contact_angle, 0.1 * kDegree);
+}
+
+TEST(SheetFollow, ABeadThatMovesKeepsItsShape)
+{
+    // On a slope, the pressure at the origin changes with the place.
+    SolveOptions options = optionsFor(0.5, angleOf(120.0));
+    options.tilt = 20.0 * kDegree;
+    const SheetResult first = solveSheet(discMeshes(0.1).front(), options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    const Vec2 way{0.08, -0.06};
+    const SheetResult next =
+        follow(first.sheet, first.sheet, moved(first.sheet.footprint, [&](Vec2 p) { return p + way; }), options);
+    ASSERT_EQ(next.end, SheetEnd::Reached);
+    EXPECT_LT(gap(first.sheet, next.sheet, [&](Vec3 p) { return p + Vec3{way.x, way.y, 0.0}; }), 1e-9);
+    EXPECT_NEAR(next.volume, first.volume, 1e-9 * first.volume);
+    EXPECT_NE(next.sheet.pressure, first.sheet.pressure);
+}
+
+TEST(SheetFollow, AnEllipseThatTurnsIsAsSolvedAnew)
+{
+    const SolveOptions options = optionsFor(1.0, angleOf(115.0));
+    const Footprint ellipse{ellipseLoop(1.3, 0.8), {}};
+    const PlanarMesh start = triangulate({{ellipse}, {}}, {.edge = 0.07}).front();
+    const SheetResult first = solveSheet(start, options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    // Rim vertices go to the nearest place on the turned ellipse: they do not turn with it.
+    PlanarMesh mesh = start;
+    ParametricSheet last = first.sheet;
+    for (int frame = 1; frame <= 8; ++frame) {
+        const double turn = 5.0 * kDegree * frame;
+        std::vector<Vec2> points;
+        for (const Vec2 p : ellipse.rim.points) {
+            points.push_back(
+                {std::cos(turn) * p.x - std::sin(turn) * p.y, std::sin(turn) * p.x + std::cos(turn) * p.y});
+        }
+        const std::optional<PlanarMesh> footprint = follow(start, mesh, {smoothLoop(points), {}});
+        ASSERT_TRUE(footprint);
+        mesh = *footprint;
+        const SheetResult next = follow(first.sheet, last, mesh, options);
+        ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
+        EXPECT_EQ(next.sheet.triangles, first.sheet.triangles);
+        EXPECT_NEAR(measure(next.sheet, options).contact_angle.mean, 115.0 * kDegree, 1e-8);
+        EXPECT_NEAR(energyOf(next.sheet, options), energyOf(first.sheet, options),
+                    1e-3 * energyOf(first.sheet, options))
+            << frame;
+        EXPECT_NEAR(next.sheet.pressure, first.sheet.pressure, 1e-3 * first.sheet.pressure) << frame;
+        last = next.sheet;
+    }
+}
+
+TEST(SheetFollow, ABeadThatTurnsAtOnceKeepsItsShape)
+{
+    const SolveOptions options = optionsFor(1.0, angleOf(115.0));
+    const SheetResult first = solveSheet(triangulate(domainOf(ellipseLoop(1.3, 0.8)), {.edge = 0.1}).front(), options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    const double c = std::cos(15.0 * kDegree);
+    const double s = std::sin(15.0 * kDegree);
+    const PlanarMesh footprint = moved(first.sheet.footprint, [=](Vec2 p) {
+        return Vec2{c * p.x - s * p.y, s * p.x + c * p.y};
+    });
+    const SheetResult next = follow(first.sheet, first.sheet, footprint, options);
+    ASSERT_EQ(next.end, SheetEnd::Reached);
+    EXPECT_LT(gap(first.sheet, next.sheet,
+                  [=](Vec3 p) {
+                      return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+                  }),
+              1e-8);
+}
+
+TEST(SheetFollow, RoundedInnerCornersMoveAlong)
+{
+    const PlanarMesh el =
+        triangulate(domainOf(polygonLoop({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})), {.edge = 0.15}).front();
+    const SolveOptions options = optionsFor(0.0, angleOf(60.0));
+    const SheetResult first = solveSheet(el, options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    ASSERT_NE(first.sheet.footprint.rimVertexCount(), el.rimVertexCount());
+    const auto bent = [](Vec2 p) { return Vec2{1.02 * p.x + 0.01 * p.y * p.y, p.y + 0.03 * p.x}; };
+    const PlanarMesh after = moved(el, bent);
+    std::vector<Vec2> points(first.sheet.footprint.vertices.begin(),
+                             first.sheet.footprint.vertices.begin() + first.sheet.footprint.rimVertexCount());
+    const PlanarMesh footprint = moveRim(first.sheet.footprint, carryPoints(el, after, points));
+    EXPECT_NEAR(area(footprint) / area(after), area(first.sheet.footprint) / area(el), 1e-4);
+    const SheetResult next = follow(first.sheet, first.sheet, footprint, options);
+    ASSERT_EQ(next.end, SheetEnd::Reached);
+    const SheetResult anew = solveSheet(after, options);
+    ASSERT_EQ(anew.end, SheetEnd::Reached);
+    EXPECT_NEAR(next.volume, anew.volume, 5e-3 * anew.volume);
+    EXPECT_NEAR(next.sheet.pressure, anew.sheet.pressure, 5e-3 * anew.sheet.pressure);
+}
+
+TEST(SheetFollow, TellsWhatItCannotFollow)
+{
+    const SolveOptions options = optionsFor(0.0, angleOf(120.0));
+    const SheetResult first = solveSheet(discMeshes(0.15).front(), options);
+    ASSERT_EQ(first.end, SheetEnd::Reached);
+    const ParametricSheet& sheet = first.sheet;
+    const auto endOf = [&](const std::function<Vec2(Vec2)>& motion) {
+        return follow(sheet, sheet, moved(sheet.footprint, motion), options).end;
+    };
+    EXPECT_EQ(endOf([](Vec2 p) { return 1.2 * p; }), SheetEnd::Reached);
+    EXPECT_NE(endOf([](Vec2 p) { return 1.6 * p; }), SheetEnd::Reached) << "triangles would be too large";
+    EXPECT_NE(endOf([](Vec2 p) { return Vec2{4.0 * p.x, 0.25 * p.y}; }), SheetEnd::Reached) << "triangles are worn";
+    // A dent with a corner that solveSheet() would round.
+    EXPECT_NE(endOf([](Vec2 p) {
+                  return p.x > 0.0 ? Vec2{p.x * (0.6 + 0.4 * std::abs(p.y)), p.y} : p;
+              }),
+              SheetEnd::Reached);
+    PlanarMesh other = discMeshes(0.1).front();
+    EXPECT_THROW((void)follow(sheet, sheet, other, options), Error);
+}
+
+TEST(SheetFollow, GivesTheSameBitsAtAnyNumberOfThreads)
+{
+    const SolveOptions options = optionsFor(1.0, angleOf(120.0));
+    const SheetResult first = solveSheet(discMeshes(0.1).front(), options);
+    const PlanarMesh footprint = moved(first.sheet.footprint, [](Vec2 p) { return Vec2{1.04 * p.x, 0.98 * p.y}; });
+    std::vector<SheetResult> results;
+    for (const std::size_t threads : {1, 2}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        results.push_back(follow(first.sheet, first.sheet, footprint, options));
+    }
+    ASSERT_EQ(results.front().end, SheetEnd::Reached);
+    EXPECT_EQ(results[0].sheet.places, results[1].sheet.places);
+    EXPECT_EQ(results[0].sheet.pressure, results[1].sheet.pressure);
+}
+
+TEST(CarryPoints, FollowTheWholeRim)
+{
+    const PlanarMesh mesh = discMeshes(0.2).front();
+    const auto motion = [](Vec2 p) { return Vec2{0.3 + 1.1 * p.x - 0.4 * p.y, -0.2 + 0.4 * p.x + 1.1 * p.y}; };
+    const std::vector<Vec2> points{{0.9, 0.3}, {1.1, 0.0}, mesh.vertices[3], {0.0, -1.0}};
+    const std::vector<Vec2> carried = carryPoints(mesh, moved(mesh, motion), points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_LT(length(carried[k] - motion(points[k])), 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace droplet
