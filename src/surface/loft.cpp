@@ -19,6 +19,7 @@
 #include "number_text.h"
 #include "shape/recovered_gradients.h"
 #include "shape/sheet_mesh.h"
+#include "surface/flat_map.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
 
@@ -362,9 +363,11 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
         surface.normals[v] = {side.x, side.y, std::cos(sheet.contact_angle[v])};
     }
     surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
+    const FlatMap map = options.flatten ? flatMap(sheet) : projected(sheet);
+    surface.texture_map = map.kind;
     for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
         surface.normals[v] = (1.0 / length(surface.normals[v])) * surface.normals[v];
-        surface.uvs.push_back(textureAt({sheet.places[v].x, sheet.places[v].y}, options));
+        surface.uvs.push_back(textureAt(map.places[v], options));
         surface.weld.push_back(v);
     }
     surface.positions.resize(total.vertices);
@@ -386,6 +389,7 @@ void append(Surface& surface, const Surface& more)
     add(surface.normals, more.normals);
     add(surface.uvs, more.uvs);
     add(surface.contact_angle, more.contact_angle);
+    surface.texture_map = std::max(surface.texture_map, more.texture_map);
     for (const std::uint32_t v : more.weld) {
         surface.weld.push_back(first + v);
     }
