@@ -41,6 +41,7 @@ droplet::OutputReport describeOutput(const droplet::Surface& surface, const std:
     output.format = format;
     output.triangles = surface.triangles.size();
     output.topology = droplet::topology(surface);
+    output.texture_map = surface.texture_map;
     // Only glTF repeats a vertex to give it a second normal.
     const bool repeats = format == droplet::Format::Glb || format == droplet::Format::Gltf;
     for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {

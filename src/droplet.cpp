@@ -213,8 +213,9 @@ RefillState changeOf(const Surface& from, const Surface& to, double fill)
 /// @param shapes  of the droplets at fill 1
 /// @throws Error  NoSuchDroplet where droplets of the range do not exist, if it may not shrink
 Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveOptions& solve, const FillRange& range,
-                const LoftOptions& lofting)
+                LoftOptions lofting)
 {
+    lofting.flatten = false;         // texture coordinates are those of fill 1
     constexpr int kMaxHalvings = 2;  // of a step to a fill that does not exist
     Refill result{1.0, 1.0, {}};
     for (const double end : {range.min, range.max}) {
@@ -341,6 +342,10 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.warnings = warningsOf(droplet, options);
     if (!less.empty()) {
         droplet.warnings.push_back(less);
+    }
+    if (droplet.surface.texture_map == TextureMap::Folded) {
+        droplet.warnings.push_back(
+            "the texture coordinates repeat where the liquid leans out over its rim; do not put a picture on it there");
     }
     if (std::string tall = heightWarning(droplet, solved.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));

@@ -45,6 +45,19 @@ const char* nameOf(FillBy by)
     throw Error(ErrorCode::InvalidArgument, "report: fill.by has an unknown value");
 }
 
+const char* nameOf(TextureMap map)
+{
+    switch (map) {
+        case TextureMap::Projection:
+            return "projection";
+        case TextureMap::Flat:
+            return "flat";
+        case TextureMap::Folded:
+            return "folded";
+    }
+    throw Error(ErrorCode::InvalidArgument, "report: output.uv has an unknown value");
+}
+
 const char* nameOf(GroundKind kind)
 {
     switch (kind) {
@@ -158,7 +171,8 @@ Json outputSection(const OutputReport& output)
             {"manifold", output.topology.manifold},
             {"euler", output.topology.euler},
             {"components", output.topology.components},
-            {"boundary_loops", output.topology.boundary_loops}};
+            {"boundary_loops", output.topology.boundary_loops},
+            {"uv", nameOf(output.texture_map)}};
 }
 
 Json ontoSection(const ObjectReport& onto)

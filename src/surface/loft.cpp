@@ -20,6 +20,7 @@
 #include "shape/recovered_gradients.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_mesh.h"
+#include "surface/flat_map.h"
 #include "surface/rim_normals.h"
 #include "surface/wet_part.h"
 
@@ -372,9 +373,11 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
             std::sin(sheet.contact_angle[v]) / length(side) * side + std::cos(sheet.contact_angle[v]) * up;
     }
     surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
+    const FlatMap map = options.flatten ? flatMap(sheet) : projected(sheet);
+    surface.texture_map = map.kind;
     for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
         surface.normals[v] = (1.0 / length(surface.normals[v])) * surface.normals[v];
-        surface.uvs.push_back(textureAt({sheet.places[v].x, sheet.places[v].y}, options));
+        surface.uvs.push_back(textureAt(map.places[v], options));
         surface.weld.push_back(v);
     }
     surface.positions.resize(total.vertices);
@@ -396,6 +399,7 @@ void append(Surface& surface, const Surface& more)
     add(surface.normals, more.normals);
     add(surface.uvs, more.uvs);
     add(surface.contact_angle, more.contact_angle);
+    surface.texture_map = std::max(surface.texture_map, more.texture_map);
     for (const std::uint32_t v : more.weld) {
         surface.weld.push_back(first + v);
     }

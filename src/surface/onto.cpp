@@ -109,7 +109,8 @@ double meanHeight(const Surface& droplets, const std::vector<PlacedVertex>& plac
         const Vec3 q = droplets.positions[b] - p;
         const Vec3 r = droplets.positions[c] - p;
         const double flat = cross(Vec2{q.x, q.y}, Vec2{r.x, r.y});
-        if (kept[a] && flat > 0.0) {
+        // The liquid's triangles; those that lean out have a negative area in the plane.
+        if (kept[a] && cross(droplets.uvs[c] - droplets.uvs[a], droplets.uvs[b] - droplets.uvs[a]) > 0.0) {
             const double s = (placed[a].scale + placed[b].scale + placed[c].scale) / 3.0;
             const double z = (p.z + droplets.positions[b].z + droplets.positions[c].z) / 3.0;
             volume += flat * s * s * s * z;
@@ -138,8 +139,8 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
     const std::size_t count = droplets.positions.size();
     std::vector<Vec2> flat(count);
     for (std::size_t v = 0; v < count; ++v) {
-        const Vec2 uv = droplets.uvs[v];
-        flat[v] = {(uv.x - 0.5) * options.extent.x, (0.5 - uv.y) * options.extent.y};
+        // Texture coordinates of a sheet that leans out are not those of the place below it.
+        flat[v] = {droplets.positions[v].x, droplets.positions[v].y};
     }
     const DropletNumbers numbers = numberDroplets(droplets);
     const std::vector<std::uint32_t>& droplet = numbers.of;
@@ -198,6 +199,7 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
                                                  : Triangle{renamed[a], renamed[b], renamed[c]});
         }
     }
+    surface.texture_map = droplets.texture_map;
     surface.mean_height = meanHeight(droplets, placed, kept);
     addWarnings(report);
     return result;

@@ -66,6 +66,7 @@ struct OutputReport {
     std::size_t vertices = 0;     ///< as the format counts them; glTF has copies where normals differ
     std::size_t triangles = 0;    ///< of the surface
     Topology topology;            ///< of the surface
+    TextureMap texture_map = TextureMap::Projection;  ///< of the surface
 };
 
 /// Kind of ground.

@@ -26,6 +26,8 @@ struct LoftOptions {
     BaseSurface ground = {};  ///< ground of the fields
     std::vector<PlanarMesh> bases = {};     ///< cover() of every mesh, if known already; may be empty
     std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
+    bool flatten = true;                    ///< spread sheets that lean out over their footprint in texture
+                                            ///< coordinates; otherwise these are the place above or below
 
     /// Checks all options.
     /// @throws Error InvalidArgument
@@ -45,8 +47,11 @@ struct LoftOptions {
 ///                 anything is dry and there are gains
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
-/// Closes a sheet that hangs over its rim with a base on the ground. Normals on the rim come from the contact angle; texture
-/// coordinates are those of the place above or below in the picture.
+/// Closes a sheet that hangs over its rim with a base on the ground. Normals on the rim come from the contact angle.
+///
+/// Texture coordinates are those of the place below in the picture. If the sheet leans out, it is spread over its
+/// footprint instead, so that every point of the picture occurs once: the rim stays in its place, and triangles keep
+/// the shape that they have seen from above as far as possible (Garanzha et al. 2021). Surface::texture_map says which.
 /// @param sheet    with its footprint
 /// @param options  open or closed, extent of the image, the ground, a base if it is flat and known; no refill
 /// @return         surface without a mean height

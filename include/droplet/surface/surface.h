@@ -30,6 +30,13 @@ struct Refill {
 /// @return  one per state, of which at most two are not 0
 std::vector<double> stateWeights(const Refill& refill, double fill);
 
+/// How the texture coordinates of a surface were found.
+enum class TextureMap {
+    Projection,  ///< the place below in the picture; nothing leans out over its rim
+    Flat,        ///< a surface that leans out is spread over its footprint; every point of the picture occurs once
+    Folded,      ///< the place above or below, although something leans out: there the picture repeats
+};
+
 /// Surface of all droplets in space, ready to be written.
 ///
 /// Invariants: all arrays of vertices have one length, but contact_angle may be empty; triangles wind outward; normals
@@ -42,8 +49,9 @@ struct Surface {
     std::vector<float> contact_angle;  ///< at the liquid's vertices on the rim [rad]; 0 at others
     std::vector<Triangle> triangles;   ///< indices of vertices
     std::vector<std::uint32_t> weld;   ///< smallest index of a vertex at the same place; weld[i] ≤ i
-    double mean_height = 0.0;          ///< volume divided by the wet area of the footprint [m], ≥ 0
-    std::optional<Refill> refill;      ///< for a surface that can be filled and drained
+    TextureMap texture_map = TextureMap::Projection;  ///< the last in its order of all droplets
+    double mean_height = 0.0;                         ///< volume divided by the wet area of the footprint [m], ≥ 0
+    std::optional<Refill> refill;                     ///< for a surface that can be filled and drained
 
     /// Checks all invariants that need no topology: there is a triangle, lengths of arrays match, indices are in range,
     /// numbers are finite, normals have unit length to 1e-6, and welded copies have one position and one change of it.
