@@ -350,7 +350,8 @@ void declareLiquid(CommandLine& line)
              "[40deg]");
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
-    line.add(kGroup, "--height", "LENGTH", "Amount of liquid, by its largest height");
+    line.add(kGroup, "--height", "LENGTH",
+             "Amount of liquid, by its largest height; if two droplets have it, the one with less liquid");
     line.add(kGroup, "--fill", "each|total",
              "each: every droplet gets this amount; total: all droplets share it at one pressure [each]");
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");

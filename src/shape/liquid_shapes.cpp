@@ -120,6 +120,9 @@ std::string refusal(const SheetResult& result, const std::string& which, std::si
                    numberText(result.contact->x / kMillimetre, 3) + " mm, y " +
                    numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
                    " (mean contact angle " + angle + "); ask for less";
+        case SheetEnd::NotHeld:
+            return which + "the rim does not hold such a droplet: at " + at +
+                   " it has a contact angle of 180 degrees all along; ask for less";
         case SheetEnd::OutOfWork:
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
                    " (mean contact angle " + angle + "); ask for less, or use fewer --triangles";

@@ -378,7 +378,7 @@ bool SheetFactor::eliminate(const Front& front, const double* values, std::vecto
             block(panel + end * height + end, height - end, own - end, height).noalias() -= done * scaled.transpose();
         }
     }
-    if (below > 0) {
+    if (below > 0 && own > 0) {  // nothing may separate two pieces
         Matrix rest = block(sum.data(), below, below, below);
         const Matrix done = block(panel + own, below, own, height);
         Eigen::MatrixXd scaled = done;

@@ -52,6 +52,8 @@ constexpr int kWetter = 8;
 constexpr double kCoarser = 1.6;
 /// Change of the pressure by new triangles above which they are not the same liquid.
 constexpr double kSamePressure = 0.1;
+/// Mean angle from which on the rim does not hold the liquid: above by the error of angles on coarse triangles [rad].
+constexpr double kNotHeld = 179.8 * std::numbers::pi / 180.0;
 /// Fall of the mean angle from its maximum that proves the maximum [rad].
 constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
@@ -215,6 +217,9 @@ private:
                 if (step < least && contact_) {
                     return SheetEnd::Contact;
                 }
+                if (step < least && is_loose_) {
+                    return SheetEnd::NotHeld;
+                }
                 if (step < least) {
                     const double end = now_.volume;
                     if (isFirm(least)) {
@@ -286,6 +291,7 @@ private:
     bool advance(double size)
     {
         contact_.reset();
+        is_loose_ = false;
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         base_.lift(next.sheet.places, next.sheet.rim);
@@ -294,7 +300,8 @@ private:
         if (!next.newton.converged) {
             return false;
         }
-        if (keeps_triangles_ && !repair(next)) {
+        is_loose_ = rimAngles(next.sheet, options_.weight, next.pressure, base_.ground).mean() >= kNotHeld;
+        if (is_loose_ || (keeps_triangles_ && !repair(next))) {
             return false;
         }
         const int steps = next.newton.steps;
@@ -519,6 +526,7 @@ private:
     bool is_final_ = false;                                 ///< the triangles stay until the target
     bool keeps_triangles_ = false;                          ///< they stay for good
     std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step
+    bool is_loose_ = false;                                 ///< whether that was a rim that does not hold the liquid
     int newton_steps_ = 0;
     double work_ = 0.0;  ///< so far, as SheetOptions::max_work
 };

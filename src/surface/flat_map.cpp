@@ -41,8 +41,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// the vertical projection more and more.
 constexpr double kNarrowest = 0.4;
 
-/// Folded triangles get these rings of free neighbours around them, then twice as many.
+/// Share of folded triangles up to which the vertical projection is mended around them, so that a picture stays
+/// straight elsewhere; liquid that leans out farther is spread as a whole.
+constexpr double kFewFolds = 0.1;
+/// Folded triangles get these rings of free neighbours around them, then twice as many, up to these where the vertical
+/// projection is mended, and up to these elsewhere.
 constexpr int kFirstRings = 12;
+constexpr int kNearRings = 24;
 constexpr int kMostRings = 96;
 /// First ε, and Newton's steps and rounds with a smaller ε for one number of rings.
 constexpr double kFirstEpsilon = 0.1;
@@ -51,8 +56,8 @@ constexpr int kRounds = 40;
 /// Smallest progress that the rule for ε assumes. With 0.1, as in the paper, ε falls too slowly for Newton's method;
 /// with 0.75 it runs ahead, and ten of twelve sheets stay folded.
 constexpr double kLeastProgress = 0.5;
-/// Triangles in all of Newton's steps: about two seconds.
-constexpr std::size_t kMostWork = 800'000;
+/// Triangles in all of Newton's steps: about half a second.
+constexpr std::size_t kMostWork = 300'000;
 /// Steps that free a map of its narrowest triangles, once it has no folds.
 constexpr int kRelaxingSteps = 5;
 /// Part of the energy that a step must gain to be followed by another.
@@ -193,7 +198,7 @@ private:
                     std::vector<Eigen::Triplet<double>>& entries) const;
     /// Frees the vertices within some rings around folds, until there are none.
     /// @return  whether there are none
-    bool untangle();
+    bool untangle(int most_rings);
     /// L-BFGS on all vertices; the map has no folds.
     void flatten();
 
@@ -396,7 +401,7 @@ void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>
     }
 }
 
-bool Flattening::untangle()
+bool Flattening::untangle(int most_rings)
 {
     std::vector<std::uint8_t> is_near(static_cast<std::size_t>(at_.rows()), 0);
     const auto mark = [](const Triangle& t, std::vector<std::uint8_t>& marks) {
@@ -416,7 +421,7 @@ bool Flattening::untangle()
         }
     }
     int grown = 0;
-    for (int rings = kFirstRings; rings <= kMostRings && work_ < kMostWork; rings *= 2) {
+    for (int rings = kFirstRings; rings <= most_rings && work_ < kMostWork; rings *= 2) {
         for (; grown < rings; ++grown) {
             std::vector<std::uint8_t> next = is_near;
             for (const Wanted& w : wanted_) {
@@ -502,8 +507,13 @@ void Flattening::flatten()
 
 bool Flattening::run()
 {
+    const auto folded = std::count_if(wanted_.begin(), wanted_.end(),
+                                      [&](const Wanted& w) { return !(jacobianOf(at_, w).determinant() > 0.0); });
+    if (static_cast<double>(folded) < kFewFolds * static_cast<double>(wanted_.size()) && untangle(kNearRings)) {
+        return true;
+    }
     startHarmonic();
-    if (!untangle()) {
+    if (!untangle(kMostRings)) {
         return false;
     }
     flatten();

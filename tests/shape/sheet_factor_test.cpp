@@ -97,6 +97,40 @@ TEST(SheetFactor, GivesTheSameBytesAtAnyNumberOfThreads)
     EXPECT_TRUE(results[2] == results[0]);
 }
 
+/// Two chains far apart, each coupled to a hub: nothing separates them but what is eliminated after both.
+TEST(SheetFactor, TakesPartsInSeveralPieces)
+{
+    constexpr int kShort = 20;
+    constexpr int kLong = 40;
+    constexpr int kHub = 2 * kShort + kLong;
+    std::vector<Vec3> places;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < kHub; ++i) {
+        const double along = 0.01 * i;
+        places.push_back(i < kShort       ? Vec3{0.0, along, 0.0}
+                         : i < 2 * kShort ? Vec3{0.0, 50.0 + along, 0.0}
+                                          : Vec3{100.0, 20.0 + along, 0.0});
+        entries.emplace_back(i, i, i % 3 == 0 ? -2.0 : 3.0);
+        if (i + 1 != kShort && i + 1 != 2 * kShort && i + 1 != kHub) {
+            entries.emplace_back(i + 1, i, 1.0);
+        }
+    }
+    places.push_back({90.0, 25.0, 0.0});
+    for (const int end : {kShort - 1, 2 * kShort - 1, 2 * kShort}) {
+        entries.emplace_back(kHub, end, 0.5);
+    }
+    entries.emplace_back(kHub, kHub, 1.5);
+    Matrix matrix(kHub + 1, kHub + 1);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    SheetFactor factor(matrix, places);
+    ASSERT_TRUE(factor.factorize(matrix));
+    const Matrix full = matrix.selfadjointView<Eigen::Lower>();
+    const Eigen::VectorXd exact = Eigen::VectorXd::LinSpaced(full.cols(), -1.0, 2.0).array().sin();
+    EXPECT_LT((factor.solve(full * exact) - exact).norm(), 1e-12 * exact.norm());
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues();
+    EXPECT_EQ(factor.negatives(), static_cast<std::size_t>((values.array() < 0.0).count()));
+}
+
 /// A matrix may follow one that failed.
 TEST(SheetFactor, RefusesPivotsOfNoUse)
 {

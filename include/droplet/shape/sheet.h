@@ -34,6 +34,7 @@ enum class SheetEnd {
     NoHeight,   ///< the height has its maximum before the target
     Unstable,   ///< no equilibrium with more liquid was found
     Contact,    ///< with more liquid the surface touches itself
+    NotHeld,    ///< the rim has an angle of 180° all along: more liquid would roll away over the ground
     OutOfWork,  ///< the work was limited
 };
 
