@@ -343,10 +343,6 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     if (!less.empty()) {
         droplet.warnings.push_back(less);
     }
-    if (droplet.surface.texture_map == TextureMap::Folded) {
-        droplet.warnings.push_back(
-            "the texture coordinates repeat where the liquid leans out over its rim; do not put a picture on it there");
-    }
     if (std::string tall = heightWarning(droplet, solved.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
         droplet.severe_warnings = 1;

@@ -178,7 +178,9 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
                              : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright)) {
         return shape;
     }
-    shape.sheet = solveSheet(meshes, options, effort);
+    // Where nobody asked for an amount, a height field that is upright in a few places may stand.
+    const bool has_stand_in = !shape.fields.empty() && effort == SheetEffort::Modest;
+    shape.sheet = solveSheet(meshes, options, has_stand_in ? SheetEffort::Slight : effort);
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {

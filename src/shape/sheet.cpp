@@ -41,7 +41,8 @@ constexpr double kWork = 1500.0;
 constexpr double kLeastWork = 2e8;
 /// Turn of the rim at a corner [rad].
 constexpr double kCorner = 0.5;
-/// Share of it for modest efforts.
+/// Share of it for slight and modest efforts.
+constexpr double kSlightWork = 0.1;
 constexpr double kModestWork = 0.3;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].
@@ -191,8 +192,10 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     SheetOptions sheet_options{weightOf(options),
                                kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
-    sheet_options.max_work =
-        (effort == SheetEffort::Full ? 1.0 : kModestWork) * std::max(kLeastWork, kWork * std::pow(triangles, 1.5));
+    const double share_of_work = effort == SheetEffort::Full     ? 1.0
+                                 : effort == SheetEffort::Modest ? kModestWork
+                                                                 : kSlightWork;
+    sheet_options.max_work = share_of_work * std::max(kLeastWork, kWork * std::pow(triangles, 1.5));
     sheet_options.ground = options.ground;
     take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
     return result;

@@ -54,7 +54,7 @@ constexpr double kFirstEpsilon = 0.1;
 constexpr int kStepsPerRound = 6;
 constexpr int kRounds = 40;
 /// Smallest progress that the rule for ε assumes. With 0.1, as in the paper, ε falls too slowly for Newton's method;
-/// with 0.75 it runs ahead, and ten of twelve sheets stay folded.
+/// with 0.75 it runs ahead, and 22 of 24 runs on six sheets stayed folded.
 constexpr double kLeastProgress = 0.5;
 /// Triangles in all of Newton's steps: about half a second.
 constexpr std::size_t kMostWork = 300'000;

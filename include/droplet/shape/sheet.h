@@ -40,7 +40,8 @@ enum class SheetEnd {
 
 /// How hard solveSheet() tries.
 enum class SheetEffort {
-    Modest,  ///< a third of the work; the end of what the footprint holds is not confirmed
+    Slight,  ///< a tenth of the work; the end of what the footprint holds is not confirmed
+    Modest,  ///< a third of the work; likewise
     Full,    ///< at the end, finer triangles confirm it
 };
 
