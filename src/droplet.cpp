@@ -252,6 +252,19 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
     return result;
 }
 
+/// Figures of every droplet.
+std::vector<ShapeFigures> figuresOf(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
+                                    const SolveOptions& solved)
+{
+    std::vector<ShapeFigures> figures;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const bool is_sheet = !shapes.sheets.empty() && shapes.sheets[k];
+        figures.push_back(is_sheet ? measure(*shapes.sheets[k], solved)
+                                   : measure(meshes[k], shapes.solution.droplets[k], solved));
+    }
+    return figures;
+}
+
 /// Options of solving: a range that was asked for takes the linear model, where every fill exists.
 SolveOptions solveOptions(const DropletOptions& options)
 {
@@ -304,6 +317,19 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
     return result;
 }
 
+std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const DropletOptions& options)
+{
+    SolveOptions solved = options.solve;
+    solved.volumes.clear();
+    const LiquidShapes shapes = solveShapes(meshes, solved, options.allow_less, {});
+    solved.model = shapes.solution.report.model;
+    std::vector<double> volumes;
+    for (const ShapeFigures& figures : figuresOf(meshes, shapes, solved)) {
+        volumes.push_back(figures.volume);
+    }
+    return volumes;
+}
+
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
@@ -316,11 +342,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     if (progress) {
         progress(Stage::Loft);
     }
-    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
-        droplet.figures.push_back(is_sheet ? measure(*droplet.sheets[k], solved)
-                                           : measure(droplet.meshes[k], droplet.solution.droplets[k], solved));
-    }
+    droplet.figures = figuresOf(droplet.meshes, shapes, solved);
     droplet.total = combine(droplet.figures);
     if (!(droplet.total.volume > 0.0)) {
         throw Error(ErrorCode::NoSuchDroplet,

@@ -23,6 +23,10 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});
 
+/// Volumes that the fill of the options gives to droplets [m³].
+/// @throws Error  NoSuchDroplet
+std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const DropletOptions& options);
+
 /// Whether two meshes have the same rim.
 bool sameRim(const PlanarMesh& a, const PlanarMesh& b);
 

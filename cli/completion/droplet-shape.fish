@@ -25,7 +25,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from animate batch comp
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l contact-angle -x -d 'Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does not'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l on -x -a 'glass ptfe wax lotus' -d 'What the liquid lies on, for --contact-angle natural'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l volume -x -d 'Amount of liquid, by its volume'
-complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l height -x -d 'Amount of liquid, by its largest height'
+complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l height -x -d 'Amount of liquid, by its largest height; if two droplets have it, the one with less liquid'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l fill -x -a 'each total' -d 'each: every droplet gets this amount; total: all droplets share it at one pressure'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare liquid2d' -l liquid -x -a 'water ethanol glycerol mercury honey' -d 'Liquid, at 20 C'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare liquid2d' -l surface-tension -x -d 'Surface tension, instead of the liquid\'s own'

@@ -151,21 +151,6 @@ std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveO
     return shares;
 }
 
-/// Volumes of new droplets, from their own fill.
-std::vector<double> newVolumes(const std::vector<PlanarMesh>& meshes, SolveOptions options)
-{
-    options.volumes.clear();
-    const Solution solution = solve(meshes, options);
-    if (!solution.report.usable()) {
-        throw Error(ErrorCode::NoSuchDroplet, "a new droplet cannot be filled as requested; reduce the fill");
-    }
-    std::vector<double> volumes;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        volumes.push_back(measure(meshes[k], solution.droplets[k], options).volume);
-    }
-    return volumes;
-}
-
 template <typename Value>
 std::vector<Value> selected(const std::vector<Value>& all, const std::vector<std::size_t>& which)
 {
@@ -214,7 +199,8 @@ std::size_t assignIds(const Frame& before, const std::vector<Group>& groups, con
 }
 
 /// Distributes the volumes of the frame before to the droplets of the frame.
-void distributeVolumes(const Frame& before, const std::vector<Group>& groups, const SolveOptions& options, Frame& frame)
+void distributeVolumes(const Frame& before, const std::vector<Group>& groups, const DropletOptions& options,
+                       Frame& frame)
 {
     std::vector<std::size_t> appeared;
     for (const Group& group : groups) {
@@ -229,14 +215,14 @@ void distributeVolumes(const Frame& before, const std::vector<Group>& groups, co
         } else if (group.after.size() == 1) {
             frame.droplets[group.after.front()].volume = volume;
         } else {
-            const std::vector<double> shares = sharesOf(selected(frame.droplet.meshes, group.after), options);
+            const std::vector<double> shares = sharesOf(selected(frame.droplet.meshes, group.after), options.solve);
             for (std::size_t k = 0; k < shares.size(); ++k) {
                 frame.droplets[group.after[k]].volume = shares[k] * volume;
             }
         }
     }
     if (!appeared.empty()) {
-        const std::vector<double> volumes = newVolumes(selected(frame.droplet.meshes, appeared), options);
+        const std::vector<double> volumes = volumesOf(selected(frame.droplet.meshes, appeared), options);
         for (std::size_t k = 0; k < appeared.size(); ++k) {
             frame.droplets[appeared[k]].volume = volumes[k];
             frame.volume_gained += volumes[k];
@@ -599,7 +585,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     frame.droplets.resize(domain.droplets.size());
     lineage->next_id = assignIds(before, groups, links, frame);
     if (options.volume_mode == VolumeMode::Track) {
-        distributeVolumes(before, groups, options.droplet.solve, frame);
+        distributeVolumes(before, groups, options.droplet, frame);
         frame_options.solve.fill.by = FillBy::Volume;
         frame_options.solve.fill.sharing = FillSharing::Each;
         for (const Ancestry& droplet : frame.droplets) {

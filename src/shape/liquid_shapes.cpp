@@ -81,25 +81,28 @@ std::string ofDroplet(std::size_t k, std::size_t count)
 /// Why there is no height field, and what to change.
 std::string refusal(const SolveReport& report, const std::string& which)
 {
-    switch (report.termination) {
-        case Termination::NoHeightField:
-            return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
-                   numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL; more liquid would hang over its rim; ask for less";
-        case Termination::OutOfSteps:
-            return which + std::to_string(report.newton_steps) + " steps of Newton's method reached only " +
-                   numberText(report.largest_volume / kMicrolitre, 4) +
-                   " uL on this footprint; ask for less, or smooth the footprint";
-        case Termination::Unstable:
-            return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
-                   ", but at most " + numberText(report.critical_bond_number, 4) +
-                   " can hang on this footprint; use a smaller --gravity or --width";
-        case Termination::NotConverged:
-        case Termination::Converged:
-            break;
+    if (report.termination == Termination::Unstable) {
+        return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
+               ", but at most " + numberText(report.critical_bond_number, 4) +
+               " can hang on this footprint; use a smaller --gravity or --width";
     }
     return which + "the equations could not be solved (residual " + numberText(report.residual, 3) +
            "); try another number of --triangles";
+}
+
+/// Height fields, or none where no volume gives the amount.
+Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
+{
+    try {
+        return solve(meshes, options, progress);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::NoSuchDroplet) {
+            throw;
+        }
+        Solution none;
+        none.report.termination = Termination::NoHeightField;
+        return none;
+    }
 }
 
 /// Why there is no sheet, and what to change.
@@ -144,7 +147,7 @@ struct Shape {
 /// Height fields of droplets, and how they were found.
 Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
 {
-    Solution solution = solve(meshes, options);
+    Solution solution = findFields(meshes, options, {});
     Shape shape{{}, {}, solution.report};
     if (solution.report.usable()) {
         shape.fields = std::move(solution.droplets);
@@ -364,7 +367,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     if (!mustHang(options) && !any_followed) {
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
-        solution = solve(meshes, quick, progress);
+        solution = findFields(meshes, quick, progress);
         if (solution.report.usable() && std::none_of(solution.droplets.begin(), solution.droplets.end(), isUpright)) {
             return shapes;
         }

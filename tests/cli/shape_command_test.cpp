@@ -1046,6 +1046,22 @@ TEST_F(ShapeCommandTest, MakesABeadThatHangsOverItsRim)
     EXPECT_THAT(bytesOf("bead.fe"), HasSubstr("\nfreely\n"));
 }
 
+TEST_F(ShapeCommandTest, BeadsShareTheirLiquidOnAGutter)
+{
+    writeFile(directory() / "two.pgm", greymap(96, 64, [](int x, int y) {
+                  return std::hypot(x - 24, y - 32) < 14 || std::hypot(x - 70, y - 32) < 10 ? 255 : 0;
+              }));
+    const json shared = report({"two.pgm", "two.glb", "--fill", "total", "--contact-angle", "95deg", "--width", "12mm",
+                                "--surface", "cylinder:R=-20mm,axis=x", "--triangles", "2k"});
+    EXPECT_EQ(shared["model"], "parametric");
+    EXPECT_TRUE(shared["output"]["closed"].get<bool>());
+    EXPECT_NEAR(shared["shape"]["contact_angle_deg"]["mean"].get<double>(), 95.0, 1e-4);
+    ASSERT_EQ(shared["droplets"].size(), 2U);
+    EXPECT_EQ(shared["droplets"][0]["pressure_pa"], shared["droplets"][1]["pressure_pa"]);
+    EXPECT_EQ(shared["shape"]["pressure_pa"], shared["droplets"][0]["pressure_pa"]);
+    EXPECT_EQ(shared["shape"]["depth_max_m"], 0.0);
+}
+
 TEST_F(ShapeCommandTest, LeansOverAnInnerCorner)
 {
     writeFile(directory() / "corner.pgm", greymap(64, 64, [](int x, int y) {

@@ -687,20 +687,25 @@ TEST(Evolver, EvolverAgreesOnSheets)
         Loop rim;
         double degrees;
         double tilt;
+        BaseSurface ground;
     };
     const double side = 3e-3;
     const std::vector<Bead> beads{
-        {"disc", ellipseLoop(2e-3, 2e-3), 130.0, 0.0},
-        {"square on a slope", polygonLoop({{0, 0}, {side, 0}, {side, side}, {0, side}}), 100.0, 20.0},
+        {"disc", ellipseLoop(2e-3, 2e-3), 130.0, 0.0, {}},
+        {"disc on a ball", ellipseLoop(2e-3, 2e-3), 110.0, 10.0, BaseSurface::sphere(6e-3)},
+        {"square on a slope", polygonLoop({{0, 0}, {side, 0}, {side, side}, {0, side}}), 100.0, 20.0, {}},
         {"corner",
-         polygonLoop({{0, 0}, {2 * side, 0}, {2 * side, side}, {side, side}, {side, 2 * side}, {0, 2 * side}}), 70.0,
-         0.0}};
+         polygonLoop({{0, 0}, {2 * side, 0}, {2 * side, side}, {side, side}, {side, 2 * side}, {0, 2 * side}}),
+         70.0,
+         0.0,
+         {}}};
     for (const Bead& bead : beads) {
         SCOPED_TRACE(bead.name);
         Droplets droplets;
         droplets.meshes = triangulate(domainOf(bead.rim), {.edge = 2.5e-4});
         droplets.options.model = Model::Exact;
         droplets.options.tilt = bead.tilt * kDegree;
+        droplets.options.ground = bead.ground;
         droplets.options.fill = {FillBy::ContactAngle, bead.degrees * kDegree, FillSharing::Each};
         SheetResult result = solveSheet(droplets.meshes.front(), droplets.options);
         ASSERT_EQ(result.end, SheetEnd::Reached);

@@ -166,5 +166,19 @@ TEST(FollowedSheets, AreTheSameAtAnyNumberOfThreads)
     EXPECT_EQ(filmOf(1), filmOf(2));
 }
 
+/// With tracked volumes, a bead that appears gets the angle that was asked for, and the one before keeps its volume.
+TEST(FollowedSheets, ANewBeadHangsOverItsRim)
+{
+    const Inside one = disc({24, 32}, 12.0);
+    const Inside other = disc({70, 32}, 9.0);
+    const std::vector<Frame> frames =
+        framesOf({one, [=](Vec2 p) { return one(p) || other(p); }}, optionsFor(110.0, VolumeMode::Track));
+    ASSERT_EQ(frames[1].droplet.figures.size(), 2U);
+    EXPECT_NEAR(frames[1].droplets[0].volume, frames[0].droplet.total.volume, 1e-12 * frames[0].droplet.total.volume);
+    for (const ShapeFigures& figures : frames[1].droplet.figures) {
+        EXPECT_NEAR(figures.contact_angle.mean, 110.0 * kDegree, 0.2 * kDegree);
+    }
+}
+
 }  // namespace
 }  // namespace droplet

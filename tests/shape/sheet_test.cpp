@@ -372,6 +372,16 @@ TEST(SheetLimits, HolesOfRingsClose)
     EXPECT_LT(last.volume, 0.606);
 }
 
+/// A puddle spreads over the ground around its rim once it has 180° all along: the rim does not hold it any more.
+TEST(SheetLimits, RimsDoNotHoldPuddlesOf180Degrees)
+{
+    const Revolution last = testing::dropletOfAngle(3.0, kPi);
+    const SheetResult result = solveSheet(discMeshes(0.1).front(), unitLiquid(3.0, FillBy::Volume, 3.0 * last.volume));
+    EXPECT_EQ(result.end, SheetEnd::NotHeld);
+    EXPECT_NEAR(result.volume, last.volume, 0.03 * last.volume);
+    EXPECT_GT(result.contact_angle, 179.0 * kDegree);
+}
+
 /// Ridge of liquid on a strip of width 1, between mirrors at both ends of a length: part of a cylinder.
 SheetMesh ridge(double angle, double length_of, std::size_t across, std::size_t along)
 {
