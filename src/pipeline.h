@@ -18,7 +18,7 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 /// Runs the stages after meshing: solve, measure, loft.
 /// @param droplet   with outline, domain and meshes
 /// @param bases     cover() of every mesh, or of its sheet's footprint, if known; otherwise empty
-/// @param followed  sheets that are solved already, one per droplet; or empty
+/// @param followed  sheets that are solved already, one per droplet, or one for all at one pressure; or empty
 /// @throws Error    NoSuchDroplet if the solver failed
 void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
             const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include "droplet/mesh/follow.h"
@@ -50,35 +49,54 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
                                            const std::vector<PlanarMesh>& meshes, std::vector<PlanarMesh> bases,
                                            const SolveOptions& options)
 {
-    const bool is_single = options.fill.sharing == FillSharing::Each || meshes.size() == 1;
-    if (before.sheets.empty() || !is_single || !options.ground.flat()) {
+    if (before.sheets.empty() || !options.ground.flat()) {
         return std::nullopt;
     }
-    FollowedSheets followed{std::vector<std::optional<SheetResult>>(meshes.size()), std::move(bases)};
-    std::vector<std::uint8_t> is_lost(meshes.size(), 0);
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
+    const std::size_t count = meshes.size();
+    std::vector<PlanarMesh> footprints(count);
+    for (std::size_t k = 0; k < count; ++k) {
         if (!before.sheets[k]) {
-            return;
+            continue;
         }
-        is_lost[k] = 1;
-        const SheetOrigin& origin = *origins[k];
-        const PlanarMesh footprint = movedFootprint(origin, meshes[k]);
-        if (!isWhole(footprint)) {
-            return;
+        footprints[k] = movedFootprint(*origins[k], meshes[k]);
+        if (!isWhole(footprints[k])) {
+            return std::nullopt;
         }
-        if (!followed.bases.empty()) {
-            followed.bases[k] = moveRim(*origin.base, rimOf(footprint));
-            if (!isWhole(followed.bases[k])) {
-                return;
+        if (!bases.empty()) {
+            bases[k] = moveRim(*origins[k]->base, rimOf(footprints[k]));
+            if (!isWhole(bases[k])) {
+                return std::nullopt;
             }
         }
-        SheetResult result = follow(origin.sheet, *before.sheets[k], footprint, ownOptions(options, k));
-        if (result.end == SheetEnd::Reached) {
-            followed.sheets[k] = std::move(result);
-            is_lost[k] = 0;
+    }
+    FollowedSheets followed{{}, std::move(bases)};
+    if (options.fill.sharing == FillSharing::Total && count > 1) {
+        std::vector<ParametricSheet> first;
+        std::vector<ParametricSheet> last;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!before.sheets[k]) {
+                return std::nullopt;
+            }
+            first.push_back(origins[k]->sheet);
+            last.push_back(*before.sheets[k]);
+        }
+        SheetResult result = follow(join(first), join(last), join(footprints), options);
+        if (result.end != SheetEnd::Reached) {
+            return std::nullopt;
+        }
+        followed.sheets.emplace_back(std::move(result));
+        return followed;
+    }
+    followed.sheets.resize(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        if (before.sheets[k]) {
+            followed.sheets[k] = follow(origins[k]->sheet, *before.sheets[k], footprints[k], ownOptions(options, k));
         }
     });
-    return std::count(is_lost.begin(), is_lost.end(), 1) == 0 ? std::optional(std::move(followed)) : std::nullopt;
+    const bool all_reached = std::all_of(followed.sheets.begin(), followed.sheets.end(), [](const auto& result) {
+        return !result || result->end == SheetEnd::Reached;
+    });
+    return all_reached ? std::optional(std::move(followed)) : std::nullopt;
 }
 
 const ParametricSheet* sheetOf(const Droplet& droplet, std::size_t k)

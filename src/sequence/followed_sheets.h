@@ -22,7 +22,7 @@ using SheetOrigins = std::vector<std::shared_ptr<const SheetOrigin>>;
 
 /// Sheets that followed their rims into a frame, and the bases of all droplets.
 struct FollowedSheets {
-    std::vector<std::optional<SheetResult>> sheets;  ///< one per droplet
+    std::vector<std::optional<SheetResult>> sheets;  ///< one per droplet, or one for all at one pressure
     std::vector<PlanarMesh> bases;                   ///< as given, but of the sheets' footprints
 };
 

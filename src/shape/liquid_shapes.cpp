@@ -15,7 +15,6 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "number_text.h"
-#include "shape/joined_sheet.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/sheet_mesh.h"
@@ -362,7 +361,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         }
         return shapes;
     }
-    followed.resize(count);
+    followed.resize(options.fill.sharing == FillSharing::Total ? 1 : count);
     const bool any_followed = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return !!one; });
     if (!mustHang(options) && !any_followed) {
         SolveOptions quick = options;
@@ -378,8 +377,8 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     const bool has_fields = solution.report.usable();
     std::vector<Shape> found(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        if (groups[g].size() == 1 && followed[groups[g].front()]) {
-            found[g].sheet = std::move(followed[groups[g].front()]);
+        if (followed[g]) {
+            found[g].sheet = std::move(followed[g]);
             return;
         }
         std::vector<PlanarMesh> own;

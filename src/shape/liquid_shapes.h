@@ -28,7 +28,7 @@ struct LiquidShapes {
 /// @param meshes      footprints
 /// @param options     of solve()
 /// @param allow_less  take the most liquid that a footprint can hold where the fill does not exist
-/// @param followed    sheets that are solved already, one per droplet; or empty
+/// @param followed    sheets that are solved already, one per droplet, or one for all at one pressure; or empty
 /// @throws Error      NoSuchDroplet, with the reason and what to change
 LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
                          const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});

@@ -12,7 +12,6 @@
 #include "mesh/mean_edge.h"
 #include "mesh/round_inward.h"
 #include "number_text.h"
-#include "shape/joined_sheet.h"
 #include "shape/rim_figures.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"

@@ -54,6 +54,8 @@ constexpr double kCoarser = 1.6;
 constexpr double kSamePressure = 0.1;
 /// Mean angle from which on the rim does not hold the liquid: above by the error of angles on coarse triangles [rad].
 constexpr double kNotHeld = 179.8 * std::numbers::pi / 180.0;
+/// Share of the rim beside which the sheet lies on the ground, from which on it does not, either.
+constexpr double kLaid = 0.95;
 /// Fall of the mean angle from its maximum that proves the maximum [rad].
 constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
@@ -142,7 +144,8 @@ public:
             return filled(end);
         }
         options_.max_work *= kConfirmWork;
-        if (end == SheetEnd::Unstable && options_.is_end_confirmed && refineFirm()) {
+        const bool is_limit = end == SheetEnd::Unstable || end == SheetEnd::NotHeld;
+        if (is_limit && options_.is_end_confirmed && refineFirm()) {
             end = follow();
         }
         const std::optional<SheetContact> contact = contact_;
@@ -300,7 +303,7 @@ private:
         if (!next.newton.converged) {
             return false;
         }
-        is_loose_ = rimAngles(next.sheet, options_.weight, next.pressure, base_.ground).mean() >= kNotHeld;
+        is_loose_ = isLoose(next);
         if (is_loose_ || (keeps_triangles_ && !repair(next))) {
             return false;
         }
@@ -316,6 +319,27 @@ private:
         now_ = std::move(next);
         now_.newton.steps = steps;  // those of the step itself set the size of the next one
         return true;
+    }
+
+    /// Whether the sheet lies on the ground all along its rim, or would with finer triangles.
+    [[nodiscard]] bool isLoose(const State& state) const
+    {
+        if (rimAngles(state.sheet, options_.weight, state.pressure, base_.ground).mean() >= kNotHeld) {
+            return true;
+        }
+        std::vector<std::uint8_t> is_laid(state.sheet.rim, 0);
+        for (const Triangle& t : state.sheet.triangles) {
+            const bool is_grounded = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+                return v >= state.sheet.rim && base_.clearance(state.sheet.places[v]) <= 0.0;
+            });
+            for (const std::uint32_t v : t) {
+                if (v < state.sheet.rim && is_grounded) {
+                    is_laid[v] = 1;
+                }
+            }
+        }
+        const auto laid = std::count(is_laid.begin(), is_laid.end(), 1);
+        return static_cast<double>(laid) >= kLaid * static_cast<double>(state.sheet.rim);
     }
 
     /// Moves the vertices of an equilibrium along it where triangles that stay are worn.

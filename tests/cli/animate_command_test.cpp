@@ -148,7 +148,7 @@ TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
     EXPECT_THAT(result["frames"][0]["droplets"], SizeIs(2));
     EXPECT_THAT(result["frames"][4]["droplets"], SizeIs(1));
     EXPECT_EQ(result["transitions"]["count"], 4);
-    EXPECT_EQ(result["transitions"]["vertices_kept"], 2);
+    EXPECT_EQ(result["transitions"]["vertices_kept"], 3);
     EXPECT_GT(result["transitions"]["vertices_kept_share"].get<double>(), 0.5);
     EXPECT_TRUE(result["frames"][1]["continues"].get<bool>());
     EXPECT_EQ(result["input"]["width_px"], 64);
@@ -340,7 +340,7 @@ TEST_F(AnimateTest, PrintsASummary)
 {
     const auto result = run({"frames", "film.glb", "--volume", "20uL"});
     EXPECT_EQ(result.exit_code, 0);
-    EXPECT_THAT(result.error, HasSubstr("5 frames, 20 uL; vertices kept in 2 of 4 steps"));
+    EXPECT_THAT(result.error, HasSubstr("5 frames, 20 uL; vertices kept in 3 of 4 steps"));
     EXPECT_THAT(result.error, HasSubstr("film.glb: "));
     const auto piped = run({"frames", "-", "-q"});
     EXPECT_EQ(piped.exit_code, 0);

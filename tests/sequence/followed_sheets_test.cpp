@@ -180,5 +180,24 @@ TEST(FollowedSheets, ANewBeadHangsOverItsRim)
     }
 }
 
+/// At one pressure, all beads follow together, and liquid flows between them.
+TEST(FollowedSheets, BeadsThatShareTheirLiquidAreOneMesh)
+{
+    std::vector<Inside> masks;
+    for (int k = 0; k < 4; ++k) {
+        masks.push_back([=](Vec2 p) { return disc({24, 32}, 14.0)(p) || disc({70, 32}, 8.0 + 0.2 * k)(p); });
+    }
+    SequenceOptions options = optionsFor(100.0, VolumeMode::Total);
+    options.droplet.solve.fill.sharing = FillSharing::Total;
+    const std::vector<Frame> frames = framesOf(masks, options);
+    for (std::size_t k = 1; k < frames.size(); ++k) {
+        const Droplet& droplet = frames[k].droplet;
+        EXPECT_TRUE(frames[k].continues) << k;
+        EXPECT_NEAR(droplet.total.volume, frames[0].droplet.total.volume, 1e-9 * droplet.total.volume);
+        EXPECT_EQ(droplet.solution.droplets[0].pressure, droplet.solution.droplets[1].pressure);
+        EXPECT_NE(droplet.figures[1].volume, frames[k - 1].droplet.figures[1].volume);
+    }
+}
+
 }  // namespace
 }  // namespace droplet

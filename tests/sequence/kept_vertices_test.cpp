@@ -30,6 +30,7 @@ SequenceOptions options(std::size_t triangles = 3000)
     SequenceOptions options;
     options.droplet.mesh.triangles = triangles;
     options.droplet.solve.fill = {FillBy::Volume, 20 * kMicrolitre, FillSharing::Total};
+    options.droplet.solve.model = Model::Linear;  // sheets have triangles of their own
     return options;
 }
 

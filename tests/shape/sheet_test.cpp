@@ -376,10 +376,11 @@ TEST(SheetLimits, HolesOfRingsClose)
 TEST(SheetLimits, RimsDoNotHoldPuddlesOf180Degrees)
 {
     const Revolution last = testing::dropletOfAngle(3.0, kPi);
-    const SheetResult result = solveSheet(discMeshes(0.1).front(), unitLiquid(3.0, FillBy::Volume, 3.0 * last.volume));
+    const SheetResult result =
+        solveSheet(discMeshes(0.03).front(), unitLiquid(3.0, FillBy::Volume, 3.0 * last.volume), SheetEffort::Modest);
     EXPECT_EQ(result.end, SheetEnd::NotHeld);
     EXPECT_NEAR(result.volume, last.volume, 0.03 * last.volume);
-    EXPECT_GT(result.contact_angle, 179.0 * kDegree);
+    EXPECT_GT(result.contact_angle, 178.0 * kDegree);
 }
 
 /// Ridge of liquid on a strip of width 1, between mirrors at both ends of a length: part of a cylinder.

@@ -81,7 +81,15 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
 SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options,
                        SheetEffort effort = SheetEffort::Full);
 
-/// Sheets of the single footprints of one that holds several, in their order.
+/// Footprints as one mesh: all rims first. Its loops are those of the footprints, one after another.
+/// @param footprints  at least one
+PlanarMesh join(const std::vector<PlanarMesh>& footprints);
+
+/// Sheets at one pressure as one that holds several footprints.
+/// @param sheets  at least one
+ParametricSheet join(const std::vector<ParametricSheet>& sheets);
+
+/// Sheets of the single footprints of one that holds several, in their order; the inverse of join().
 std::vector<ParametricSheet> separate(const ParametricSheet& sheet);
 
 /// Fills or drains a sheet on the same triangles. They can follow only so far: beyond, the end is SheetEnd::Unstable.

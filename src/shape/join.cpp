@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape/joined_sheet.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <utility>
