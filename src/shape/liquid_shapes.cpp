@@ -42,10 +42,11 @@ constexpr int kMaxLowerings = 60;
 constexpr double kShareError = 0.01;
 constexpr int kMaxPairs = 8;
 
-/// Whether liquid may hang over its rim.
+/// Whether liquid may hang over its rim. With no_penetration, ground that is dry inside of the footprint is cut out of
+/// the surface, which height fields know alone.
 bool mayHang(const SolveOptions& options)
 {
-    return options.model != Model::Linear;
+    return options.model != Model::Linear && !options.no_penetration;
 }
 
 /// Droplets that are solved together: all at one pressure, or each for itself.
@@ -80,10 +81,22 @@ std::string ofDroplet(std::size_t k, std::size_t count)
 /// Why there is no height field, and what to change.
 std::string refusal(const SolveReport& report, const std::string& which)
 {
-    if (report.termination == Termination::Unstable) {
-        return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
-               ", but at most " + numberText(report.critical_bond_number, 4) +
-               " can hang on this footprint; use a smaller --gravity or --width";
+    switch (report.termination) {
+        case Termination::NoHeightField:
+            return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
+                   numberText(report.largest_volume / kMicrolitre, 4) +
+                   " uL; more liquid would hang over its rim; ask for less";
+        case Termination::OutOfSteps:
+            return which + std::to_string(report.newton_steps) + " steps of Newton's method reached only " +
+                   numberText(report.largest_volume / kMicrolitre, 4) +
+                   " uL on this footprint; ask for less, or smooth the footprint";
+        case Termination::Unstable:
+            return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
+                   ", but at most " + numberText(report.critical_bond_number, 4) +
+                   " can hang on this footprint; use a smaller --gravity or --width";
+        case Termination::NotConverged:
+        case Termination::Converged:
+            break;
     }
     return which + "the equations could not be solved (residual " + numberText(report.residual, 3) +
            "); try another number of --triangles";
@@ -353,6 +366,14 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     Solution& solution = shapes.solution;
     if (!mayHang(options)) {
         solution = solve(meshes, options, progress);
+        if (!solution.report.usable() && options.model == Model::Auto) {
+            // With no_penetration, the linear model is all there is then.
+            SolveOptions linear = options;
+            linear.model = Model::Linear;
+            if (Solution flat = solve(meshes, linear); flat.report.usable()) {
+                solution = std::move(flat);
+            }
+        }
         if (!solution.report.usable()) {
             throw Error(ErrorCode::NoSuchDroplet,
                         refusal(solution.report, options.fill.sharing == FillSharing::Each
