@@ -34,8 +34,8 @@ void main() {
     depth = lift / max(-ray.y, 0.05);
     facing = dot(normal, sun);
     vec2 landing = refracted ? bent : straight;
-    // The base is skipped.
-    gl_Position = normal.y < -0.5 ? vec4(2.0, 2.0, 2.0, 1.0) :
+    // The base is skipped, but not the liquid's surface where it leans out over its rim.
+    gl_Position = normal.y < -0.95 ? vec4(2.0, 2.0, 2.0, 1.0) :
         projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0) + vec4(shift, 0.0, 0.0);
 }`;
 

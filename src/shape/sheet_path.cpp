@@ -238,11 +238,12 @@ private:
             }
             const double amount = amountOf(now_.sheet, now_.pressure);
             largest = std::max(largest, amount);
-            if (target_.by == FillBy::ContactAngle && amount < largest - kFallen) {
-                return SheetEnd::NoAngle;
-            }
-            if (target_.by == FillBy::Height && amount < kLower * largest) {
-                return SheetEnd::NoHeight;
+            const bool is_angle = target_.by == FillBy::ContactAngle;
+            if (amount < (is_angle ? largest - kFallen : kLower * largest)) {
+                if (slopeOfAmount() <= 0.0) {
+                    return is_angle ? SheetEnd::NoAngle : SheetEnd::NoHeight;
+                }
+                largest = amount;  // it fell with new triangles
             }
         }
         return hasWork() ? SheetEnd::Unstable : SheetEnd::OutOfWork;
@@ -261,19 +262,24 @@ private:
         if (target_.by == FillBy::Volume) {
             return target_.amount - now_.volume;
         }
-        // By a motion along the tangent that is small against the sheet.
-        const double scale = std::pow(meshed_area_, 1.5);
-        const double probe = 1e-6 * scale;
-        SheetMesh moved = now_.sheet;
-        moved.places = movedPlaces(now_, probe);
-        const double amount = amountOf(now_.sheet, now_.pressure);
-        const double then = amountOf(moved, now_.pressure + probe * now_.newton.pressure_slope);
-        const double missing = target_.amount - amount;
+        const double missing = target_.amount - amountOf(now_.sheet, now_.pressure);
         if (std::abs(missing) <= 1e-9 * target_.amount) {
             return 0.0;
         }
-        const double slope = (then - amount) / probe;
-        return slope > 0.0 ? missing / slope : std::copysign(scale, missing);
+        const double slope = slopeOfAmount();
+        return slope > 0.0 ? missing / slope : std::copysign(std::pow(meshed_area_, 1.5), missing);
+    }
+
+    /// Change of height or mean contact angle per volume, by a motion along the tangent that is small against the
+    /// sheet.
+    [[nodiscard]] double slopeOfAmount() const
+    {
+        const double probe = 1e-6 * std::pow(meshed_area_, 1.5);
+        SheetMesh moved = now_.sheet;
+        moved.places = movedPlaces(now_, probe);
+        return (amountOf(moved, now_.pressure + probe * now_.newton.pressure_slope) -
+                amountOf(now_.sheet, now_.pressure)) /
+               probe;
     }
 
     /// Size of a step along the tangent, shortened until no triangle turns too far.
