@@ -49,6 +49,21 @@ bool mayHang(const SolveOptions& options)
     return options.model != Model::Linear && !options.no_penetration;
 }
 
+/// Whether there is no height field for sure.
+bool mustHang(const SolveOptions& options)
+{
+    return options.volumes.empty() && options.fill.by == FillBy::ContactAngle &&
+           options.fill.amount >= 0.5 * std::numbers::pi;
+}
+
+/// Whether the linear model stands in where no sheet is found: on footprints as ragged as noise, one droplet of many
+/// would refuse all that share its liquid, and none is lost on curved ground, either.
+bool hasLinear(const SolveOptions& options)
+{
+    const bool is_shared = options.fill.sharing == FillSharing::Total;
+    return options.model == Model::Auto && (is_shared || !options.ground.flat()) && !mustHang(options);
+}
+
 /// Droplets that are solved together: all at one pressure, or each for itself.
 std::vector<std::vector<std::size_t>> groupsOf(std::size_t count, const SolveOptions& options)
 {
@@ -57,13 +72,6 @@ std::vector<std::vector<std::size_t>> groupsOf(std::size_t count, const SolveOpt
         groups[std::min(k, groups.size() - 1)].push_back(k);
     }
     return groups;
-}
-
-/// Whether there is no height field for sure.
-bool mustHang(const SolveOptions& options)
-{
-    return options.volumes.empty() && options.fill.by == FillBy::ContactAngle &&
-           options.fill.amount >= 0.5 * std::numbers::pi;
 }
 
 bool isUpright(const HeightField& field)
@@ -396,6 +404,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     }
     const std::vector<std::vector<std::size_t>> groups = groupsOf(count, options);
     const bool has_fields = solution.report.usable();
+    const bool has_linear = hasLinear(options);
     std::vector<Shape> found(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
         if (followed[g]) {
@@ -411,7 +420,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             }
         }
         found[g] = solveShape(own, ownOptions(options, g), std::move(fields),
-                              allow_less ? SheetEffort::Modest : SheetEffort::Full);
+                              has_linear   ? SheetEffort::Slight
+                              : allow_less ? SheetEffort::Modest
+                                           : SheetEffort::Full);
     });
     solution.droplets.assign(count, {});
     shapes.sheets.resize(count);
@@ -438,6 +449,13 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, which));
         } else {
             if (shape.sheet->end != SheetEnd::Reached) {
+                if (has_linear) {
+                    SolveOptions linear = options;
+                    linear.model = Model::Linear;
+                    if (Solution flat = findFields(meshes, linear, {}); flat.report.usable()) {
+                        return {std::move(flat), {}};
+                    }
+                }
                 if (!allow_less) {
                     throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, which, groups[g].size()));
                 }

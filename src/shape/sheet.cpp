@@ -67,7 +67,7 @@ SheetMesh meshOf(const ParametricSheet& sheet)
 /// Distance of a place to the footprint, 0 inside [m].
 double distanceTo(const PlanarMesh& footprint, Vec2 place)
 {
-    const auto forSides = [&](const auto& use) {
+    const auto for_sides = [&](const auto& use) {
         for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
             Vec2 a = footprint.vertices[footprint.loop_starts[loop + 1] - 1];
             for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
@@ -79,7 +79,7 @@ double distanceTo(const PlanarMesh& footprint, Vec2 place)
     };
     // Most places are inside: these need no distance.
     bool is_inside = false;
-    forSides([&](Vec2 a, Vec2 b) {
+    for_sides([&](Vec2 a, Vec2 b) {
         const Vec2 side = b - a;
         if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / side.y * side.x) {
             is_inside = !is_inside;
@@ -89,7 +89,7 @@ double distanceTo(const PlanarMesh& footprint, Vec2 place)
         return 0.0;
     }
     double nearest = std::numeric_limits<double>::infinity();
-    forSides([&](Vec2 a, Vec2 b) {
+    for_sides([&](Vec2 a, Vec2 b) {
         const Vec2 side = b - a;
         const double along = std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0);
         const Vec2 arm = place - a - along * side;

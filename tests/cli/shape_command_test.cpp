@@ -1052,7 +1052,7 @@ TEST_F(ShapeCommandTest, BeadsShareTheirLiquidOnAGutter)
                   return std::hypot(x - 24, y - 32) < 14 || std::hypot(x - 70, y - 32) < 10 ? 255 : 0;
               }));
     const json shared = report({"two.pgm", "two.glb", "--fill", "total", "--contact-angle", "95deg", "--width", "12mm",
-                                "--surface", "cylinder:R=-20mm,axis=x", "--triangles", "2k"});
+                                "--surface", "cylinder:R=-20mm,axis=x"});
     EXPECT_EQ(shared["model"], "parametric");
     EXPECT_TRUE(shared["output"]["closed"].get<bool>());
     EXPECT_NEAR(shared["shape"]["contact_angle_deg"]["mean"].get<double>(), 95.0, 1e-4);
