@@ -231,7 +231,7 @@ void SheetFactor::findRows(const Neighbours& near)
 void SheetFactor::findEntries(const Neighbours& near)
 {
     // Of every column, the entries on the diagonal and below.
-    const auto forEntries = [&](const Front& front, const auto& use) {
+    const auto for_entries = [&](const Front& front, const auto& use) {
         for (std::int32_t column = front.begin; column < front.end; ++column) {
             const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(column)]);
             for (auto k = static_cast<std::size_t>(near.starts[i]); k < static_cast<std::size_t>(near.starts[i + 1]);
@@ -248,7 +248,7 @@ void SheetFactor::findEntries(const Neighbours& near)
         [&](std::size_t begin, std::size_t end) {
             for (std::size_t f = begin; f < end; ++f) {
                 fronts_[f].last_entry = 0;
-                forEntries(fronts_[f], [&](auto, auto, auto) { ++fronts_[f].last_entry; });
+                for_entries(fronts_[f], [&](auto, auto, auto) { ++fronts_[f].last_entry; });
             }
         },
         kFronts);
@@ -269,7 +269,7 @@ void SheetFactor::findEntries(const Neighbours& near)
                 const auto first = rows_.begin() + index(front.first_row);
                 const auto last = first + index(front.row_count);
                 std::size_t next = front.first_entry;
-                forEntries(front, [&](std::int32_t from, std::int32_t row, std::int32_t column) {
+                for_entries(front, [&](std::int32_t from, std::int32_t row, std::int32_t column) {
                     const std::int32_t at =
                         row < front.end ? row - front.begin
                                         : own + static_cast<std::int32_t>(std::lower_bound(first, last, row) - first);

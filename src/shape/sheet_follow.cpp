@@ -74,7 +74,7 @@ Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& ri
 Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
 {
     const auto inner = static_cast<Eigen::Index>(sheet.places.size() - sheet.rim);
-    const auto rowOf = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rim); };
+    const auto row_of = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rim); };
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
     for (const Triangle& t : sheet.triangles) {
@@ -88,11 +88,11 @@ Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
                 if (from < sheet.rim) {
                     continue;
                 }
-                entries.emplace_back(rowOf(from), rowOf(from), weight);
+                entries.emplace_back(row_of(from), row_of(from), weight);
                 if (to < sheet.rim) {
-                    right.row(rowOf(from)) += weight * moves.row(static_cast<Eigen::Index>(to));
+                    right.row(row_of(from)) += weight * moves.row(static_cast<Eigen::Index>(to));
                 } else {
-                    entries.emplace_back(rowOf(from), rowOf(to), -weight);
+                    entries.emplace_back(row_of(from), row_of(to), -weight);
                 }
             }
         }
@@ -128,8 +128,8 @@ std::vector<Vec3> motionOf(const SheetMesh& sheet, const std::vector<Vec2>& rim,
 /// Pressure after a motion, where gravity does not change the shape: it grows inversely to the sheet, at its middle.
 double pressureAfter(const Similarity& similarity, double pressure, Vec3 weight)
 {
-    const auto atMiddle = [&](Place middle) { return weight.x * middle.real() + weight.y * middle.imag(); };
-    return (pressure - atMiddle(similarity.from)) / similarity.growth() + atMiddle(similarity.to);
+    const auto at_middle = [&](Place middle) { return weight.x * middle.real() + weight.y * middle.imag(); };
+    return (pressure - at_middle(similarity.from)) / similarity.growth() + at_middle(similarity.to);
 }
 
 /// Sheet whose rim moves.
