@@ -77,6 +77,8 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
 
 /// Fills several footprints at one pressure, as one reservoir, whatever the fill's sharing.
 /// @param footprints  at least one
+/// @param options     as of one footprint; a volume is that of all together
+/// @param effort      as of one footprint
 /// @return            the sheet holds all of them; separate() gives each its own
 SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options,
                        SheetEffort effort = SheetEffort::Full);
@@ -90,6 +92,7 @@ PlanarMesh join(const std::vector<PlanarMesh>& footprints);
 ParametricSheet join(const std::vector<ParametricSheet>& sheets);
 
 /// Sheets of the single footprints of one that holds several, in their order; the inverse of join().
+/// @param sheet  of several footprints, or of one
 std::vector<ParametricSheet> separate(const ParametricSheet& sheet);
 
 /// Fills or drains a sheet on the same triangles. They can follow only so far: beyond, the end is SheetEnd::Unstable.
