@@ -33,16 +33,6 @@ PlanarMesh movedFootprint(const SheetOrigin& origin, const PlanarMesh& mesh)
                                            : moveRim(footprint, carryPoints(origin.mesh, mesh, rimOf(footprint)));
 }
 
-SolveOptions ownOptions(const SolveOptions& options, std::size_t k)
-{
-    SolveOptions own = options;
-    if (!options.volumes.empty()) {
-        own.volumes.clear();
-        own.fill = {FillBy::Volume, options.volumes[k], FillSharing::Each};
-    }
-    return own;
-}
-
 }  // namespace
 
 std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Droplet& before,

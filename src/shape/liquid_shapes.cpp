@@ -15,6 +15,7 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "number_text.h"
+#include "shape/own_options.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/sheet_mesh.h"
@@ -125,6 +126,13 @@ Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     }
 }
 
+/// Height fields of the linear model, or none where no volume gives the amount.
+Solution linearFields(const std::vector<PlanarMesh>& meshes, SolveOptions options)
+{
+    options.model = Model::Linear;
+    return findFields(meshes, options, {});
+}
+
 /// Why there is no sheet, and what to change.
 /// @param droplets  at one pressure
 std::string refusal(const SheetResult& result, const std::string& which, std::size_t droplets)
@@ -173,17 +181,6 @@ Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
         shape.fields = std::move(solution.droplets);
     }
     return shape;
-}
-
-/// Options of one group.
-SolveOptions ownOptions(const SolveOptions& options, std::size_t group)
-{
-    SolveOptions own = options;
-    if (!options.volumes.empty()) {
-        own.volumes.clear();
-        own.fill = {FillBy::Volume, options.volumes[group], FillSharing::Each};
-    }
-    return own;
 }
 
 /// Shape of droplets at one pressure, which may hang over their rims.
@@ -376,9 +373,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         solution = solve(meshes, options, progress);
         if (!solution.report.usable() && options.model == Model::Auto) {
             // With no_penetration, the linear model is all there is then.
-            SolveOptions linear = options;
-            linear.model = Model::Linear;
-            if (Solution flat = solve(meshes, linear); flat.report.usable()) {
+            if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
                 solution = std::move(flat);
             }
         }
@@ -450,9 +445,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         } else {
             if (shape.sheet->end != SheetEnd::Reached) {
                 if (has_linear) {
-                    SolveOptions linear = options;
-                    linear.model = Model::Linear;
-                    if (Solution flat = findFields(meshes, linear, {}); flat.report.usable()) {
+                    if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
                         return {std::move(flat), {}};
                     }
                 }
@@ -461,9 +454,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                 }
                 if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
                     shape.sheet->contact_angle < kLeastShare * options.fill.amount) {
-                    SolveOptions linear = options;
-                    linear.model = Model::Linear;
-                    if (Solution flat = solve(meshes, linear); flat.report.usable()) {
+                    if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
                         return {std::move(flat), {}};
                     }
                 }

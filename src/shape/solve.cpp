@@ -24,6 +24,7 @@
 #include "shape/equilibrium.h"
 #include "shape/existence.h"
 #include "shape/hanging.h"
+#include "shape/own_options.h"
 
 namespace droplet {
 namespace {
@@ -183,16 +184,6 @@ void checkVolumes(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
     }
 }
 
-SolveOptions optionsOf(std::size_t group, const SolveOptions& options)
-{
-    SolveOptions own = options;
-    if (!options.volumes.empty()) {
-        own.volumes.clear();
-        own.fill = {FillBy::Volume, options.volumes[group], FillSharing::Each};
-    }
-    return own;
-}
-
 }  // namespace
 
 PlaneGravity planeGravity(const SolveOptions& options)
@@ -273,7 +264,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
         progress(Stage::Solve);
     }
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        groups[g].outcome = findEquilibrium(groups[g].members, optionsOf(g, options));
+        groups[g].outcome = findEquilibrium(groups[g].members, ownOptions(options, g));
     });
 
     Solution solution;
