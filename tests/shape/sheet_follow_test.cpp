@@ -239,7 +239,7 @@ TEST(SheetFollow, GivesTheSameBitsAtAnyNumberOfThreads)
     const SheetResult first = solveSheet(discMeshes(0.1).front(), options);
     const PlanarMesh footprint = moved(first.sheet.footprint, [](Vec2 p) { return Vec2{1.04 * p.x, 0.98 * p.y}; });
     std::vector<SheetResult> results;
-    for (const std::size_t threads : {1, 2}) {
+    for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(follow(first.sheet, first.sheet, footprint, options));
     }
