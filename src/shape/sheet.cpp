@@ -33,10 +33,12 @@ constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
-/// Most work over that of one factorisation on the footprint's triangles, and least limit of it. Of 298 silhouettes of
-/// 8000 triangles half took 30 and one 310 at 40°, half 41 and one 620 at 60°; of drawings of 40 000 a butterfly took
-/// 370. A U of 600 triangles took 1.5e7 in all.
+/// Most work over that of one factorisation on the footprint's triangles. Of 298 silhouettes of 8000 triangles half
+/// took 30 and one 310 at 40°, half 41 and one 620 at 60°; of drawings of 40 000 a butterfly took 370.
 constexpr double kWork = 1500.0;
+/// Least limit of the work of a full effort, half a minute, and of the others. A U of 600 triangles took 1.5e7 in all;
+/// a cock of 8000 took 1.4e9.
+constexpr double kLeastFullWork = 1e10;
 constexpr double kLeastWork = 2e8;
 /// Turn of the rim at a corner [rad].
 constexpr double kCorner = 0.5;
@@ -191,10 +193,10 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     SheetOptions sheet_options{weightOf(options),
                                kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
-    const double share_of_work = effort == SheetEffort::Full     ? 1.0
-                                 : effort == SheetEffort::Modest ? kModestWork
-                                                                 : kSlightWork;
-    sheet_options.max_work = share_of_work * std::max(kLeastWork, kWork * std::pow(triangles, 1.5));
+    const double work = kWork * std::pow(triangles, 1.5);
+    sheet_options.max_work = effort == SheetEffort::Full ? std::max(kLeastFullWork, work)
+                                                         : (effort == SheetEffort::Modest ? kModestWork : kSlightWork) *
+                                                               std::max(kLeastWork, work);
     sheet_options.ground = options.ground;
     take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
     return result;

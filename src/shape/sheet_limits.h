@@ -8,7 +8,7 @@ namespace droplet {
 /// Limits of a predicted step: no triangle turns by more than 22°.
 inline constexpr MotionLimits kPredicted{0.927, 0.4, 2.5};
 /// Limits of Newton's method from a start that no tangent predicts.
-inline constexpr NewtonLimits kSettling{.steps = 20, .shifted_steps = 8, .worn = 0.4};
+inline constexpr NewtonLimits kSettling{.steps = 14, .shifted_steps = 8, .worn = 0.4, .factorisations = 40};
 /// Angle of a triangle, over that when it was made, below which it is moved along the sheet, or made anew.
 inline constexpr double kWorn = 0.7;
 /// Smallest step, over the whole way, most work, in factorisations, and smoothings of triangles that stay.
