@@ -42,8 +42,8 @@ constexpr double kLeastFullWork = 1e10;
 constexpr double kLeastWork = 2e8;
 /// Turn of the rim at a corner [rad].
 constexpr double kCorner = 0.5;
-/// Share of it for slight and modest efforts.
-constexpr double kSlightWork = 0.1;
+/// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
+constexpr double kSlightWork = 0.04;
 constexpr double kModestWork = 0.3;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].

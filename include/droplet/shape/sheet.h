@@ -40,8 +40,8 @@ enum class SheetEnd {
 
 /// How hard solveSheet() tries.
 enum class SheetEffort {
-    Slight,  ///< a tenth of the work; the end of what the footprint holds is not confirmed
-    Modest,  ///< a third of the work; likewise
+    Slight,  ///< 4 % of the work; the end of what the footprint holds is not confirmed
+    Modest,  ///< 30 %; likewise
     Full,    ///< at the end, finer triangles confirm it
 };
 
