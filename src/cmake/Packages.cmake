@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Packages of the command, by cpack: a .deb for the release of Debian it was built on, and an archive that runs wherever
+# it is unpacked, with all libraries but the C library's.
+set(documents ${CMAKE_INSTALL_DATADIR}/doc/droplet-shape)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/copyright DESTINATION ${documents} COMPONENT command)
+file(STRINGS CITATION.cff released REGEX "^date-released:")
+string(REGEX MATCH "[-0-9]+$" released "${released}")
+execute_process(COMMAND date --utc --rfc-email --date=${released} OUTPUT_VARIABLE package_date OUTPUT_STRIP_TRAILING_WHITESPACE
+  COMMAND_ERROR_IS_FATAL ANY)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/package/changelog.in changelog @ONLY)
+add_custom_command(OUTPUT changelog.Debian.gz
+  COMMAND gzip -9 --no-name --stdout changelog > changelog.Debian.gz DEPENDS ${PROJECT_BINARY_DIR}/changelog VERBATIM)
+add_custom_target(package_changelog ALL DEPENDS changelog.Debian.gz)
+install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz DESTINATION ${documents} COMPONENT command)
+
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+  RENAME droplet-shape COMPONENT command)
+
+# Libraries of the C library must be those of the kernel's system.
+install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
+  PRE_EXCLUDE_REGEXES [[^(ld-linux.*|lib(c|m|dl|pthread|rt|resolv))\.so]])
+
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_PACKAGE_NAME droplet-shape)
+set(CPACK_PACKAGE_CONTACT "The droplet-shape maintainers <maintainers@droplet-shape.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "3D droplets of liquid from the pictures of their footprints")
+set(CPACK_PACKAGE_DESCRIPTION "\
+The command turns a mask, a logo, a glyph or a drawing into the mesh of the
+droplet that surface tension and gravity shape on it, as glTF, OBJ, PLY or STL.
+.
+It fills whole fonts and folders of masks, renders droplets, and animates
+droplets in wind tunnels, on windshields and over meshes.")
+set(CPACK_PACKAGE_FILE_NAME droplet-shape-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package/components.cmake)
+include(CPack)
