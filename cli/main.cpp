@@ -37,7 +37,7 @@ using cli::exitCodeOf;
 
 int fail(std::string_view message, ExitCode code)
 {
-    std::cerr << cli::paint("droplet-shape: ", cli::Colour::Red) << cli::oneLine(message) << std::endl;
+    cli::printError(message);
     return static_cast<int>(code);
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -24,6 +25,7 @@
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
+#include "picture_watch.h"
 #include "progress_display.h"
 #include "stage_clock.h"
 #include "summary.h"
@@ -323,6 +325,20 @@ void printSummary(const droplet::Report& report, const RunOptions& run)
     }
 }
 
+/// Calls a function at once and whenever a picture is saved, until a signal ends the program. A picture may be half
+/// drawn, so what the function throws is printed.
+[[noreturn]] void makeWheneverSaved(const std::string& picture, const std::function<void()>& make)
+{
+    PictureWatch watch(picture);
+    for (;; watch.wait()) {
+        try {
+            make();
+        } catch (const Error& error) {
+            printError(error.what());
+        }
+    }
+}
+
 }  // namespace
 
 void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
@@ -468,7 +484,13 @@ int runShape(int argc, const char* const* argv)
     }
     const auto& options = std::get<ShapeOptions>(parsed);
     checkShape(options, "INPUT");
-    makeAndReport(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
+    const auto make = [&] {
+        makeAndReport(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
+    };
+    if (options.watch) {
+        makeWheneverSaved(options.input, make);
+    }
+    make();
     return 0;
 }
 

@@ -37,6 +37,7 @@ const CommandText& commandText()
             "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
             "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
             "  droplet-shape - - --format stl < logo.png > logo.stl\n"
+            "  droplet-shape logo.png logo.glb --watch\n"
             "\n"
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
@@ -58,7 +59,26 @@ void declareShape(CommandLine& line)
     declareHtml(line);
     line.add("Run", "--export-evolver", "FILE",
              "Write the droplets as input for Surface Evolver; - is standard output");
+    line.addFlag("Run", "--watch", "Make the droplet again whenever INPUT is saved, until Ctrl-C");
     declareRun(line);
+    line.exclude({"--watch", "--no-clobber"});
+}
+
+/// --watch makes files again and again, which streams cannot hold.
+void requireFiles(const ShapeOptions& options)
+{
+    const auto clash = [](const std::string& name, const std::string& path) {
+        if (isStream(path)) {
+            refuse("--watch and " + name + " - exclude each other: only a file can be made again");
+        }
+    };
+    clash("INPUT", options.input);
+    clash("OUTPUT", options.output);
+    clash("--json", options.json.value_or(""));
+    clash("--mask-out", options.footprint.mask_out.value_or(""));
+    clash("--export-evolver", options.evolver.value_or(""));
+    clash("--html", options.html.value_or(""));
+    clash("--preview", options.preview ? options.preview->path : "");
 }
 
 /// Whether an output is glTF; the page contains one.
@@ -208,6 +228,10 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
         options.footprint.mask_out = mask->text;
     }
     options.settings.warnings.insert(options.settings.warnings.end(), warnings.begin(), warnings.end());
+    options.watch = line.flag("--watch");
+    if (options.watch) {
+        requireFiles(options);
+    }
     return options;
 }
 

@@ -23,6 +23,7 @@ struct ShapeOptions {
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;
+    bool watch = false;  ///< make the droplet again whenever the picture is saved
 };
 
 /// Declares --html.

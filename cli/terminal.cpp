@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <iostream>
 
 namespace cli {
 namespace {
@@ -39,6 +40,11 @@ std::string oneLine(std::string_view text)
         line += byte < 0x20 || byte == 0x7f ? '?' : c;
     }
     return line;
+}
+
+void printError(std::string_view message)
+{
+    std::cerr << paint("droplet-shape: ", Colour::Red) << oneLine(message) << std::endl;
 }
 
 }  // namespace cli

@@ -20,4 +20,7 @@ std::string paint(std::string_view text, Colour colour);
 /// Text with line breaks and other control characters replaced by '?': file names may contain them.
 std::string oneLine(std::string_view text);
 
+/// Prints a failure in one line on standard error.
+void printError(std::string_view message);
+
 }  // namespace cli

@@ -60,6 +60,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from animate batch comp
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from batch flow glyphs wind-tunnel windshield' -l json -r -F -d 'Write a report; - is standard output'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from batch compare flow liquid2d wind-tunnel windshield' -l html -r -F -d 'Write one page that shows the droplet in a browser; - is standard output'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from animate batch compare flow glyphs liquid2d morph wind-tunnel windshield' -l export-evolver -r -F -d 'Write the droplets as input for Surface Evolver; - is standard output'
+complete -c droplet-shape -n 'not __fish_seen_subcommand_from animate batch compare flow glyphs liquid2d morph wind-tunnel windshield' -l watch -d 'Make the droplet again whenever INPUT is saved, until Ctrl-C'
 complete -c droplet-shape -l no-clobber -d 'Do not replace existing files'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d wind-tunnel windshield' -l solver -x -a 'auto llt multigrid' -d 'Solver of the linear system: llt is Eigen\'s factorisation, multigrid iterates, auto takes the faster one'
 complete -c droplet-shape -l threads -s j -x -d 'Maximum number of threads'
