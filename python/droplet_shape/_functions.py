@@ -1,0 +1,1116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Made by python/make_package.py.
+"""Functions of the package; each does what a command of droplet-shape does.
+
+A quantity is a number in SI units (metres, radians, cubic metres, …), or a text with a number and a unit: "20mm".
+"""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Union
+
+from . import _core
+from ._arguments import arguments_of, mask_of
+from ._core import Animation, Droplet, Mask, Surface
+
+if TYPE_CHECKING:
+    import numpy
+
+    from ._reports import Comparison, FlowReport, WindshieldReport, WindTunnelReport
+
+    MaskLike = Union[numpy.ndarray, Mask]
+    Path = Union[str, os.PathLike[str]]
+
+
+class _Reports:
+    """The module of the reports, loaded when it is first used."""
+
+    def __getattr__(self, name: str):
+        from . import _reports
+
+        return getattr(_reports, name)
+
+
+_reports = _Reports()
+
+
+_READ_MASK = {
+    "channel": "text",
+    "threshold": "number",
+    "invert": "flag",
+    "segment": "text",
+    "colour": "text",
+}
+
+
+def read_mask(
+    path: Path,
+    *,
+    channel: str | None = None,
+    threshold: float | None = None,
+    invert: bool = False,
+    segment: str | None = None,
+    colour: str | None = None,
+) -> Mask:
+    """Reads the mask in a picture.
+
+    Formats are PNG, JPEG, SVG, TIFF, WebP, BMP, PNM, JPEG 2000, OpenEXR and HDR. It does what the command does with
+    its INPUT. numpy.asarray() of the result is the array of the mask.
+
+    path: file of the picture.
+
+    >>> read_mask("data/ampersand.png", channel="luma")
+    <Mask of 642 x 548 pixels>
+
+    Footprint:
+      channel: auto, alpha, luma: Channel that shows the liquid: auto takes alpha if the picture has transparent
+        parts, else what differs from the brightness of its border (default: auto)
+      threshold: Coverage at which liquid begins, between 0 and 1 (default: 0.5)
+      invert: Exchange liquid and dry
+      segment: auto, threshold, adaptive, grabcut: How to separate liquid from dry: threshold for drawings and scans,
+        adaptive for photographs in uneven light, grabcut by colour; auto chooses and reports its choice (default:
+        auto)
+      colour: Take the regions of this colour, such as red or #e30613
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: the file is no picture, or has no mask.
+    """
+    return _core.read_mask(path, arguments_of(_READ_MASK, locals()))
+
+
+_MAKE_DROPLET = {
+    "width": "m",
+    "pixel_size": "m",
+    "threshold": "number",
+    "invert": "flag",
+    "smooth": "m",
+    "fill_holes": "m2",
+    "keep": "number",
+    "speck_size": "number",
+    "contact_angle": "rad",
+    "on": "text",
+    "volume": "m3",
+    "height": "m",
+    "fill": "text",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "model": "text",
+    "gravity": "m/s2",
+    "tilt": "rad",
+    "tilt_direction": "rad",
+    "surface": "text",
+    "surface_depth": "m",
+    "no_penetration": "flag",
+    "onto": "path",
+    "advancing": "rad",
+    "receding": "rad",
+    "triangles": "number",
+    "edge": "m",
+    "grading": "number",
+    "open": "flag",
+    "fill_range": "range",
+    "solver": "text",
+    "threads": "number",
+}
+
+
+def make_droplet(
+    mask: MaskLike,
+    *,
+    width: str | float | None = None,
+    pixel_size: str | float | None = None,
+    threshold: float | None = None,
+    invert: bool = False,
+    smooth: str | float | None = None,
+    fill_holes: str | float | None = None,
+    keep: str | int | None = None,
+    speck_size: float | None = None,
+    contact_angle: str | float | None = None,
+    on: str | None = None,
+    volume: str | float | None = None,
+    height: str | float | None = None,
+    fill: str | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    model: str | None = None,
+    gravity: str | float | None = None,
+    tilt: str | float | None = None,
+    tilt_direction: str | float | None = None,
+    surface: str | None = None,
+    surface_depth: str | float | None = None,
+    no_penetration: bool = False,
+    onto: Path | None = None,
+    advancing: str | float | None = None,
+    receding: str | float | None = None,
+    triangles: str | int | None = None,
+    edge: str | float | None = None,
+    grading: str | int | None = None,
+    open: bool = False,
+    fill_range: str | tuple[float, float] | None = None,
+    solver: str | None = None,
+    threads: str | int | None = None,
+) -> Droplet:
+    """Makes the droplets of liquid that have a mask as their footprints.
+
+    mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose largest value is liquid; or float
+    from 0 to
+    1. Or the result of read_mask().
+
+    >>> import numpy
+    >>> y, x = numpy.mgrid[-1:1:200j, -1:1:200j]
+    >>> drop = make_droplet(x**2 + y**2 < 0.8, width="10mm", volume="30uL", triangles=2000)
+    >>> round(drop.report.shape.volume_ul, 6)
+    30.0
+    >>> drop.vertices.shape[1], drop.triangles.dtype
+    (3, dtype('uint32'))
+
+    Footprint:
+      width [m]: Width of the picture; an SVG may state its own (default: 20mm)
+      pixel_size [m]: Size of one pixel, instead of width
+      threshold: Coverage at which liquid begins, between 0 and 1 (default: 0.5)
+      invert: Exchange liquid and dry
+      smooth [m]: Remove spots, and bends of the rim, that are narrower than this
+      fill_holes [m²]: Fill holes smaller than this, such as glints: 1mm2
+      keep: Keep only the N largest droplets
+      speck_size: Drop spots and holes smaller than F square pixels (default: 3)
+
+    Liquid:
+      contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
+        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
+        not (default: 40deg)
+      on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
+      volume [m³]: Amount of liquid, by its volume
+      height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
+      fill: each, total: each: every droplet gets this amount; total: all droplets share it at one pressure (default:
+        each)
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
+        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+
+    Gravity and ground:
+      gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
+      tilt [rad]: Tilt of the ground: 90deg is a wall, 180deg a ceiling (default: 0deg)
+      tilt_direction [rad]: Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower
+        edge (default: -90deg)
+      surface: Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis
+        x, y or an angle; R < 0 is a bowl or a gutter (default: flat)
+      surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
+        metres without it
+      no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
+      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates
+      advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
+      receding [rad]: Receding contact angle, at most advancing
+
+    Surface:
+      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      edge [m]: Edge length of the triangles, instead of triangles
+      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      open: Leave out the base
+      fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
+        takes the linear model unless model exact is given
+
+    Run:
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
+        auto takes the faster one (default: auto)
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: the mask has no liquid; NoSuchDroplet: no
+    such droplet exists, or the solver failed.
+    """
+    return _core.make_droplet(mask_of(mask), arguments_of(_MAKE_DROPLET, locals()))
+
+
+_GLYPHS = {
+    "face_index": "number",
+    "axis": "axes",
+    "em": "m",
+    "tolerance": "m",
+    "align": "text",
+    "line_spacing": "number",
+    "contact_angle": "rad",
+    "on": "text",
+    "volume": "m3",
+    "height": "m",
+    "fill": "text",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "model": "text",
+    "gravity": "m/s2",
+    "tilt": "rad",
+    "tilt_direction": "rad",
+    "surface": "text",
+    "surface_depth": "m",
+    "no_penetration": "flag",
+    "onto": "path",
+    "advancing": "rad",
+    "receding": "rad",
+    "triangles": "number",
+    "edge": "m",
+    "grading": "number",
+    "open": "flag",
+    "fill_range": "range",
+    "solver": "text",
+    "threads": "number",
+}
+
+
+def glyphs(
+    font: Path,
+    text: str,
+    *,
+    face_index: str | int | None = None,
+    axis: Mapping[str, float] | None = None,
+    em: str | float | None = None,
+    tolerance: str | float | None = None,
+    align: str | None = None,
+    line_spacing: float | None = None,
+    contact_angle: str | float | None = None,
+    on: str | None = None,
+    volume: str | float | None = None,
+    height: str | float | None = None,
+    fill: str | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    model: str | None = None,
+    gravity: str | float | None = None,
+    tilt: str | float | None = None,
+    tilt_direction: str | float | None = None,
+    surface: str | None = None,
+    surface_depth: str | float | None = None,
+    no_penetration: bool = False,
+    onto: Path | None = None,
+    advancing: str | float | None = None,
+    receding: str | float | None = None,
+    triangles: str | int | None = None,
+    edge: str | float | None = None,
+    grading: str | int | None = None,
+    open: bool = False,
+    fill_range: str | tuple[float, float] | None = None,
+    solver: str | None = None,
+    threads: str | int | None = None,
+) -> Droplet:
+    """Makes the droplets of a text.
+
+    font: file of the font: TrueType, OpenType, a collection, WOFF or Type 1.
+    text: one line or more, separated by line feeds.
+
+    >>> from matplotlib import font_manager
+    >>> drop = glyphs(font_manager.findfont("DejaVu Serif"), "ok", em="10mm", triangles=2000)
+    >>> len(drop.report.droplets)
+    2
+
+    Type:
+      face_index: Index of the font in a collection (default: 0)
+      axis: Axis of a variable font, such as wght=700; may be given several times
+      em [m]: Type size: edge of the em square (default: 20mm)
+      tolerance [m]: Largest error of a curve drawn as lines (default: em/20000)
+      align: start, centre, end: Alignment of the lines of a text; Hebrew and Arabic start on the right (default:
+        start)
+      line_spacing: Distance of lines, as a multiple of the font's own (default: 1)
+
+    Liquid:
+      contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
+        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
+        not (default: 40deg)
+      on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
+      volume [m³]: Amount of liquid, by its volume
+      height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
+      fill: each, total: each: every droplet gets this amount; total: all droplets share it at one pressure (default:
+        each)
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
+        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+
+    Gravity and ground:
+      gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
+      tilt [rad]: Tilt of the ground: 90deg is a wall, 180deg a ceiling (default: 0deg)
+      tilt_direction [rad]: Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower
+        edge (default: -90deg)
+      surface: Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis
+        x, y or an angle; R < 0 is a bowl or a gutter (default: flat)
+      surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
+        metres without it
+      no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
+      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates
+      advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
+      receding [rad]: Receding contact angle, at most advancing
+
+    Surface:
+      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      edge [m]: Edge length of the triangles, instead of triangles
+      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      open: Leave out the base
+      fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
+        takes the linear model unless model exact is given
+
+    Run:
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
+        auto takes the faster one (default: auto)
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: the font cannot be read, or the text has no
+    ink; NoSuchDroplet: no such droplet exists, or the solver failed.
+    """
+    return _core.glyphs(font, text, arguments_of(_GLYPHS, locals()))
+
+
+_ANIMATE = {
+    "volume_mode": "text",
+    "fps": "number",
+    "width": "m",
+    "pixel_size": "m",
+    "threshold": "number",
+    "invert": "flag",
+    "smooth": "m",
+    "fill_holes": "m2",
+    "keep": "number",
+    "speck_size": "number",
+    "contact_angle": "rad",
+    "on": "text",
+    "volume": "m3",
+    "height": "m",
+    "fill": "text",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "model": "text",
+    "gravity": "m/s2",
+    "tilt": "rad",
+    "tilt_direction": "rad",
+    "surface": "text",
+    "surface_depth": "m",
+    "no_penetration": "flag",
+    "triangles": "number",
+    "edge": "m",
+    "grading": "number",
+    "open": "flag",
+    "solver": "text",
+    "threads": "number",
+}
+
+
+def animate(
+    frames: Iterable[MaskLike],
+    *,
+    volume_mode: str | None = None,
+    fps: float | None = None,
+    width: str | float | None = None,
+    pixel_size: str | float | None = None,
+    threshold: float | None = None,
+    invert: bool = False,
+    smooth: str | float | None = None,
+    fill_holes: str | float | None = None,
+    keep: str | int | None = None,
+    speck_size: float | None = None,
+    contact_angle: str | float | None = None,
+    on: str | None = None,
+    volume: str | float | None = None,
+    height: str | float | None = None,
+    fill: str | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    model: str | None = None,
+    gravity: str | float | None = None,
+    tilt: str | float | None = None,
+    tilt_direction: str | float | None = None,
+    surface: str | None = None,
+    surface_depth: str | float | None = None,
+    no_penetration: bool = False,
+    triangles: str | int | None = None,
+    edge: str | float | None = None,
+    grading: str | int | None = None,
+    open: bool = False,
+    solver: str | None = None,
+    threads: str | int | None = None,
+) -> Animation:
+    """Makes droplets whose footprints move.
+
+    frames: masks of one size, as of make_droplet(), one after another. A mask without liquid is allowed.
+
+    >>> import numpy
+    >>> y, x = numpy.mgrid[-1:1:150j, -1:1:150j]
+    >>> frames = [x**2 + y**2 < radius**2 for radius in (0.6, 0.62, 0.64)]
+    >>> film = animate(frames, width="10mm", volume="20uL", triangles=1000)
+    >>> len(film), film.report.transitions.vertices_kept
+    (3, 2)
+
+    Sequence:
+      volume_mode: total, track, fill: Volume that stays the same: total, of all droplets together at one pressure;
+        track, of every droplet, through merging and splitting; fill, none, every frame has the contact_angle, volume
+        or height (default: total)
+      fps: Frames per second (default: 24, or the video's)
+
+    Footprint:
+      width [m]: Width of the picture; an SVG may state its own (default: 20mm)
+      pixel_size [m]: Size of one pixel, instead of width
+      threshold: Coverage at which liquid begins, between 0 and 1 (default: 0.5)
+      invert: Exchange liquid and dry
+      smooth [m]: Remove spots, and bends of the rim, that are narrower than this
+      fill_holes [m²]: Fill holes smaller than this, such as glints: 1mm2
+      keep: Keep only the N largest droplets
+      speck_size: Drop spots and holes smaller than F square pixels (default: 3)
+
+    Liquid:
+      contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
+        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
+        not (default: 40deg)
+      on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
+      volume [m³]: Amount of liquid, by its volume
+      height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
+      fill: each, total: each: every droplet gets this amount; total: all droplets share it at one pressure (default:
+        each)
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
+        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+
+    Gravity and ground:
+      gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
+      tilt [rad]: Tilt of the ground: 90deg is a wall, 180deg a ceiling (default: 0deg)
+      tilt_direction [rad]: Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower
+        edge (default: -90deg)
+      surface: Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis
+        x, y or an angle; R < 0 is a bowl or a gutter (default: flat)
+      surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
+        metres without it
+      no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
+
+    Surface:
+      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      edge [m]: Edge length of the triangles, instead of triangles
+      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      open: Leave out the base
+
+    Run:
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
+        auto takes the faster one (default: auto)
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: no frame has liquid, or sizes differ;
+    NoSuchDroplet: no such droplet exists, or the solver failed.
+    """
+    return _core.animate((mask_of(frame) for frame in frames), arguments_of(_ANIMATE, locals()))
+
+
+_COMPARE = {
+    "tolerance": "m",
+    "volume_tolerance": "share",
+    "normal_tolerance": "rad",
+    "threads": "number",
+}
+
+
+def compare(
+    a: Surface | Path,
+    b: Surface | Path,
+    *,
+    tolerance: str | float | None = None,
+    volume_tolerance: str | float | None = None,
+    normal_tolerance: str | float | None = None,
+    threads: str | int | None = None,
+) -> Comparison:
+    """Measures the difference of two surfaces.
+
+    The bounds of the largest distance hold for all points, not only for vertices.
+
+    a, b: surfaces, or files: .glb, .gltf, .obj, .ply or .stl.
+
+    With a tolerance, Comparison.exceeded lists the differences over it; topologies must then be the same, too.
+
+    >>> import numpy
+    >>> y, x = numpy.mgrid[-1:1:150j, -1:1:150j]
+    >>> coarse, fine = (make_droplet(x**2 + y**2 < 0.8, triangles=n) for n in (1000, 4000))
+    >>> compare(coarse, fine, tolerance="0.2mm").exceeded
+    ()
+
+    Allowed:
+      tolerance [m]: Largest distance of a point of one surface from the other
+      volume_tolerance: Largest difference of the volumes, such as 0.1% of A's
+      normal_tolerance [rad]: Largest rms angle between normals
+
+    Run:
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: a file cannot be read.
+    """
+    return _reports.Comparison.from_json(_core.compare(a, b, arguments_of(_COMPARE, locals())))
+
+
+_WIND_TUNNEL = {
+    "preset": "text",
+    "volume": "list m3",
+    "wind": "list m/s",
+    "slope": "list rad",
+    "hysteresis": "list ",
+    "sliding_angle": "rad",
+    "sliding_volume": "m3",
+    "contact_angle": "rad",
+    "viscosity_factor": "Pa.s",
+    "kinetic_fraction": "number",
+    "drag_coefficient": "number",
+    "boundary_layer": "m",
+    "profile_exponent": "number",
+    "air_density": "kg/m3",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "gravity": "m/s2",
+    "measured": "band m/s",
+    "threads": "number",
+}
+
+
+def wind_tunnel(
+    *,
+    preset: str | None = None,
+    volume: str | float | Sequence[float] | None = None,
+    wind: str | float | Sequence[float] | None = None,
+    slope: str | float | Sequence[float] | None = None,
+    hysteresis: str | float | Sequence[float] | None = None,
+    sliding_angle: str | float | None = None,
+    sliding_volume: str | float | None = None,
+    contact_angle: str | float | None = None,
+    viscosity_factor: str | float | None = None,
+    kinetic_fraction: float | None = None,
+    drag_coefficient: float | None = None,
+    boundary_layer: str | float | None = None,
+    profile_exponent: float | None = None,
+    air_density: str | float | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    gravity: str | float | None = None,
+    measured: str | tuple[float, float] | None = None,
+    threads: str | int | None = None,
+) -> WindTunnelReport:
+    """Computes how droplets on a slope move in the wind: all combinations of volumes, winds, slopes and hystereses.
+
+    >>> report = wind_tunnel(volume=["10uL", "30uL"], wind="0..16m/s:1", slope=[0.6])
+    >>> [round(case.upper_threshold_m_per_s, 1) for case in report.runs[0].cases]
+    [11.7, 10.5]
+
+    Sweep:
+      preset: hashimoto, thesis, thesis,hashimoto: Named set of default values: hashimoto, a measured plane; thesis,
+        fitted to it; or both side by side (default: hashimoto)
+      volume [m³]: Volumes of the droplets (default: by preset)
+      wind [m/s]: Wind speeds, up the slope and along it (default: 0..16m/s:0.25)
+      slope [rad]: Slopes of the ground, from horizontal (default: 35deg)
+      hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: by
+        preset)
+      sliding_angle [rad]: Hysteresis, by the slope at which a droplet begins to run
+      sliding_volume [m³]: Volume of the droplet that runs at sliding_angle; every: all of them do (default: 30uL)
+
+    Coating:
+      contact_angle [rad]: Contact angle of droplets at rest, from 1deg to 179deg (default: by preset)
+      viscosity_factor [Pa·s]: Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge
+        theory (default: by preset)
+      kinetic_fraction: Friction of a moving droplet, as a fraction of that at rest (default: 1)
+
+    Air:
+      drag_coefficient: Drag coefficient of droplets in the wind (default: 1)
+      boundary_layer [m]: Thickness of the layer in which the wind is slower (default: by preset)
+      profile_exponent: Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one (default:
+        0.5)
+      air_density [kg/m³]: Density of the air (default: 1.204kg/m3)
+
+    Liquid:
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
+
+    Charts and series:
+      measured [m/s]: Measured range of winds in which droplets stay, drawn beside the results (default: 7..11m/s for
+        unchanged presets)
+
+    Run:
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range.
+    """
+    return _reports.WindTunnelReport.from_json(_core.wind_tunnel(arguments_of(_WIND_TUNNEL, locals())))
+
+
+_WINDSHIELD = {
+    "preset": "text",
+    "rain": "rainfall",
+    "speed": "m/s",
+    "drive_cycle": "path",
+    "wind": "text",
+    "noise": "m/s2",
+    "wiper_period": "s",
+    "seed": "number",
+    "glass_width": "m",
+    "glass_height": "m",
+    "glass_radius": "m",
+    "slope": "rad",
+    "surface": "path",
+    "hysteresis": "number",
+    "still_diameter": "m",
+    "film": "m",
+    "shape": "text",
+    "contact_angle": "rad",
+    "viscosity_factor": "Pa.s",
+    "kinetic_fraction": "number",
+    "drag_coefficient": "number",
+    "boundary_layer": "m",
+    "profile_exponent": "number",
+    "air_density": "kg/m3",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "gravity": "m/s2",
+    "time": "s",
+    "warm_up": "s",
+    "fps": "number",
+    "background": "path",
+    "fit": "flag",
+    "environment": "path",
+    "background_blur": "rad",
+    "size": "size",
+    "field_of_view": "rad",
+    "eye_distance": "m",
+    "eye": "list m",
+    "look_at": "list m",
+    "samples": "number",
+    "exposure": "number",
+    "highlight_boost": "number",
+    "shutter": "text",
+    "layer": "flag",
+    "codec": "text",
+    "quality": "number",
+    "maps": "path",
+    "map_width": "number",
+    "droplets": "path",
+    "moving_only": "flag",
+    "model": "path",
+    "model_animation": "text",
+    "resume": "flag",
+    "no_clobber": "flag",
+    "threads": "number",
+}
+
+
+def windshield(
+    output: Path,
+    *,
+    preset: str | None = None,
+    rain: str | float | None = None,
+    speed: str | float | None = None,
+    drive_cycle: Path | None = None,
+    wind: str | None = None,
+    noise: str | float | None = None,
+    wiper_period: str | float | None = None,
+    seed: str | int | None = None,
+    glass_width: str | float | None = None,
+    glass_height: str | float | None = None,
+    glass_radius: str | float | None = None,
+    slope: str | float | None = None,
+    surface: Path | None = None,
+    hysteresis: float | None = None,
+    still_diameter: str | float | None = None,
+    film: str | float | None = None,
+    shape: str | None = None,
+    contact_angle: str | float | None = None,
+    viscosity_factor: str | float | None = None,
+    kinetic_fraction: float | None = None,
+    drag_coefficient: float | None = None,
+    boundary_layer: str | float | None = None,
+    profile_exponent: float | None = None,
+    air_density: str | float | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    gravity: str | float | None = None,
+    time: str | float | None = None,
+    warm_up: str | float | None = None,
+    fps: float | None = None,
+    background: Path | None = None,
+    fit: bool = False,
+    environment: Path | None = None,
+    background_blur: str | float | None = None,
+    size: str | tuple[int, int] | None = None,
+    field_of_view: str | float | None = None,
+    eye_distance: str | float | None = None,
+    eye: str | Sequence[float] | None = None,
+    look_at: str | Sequence[float] | None = None,
+    samples: str | int | None = None,
+    exposure: float | None = None,
+    highlight_boost: float | None = None,
+    shutter: str | None = None,
+    layer: bool = False,
+    codec: str | None = None,
+    quality: float | None = None,
+    maps: Path | None = None,
+    map_width: str | int | None = None,
+    droplets: Path | None = None,
+    moving_only: bool = False,
+    model: Path | None = None,
+    model_animation: str | None = None,
+    resume: bool = False,
+    no_clobber: bool = False,
+    threads: str | int | None = None,
+) -> WindshieldReport:
+    """Simulates rain on the windshield of a moving car, and writes what the driver sees.
+
+    output: frames such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; or a .png of the last
+    frame.
+
+    >>> report = windshield("still.png", time="0.1s", warm_up="1s", size=(160, 90), samples=1)
+    >>> report.output.frames, report.warnings
+    (3, ())
+
+    Car and rain:
+      preset: figure-3.10, figure-3.11, figure-3.12: Named set of default values, of the thesis (default: figure-3.12)
+      rain [m/s]: Rainfall, with the drop sizes of Marshall and Palmer (default: 5mm/h)
+      speed [m/s]: Speed of the car in still air (default: by preset)
+      drive_cycle: Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h
+      wind: turned, projected: Wind along the glass: turned keeps all of its speed, projected only the part along the
+        glass (default: turned)
+      noise [m/s²]: Root mean square of the car's vibration (default: 0.5m/s2)
+      wiper_period [s]: At least 1.2s; without it there are no wipers
+      seed: Random seed (default: 1)
+
+    Glass:
+      glass_width [m]: Width of the glass, along its bend (default: 1.4m)
+      glass_height [m]: Height of the glass, along its slope (default: 0.8m)
+      glass_radius [m]: Radius of the glass's bend across the car (default: 5m)
+      slope [rad]: Slope of the glass, from horizontal (default: 45deg)
+      surface: Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that
+        roll it out flat
+
+    Droplets:
+      hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: by
+        preset)
+      still_diameter [m]: Raindrops smaller than this never move (default: 1mm)
+      film [m]: Thickness of the film that running droplets leave behind (default: 0mm)
+      shape: capillary, capsule: Shape of running droplets: capillary has least energy and a tail; capsule is the
+        thesis' (default: capillary, with preset capsule)
+
+    Coating:
+      contact_angle [rad]: Contact angle of droplets at rest, from 1deg to 179deg (default: by preset)
+      viscosity_factor [Pa·s]: Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge
+        theory (default: by preset)
+      kinetic_fraction: Friction of a moving droplet, as a fraction of that at rest (default: 1)
+
+    Air:
+      drag_coefficient: Drag coefficient of droplets in the wind (default: 1)
+      boundary_layer [m]: Thickness of the layer in which the wind is slower (default: by preset)
+      profile_exponent: Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one (default:
+        0.5)
+      air_density [kg/m³]: Density of the air (default: 1.204kg/m3)
+
+    Liquid:
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
+
+    Time:
+      time [s]: Time to show; with drive_cycle the cycle's own (default: 10s)
+      warm_up [s]: Time of rain before the first frame (default: 10s)
+      fps: Frames per second (default: 30)
+
+    View:
+      background: Picture or video behind the glass; a video needs ffmpeg, plays at its own speed and repeats
+        (default: an evening road)
+      fit: Scale the background to cover the frame and crop the rest
+      environment: Panorama around the car, its middle straight ahead: .hdr, .exr, .png or .jpg; without background it
+        is the whole background
+      background_blur [rad]: Diameter of the disc that a distant point of light becomes, up to 20deg; droplets stay
+        sharp (default: 0deg)
+      size [px]: Width and height of the frame in pixels (default: the background's, or 1280x720)
+      field_of_view [rad]: Angle of view across the frame's width (default: 45deg)
+      eye_distance [m]: Distance of the eye from the glass (default: 0.5m)
+      eye [m]: Position of the eye relative to the middle of the glass: right, ahead and up, such as 0.3m,-0.6m,0.1m;
+        it is behind the glass
+      look_at [m]: Point in the middle of the frame, relative to the middle of the glass: right, ahead and up
+        (default: straight ahead)
+      samples: Rays per pixel in each direction, 1 to 4 (default: 2)
+      exposure: Exposure of the frame: 1 is twice the light, -1 half (default: 0)
+      highlight_boost: How much brighter lamps are than the background shows them: up to 1 + this, 0 to 4 (default: 3,
+        by daylight less)
+      shutter: Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 (default: 0)
+      layer: Write only the droplets, with alpha
+      codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
+      quality: Quality of the video, 1 to 100 (default: 65)
+
+    Beside the frames:
+      maps: Textures of the whole glass, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness and
+        -velocity
+      map_width: Width of the textures in pixels (default: 2048)
+      droplets: Write a table of all running droplets in every frame: .csv or .json
+      moving_only: Leave droplets at rest out of the table
+      model: Write the droplets as an animated .glb
+      model_animation: nodes, texture: Form of the animation: nodes plays in every viewer; texture needs a shader and
+        takes one draw call (default: nodes)
+
+    Run:
+      resume: Continue an interrupted run of the same options
+      no_clobber: Do not replace existing files
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: a file cannot be read; OutputFailed: a file
+    cannot be written.
+    """
+    return _reports.WindshieldReport.from_json(_core.windshield(output, arguments_of(_WINDSHIELD, locals())))
+
+
+_FLOW = {
+    "preset": "text",
+    "scale": "number",
+    "size": "m",
+    "up": "text",
+    "spin": "rad/s",
+    "spin_axis": "vector",
+    "motion": "path",
+    "no_animation": "flag",
+    "drops": "number",
+    "volume": "m3",
+    "radius": "m",
+    "volume_spread": "number",
+    "from_": "vector",
+    "mask": "path",
+    "start": "path",
+    "emitter": "texts",
+    "rain": "rainfall",
+    "condensation": "rainfall",
+    "dew_spacing": "m",
+    "model": "text",
+    "hysteresis": "number",
+    "friction": "number",
+    "roughness": "m",
+    "roughness_map": "path",
+    "friction_map": "path",
+    "ground": "texts",
+    "adhesion": "number",
+    "gravity_direction": "vector",
+    "wind": "vector",
+    "no_merge": "flag",
+    "no_wetting": "flag",
+    "film": "m",
+    "bead_spacing": "m",
+    "drying": "s",
+    "contact_angle": "rad",
+    "viscosity_factor": "Pa.s",
+    "kinetic_fraction": "number",
+    "drag_coefficient": "number",
+    "boundary_layer": "m",
+    "profile_exponent": "number",
+    "air_density": "kg/m3",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "gravity": "m/s2",
+    "time": "s",
+    "fps": "number",
+    "seed": "number",
+    "shape": "text",
+    "material": "text",
+    "streaks": "path",
+    "maps": "path",
+    "map_width": "number",
+    "droplets": "path",
+    "preview": "path",
+    "view": "text",
+    "camera": "list rad",
+    "preview_size": "size",
+    "turntable": "number",
+    "codec": "text",
+    "quality": "number",
+    "resume": "flag",
+    "no_clobber": "flag",
+    "threads": "number",
+}
+
+
+def flow(
+    object: Path | None,
+    output: Path,
+    *,
+    preset: str | None = None,
+    scale: float | None = None,
+    size: str | float | None = None,
+    up: str | None = None,
+    spin: str | float | None = None,
+    spin_axis: str | Sequence[float] | None = None,
+    motion: Path | None = None,
+    no_animation: bool = False,
+    drops: str | int | None = None,
+    volume: str | float | None = None,
+    radius: str | float | None = None,
+    volume_spread: float | None = None,
+    from_: str | Sequence[float] | None = None,
+    mask: Path | None = None,
+    start: Path | None = None,
+    emitter: str | Sequence[str] | None = None,
+    rain: str | float | None = None,
+    condensation: str | float | None = None,
+    dew_spacing: str | float | None = None,
+    model: str | None = None,
+    hysteresis: float | None = None,
+    friction: float | None = None,
+    roughness: str | float | None = None,
+    roughness_map: Path | None = None,
+    friction_map: Path | None = None,
+    ground: str | Sequence[str] | None = None,
+    adhesion: float | None = None,
+    gravity_direction: str | Sequence[float] | None = None,
+    wind: str | Sequence[float] | None = None,
+    no_merge: bool = False,
+    no_wetting: bool = False,
+    film: str | float | None = None,
+    bead_spacing: str | float | None = None,
+    drying: str | float | None = None,
+    contact_angle: str | float | None = None,
+    viscosity_factor: str | float | None = None,
+    kinetic_fraction: float | None = None,
+    drag_coefficient: float | None = None,
+    boundary_layer: str | float | None = None,
+    profile_exponent: float | None = None,
+    air_density: str | float | None = None,
+    liquid: str | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    gravity: str | float | None = None,
+    time: str | float | None = None,
+    fps: float | None = None,
+    seed: str | int | None = None,
+    shape: str | None = None,
+    material: str | None = None,
+    streaks: Path | None = None,
+    maps: Path | None = None,
+    map_width: str | int | None = None,
+    droplets: Path | None = None,
+    preview: Path | None = None,
+    view: str | None = None,
+    camera: str | Sequence[float] | None = None,
+    preview_size: str | tuple[int, int] | None = None,
+    turntable: str | int | None = None,
+    codec: str | None = None,
+    quality: float | None = None,
+    resume: bool = False,
+    no_clobber: bool = False,
+    threads: str | int | None = None,
+) -> FlowReport:
+    """Lets droplets run over a mesh, and writes them.
+
+    object: mesh: .glb, .gltf, .obj, .ply or .stl; or None for the object of the preset.
+    output: animated .glb; meshes of the droplets in every frame, such as out/%04d.obj; pictures, out/%04d.png; a .png
+    of the
+    last frame; or a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg.
+
+    >>> report = flow("data/can.glb", "wet.glb", drops=20, time="0.1s")
+    >>> report.counts.released
+    20
+
+    Object:
+      preset: masses, viscosities, adhesions, roughnesses, tear, forces, bottle, leaf, car: Named scene with its own
+        object and droplets, instead of OBJECT; other options change it
+      scale: Factor on the lengths of the file (default: 1)
+      size [m]: Longest side of the object; scales it
+      up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
+      spin [rad/s]: Turn the object, such as 30deg/s
+      spin_axis [m or m/s]: Axis through the origin that spin turns it about (default: 0,1,0)
+      motion: Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y,
+        rotation_z, rotation_w
+      no_animation: Ignore the animation of the object's file
+
+    Droplets:
+      drops: Scatter droplets over the object at the start (default: 0)
+      volume [m³]: Volume of scattered and emitted droplets, the median (default: 20uL)
+      radius [m]: Contact radius instead of volume
+      volume_spread: Spread of the volumes: standard deviation of their logarithm, 0 to 3 (default: 0)
+      from [m or m/s]: Direction that rain comes from; drops then wet only what it can reach (default: for rain 0,1,0)
+      mask: Mask over the object's texture coordinates: drops start on it
+      start: Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move,
+        velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s
+      emitter: Release droplets at a place, such as 0,0.1,0,50uL/s
+      rain [m/s]: Rain, with the drop sizes of Marshall and Palmer (default: 0mm/h)
+      condensation [m/s]: Dew: growth of the water's mean thickness, such as 5mm/h (default: 0mm/h)
+      dew_spacing [m]: Mean distance of new droplets of dew on a dry surface (default: 3mm)
+
+    Motion:
+      model: capillary, paper: What holds droplets: capillary is contact angle hysteresis, paper is roughness alone
+        (default: capillary)
+      hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: 0.2)
+      friction: Viscous friction in kg/s instead of viscosity_factor
+      roughness [m]: Height of the surface's bumps; those of a droplet's height hold it (default: 0mm)
+      roughness_map: Picture over the object's texture coordinates: black is smooth, white has bumps of roughness
+      friction_map: Picture over the object's texture coordinates: black is without viscous friction, white has all of
+        it
+      ground: Properties of a material of the object: roughness, and factors on friction and hysteresis, such as
+        Glass:roughness=0.1mm,friction=2,hysteresis=0.5
+      adhesion: Pressure in Pa that holds droplets to the surface (default: by surface tension)
+      gravity_direction [m or m/s]: Direction of gravity (default: 0,-1,0)
+      wind [m or m/s]: Wind, which pushes droplets along the surface (default: 0,0,0)
+      no_merge: Droplets that touch stay apart
+      no_wetting: Streaks do not smooth the surface for the next droplets
+      film [m]: Thickness of the film that droplets leave behind; it becomes beads (default: 0mm)
+      bead_spacing [m]: Distance of these beads (default: 4mm)
+      drying [s]: Time after which streaks and beads are dry (default: never)
+
+    Coating:
+      contact_angle [rad]: Contact angle of droplets at rest, from 1deg to 179deg (default: by preset)
+      viscosity_factor [Pa·s]: Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge
+        theory (default: by preset)
+      kinetic_fraction: Friction of a moving droplet, as a fraction of that at rest (default: 1)
+
+    Air:
+      drag_coefficient: Drag coefficient of droplets in the wind (default: 1)
+      boundary_layer [m]: Thickness of the layer in which the wind is slower (default: by preset)
+      profile_exponent: Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one (default:
+        0.5)
+      air_density [kg/m³]: Density of the air (default: 1.204kg/m3)
+
+    Liquid:
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
+
+    Time:
+      time [s]: Time to show (default: 5s)
+      fps: Frames per second; they do not change the paths (default: 30)
+      seed: Random seed (default: 1)
+
+    Output:
+      shape: capillary, springs, capsule: Shape of the droplets: capillary has least energy, springs is the paper's,
+        capsule a cut capsule (default: capillary)
+      material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
+      streaks: Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too
+      maps: Textures of the water in the object's uv, such as maps/%05d.png or .exr: three files per frame, -normal,
+        -thickness and -age
+      map_width: Width and height of the textures in pixels (default: 1024)
+      droplets: Write a table of all droplets in every frame: .csv or .json
+
+    Picture:
+      preview: Write a rendered picture of the last frame beside meshes, as PNG
+      view: three-quarter, top, side: Direction of the preview's view (default: three-quarter)
+      camera [rad]: Camera position, instead of view: azimuth, counter-clockwise from the picture's right, and
+        elevation, such as -60deg,30deg
+      preview_size [px]: Width and height of the preview in pixels (default: 1280x960)
+      turntable: Write N previews of a full turn, FILE-001.png and so on, or one video if preview names a .mp4, .mkv,
+        .mov or .webm; up to 360
+      codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
+      quality: Quality of the video, 1 to 100 (default: 65)
+
+    Run:
+      resume: Continue an interrupted run of the same options
+      no_clobber: Do not replace existing files
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: a file cannot be read, or there is no place
+    for droplets; OutputFailed: a file cannot be written.
+    """
+    return _reports.FlowReport.from_json(_core.flow(object, output, arguments_of(_FLOW, locals())))

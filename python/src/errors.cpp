@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "errors.h"
+
+#include <exception>
+#include <utility>
+
+#include "droplet/error.h"
+
+namespace binding {
+namespace {
+
+namespace py = pybind11;
+
+const char* nameOf(droplet::ErrorCode code)
+{
+    switch (code) {
+        case droplet::ErrorCode::InvalidArgument:
+            return "InvalidArgument";
+        case droplet::ErrorCode::InvalidInput:
+            return "InvalidInput";
+        case droplet::ErrorCode::OutputFailed:
+            return "OutputFailed";
+        case droplet::ErrorCode::NoSuchDroplet:
+            break;
+    }
+    return "NoSuchDroplet";
+}
+
+}  // namespace
+
+void registerErrors()
+{
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        if (!thrown) {
+            return;
+        }
+        try {
+            std::rethrow_exception(std::move(thrown));
+        } catch (const droplet::Error& error) {
+            const py::object made =
+                py::module_::import("droplet_shape._errors").attr("made")(nameOf(error.code()), error.what());
+            PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
+        }
+    });
+}
+
+}  // namespace binding

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mask.h"
+
+#include <fmt/core.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "arguments.h"
+#include "droplet/error.h"
+#include "shape_options.h"
+#include "work.h"
+
+namespace binding {
+namespace {
+
+namespace py = pybind11;
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+constexpr double kFull = 65535.0;
+
+/// Fills the coverage from an array's items, with a rule for one of them.
+template <typename Item, typename Rule>
+void fill(droplet::Mask& mask, const py::array& array, const Rule& rule)
+{
+    const auto items = array.unchecked<Item, 2>();
+    std::size_t k = 0;
+    for (py::ssize_t y = 0; y < items.shape(0); ++y) {
+        for (py::ssize_t x = 0; x < items.shape(1); ++x) {
+            mask.coverage[k++] = rule(items(y, x));
+        }
+    }
+}
+
+template <typename Item>
+void fillFromShares(droplet::Mask& mask, const py::array& array)
+{
+    fill<Item>(mask, array, [](Item item) {
+        const auto share = static_cast<double>(item);
+        if (!(share >= 0.0 && share <= 1.0)) {
+            throw Error(ErrorCode::InvalidArgument,
+                        fmt::format("mask: {} must be from 0 to 1; divide the array by its largest value", share));
+        }
+        return static_cast<std::uint16_t>(std::lround(share * kFull));
+    });
+}
+
+droplet::Mask fromArray(const py::array& array)
+{
+    if (array.ndim() != 2) {
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("mask: an array of {} dimensions must have 2; of a picture with colours take one "
+                                "channel",
+                                array.ndim()));
+    }
+    constexpr py::ssize_t kMaxSide = std::numeric_limits<std::int32_t>::max();
+    if (array.size() == 0 || array.shape(0) > kMaxSide || array.shape(1) > kMaxSide) {
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("mask: {} x {} pixels must be at least 1 x 1", array.shape(1), array.shape(0)));
+    }
+    droplet::Mask mask;
+    mask.width = static_cast<int>(array.shape(1));
+    mask.height = static_cast<int>(array.shape(0));
+    mask.coverage.resize(static_cast<std::size_t>(array.size()));
+    if (py::isinstance<py::array_t<bool>>(array)) {
+        fill<bool>(mask, array, [](bool item) { return static_cast<std::uint16_t>(item ? 0xFFFF : 0); });
+    } else if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
+        fill<std::uint8_t>(mask, array, [](std::uint8_t item) { return static_cast<std::uint16_t>(item * 257); });
+    } else if (py::isinstance<py::array_t<std::uint16_t>>(array)) {
+        fill<std::uint16_t>(mask, array, [](std::uint16_t item) { return item; });
+    } else if (py::isinstance<py::array_t<float>>(array)) {
+        fillFromShares<float>(mask, array);
+    } else if (py::isinstance<py::array_t<double>>(array)) {
+        fillFromShares<double>(mask, array);
+    } else {
+        throw Error(ErrorCode::InvalidArgument, "mask: an array of " + std::string(py::str(array.dtype())) +
+                                                    " must be of bool, uint8, uint16, float32 or float64");
+    }
+    return mask;
+}
+
+Mask readMask(const std::filesystem::path& path, const Arguments& arguments)
+{
+    const Work work({});
+    Arguments all = arguments;
+    all.insert(all.end(), {"INPUT", "droplet.glb"});
+    const auto options = parsed(cli::parseShape, all);
+    Mask read{{}, path.string(), {}};
+    try {
+        read.mask = droplet::readMask(path, options.footprint.mask);
+    } catch (const Error& error) {
+        const bool is_named = std::string_view(error.what()).starts_with(read.path);
+        throw Error(error.code(), is_named ? error.what() : read.path + ": " + error.what());
+    }
+    if (options.footprint.mask.accept_any) {
+        read.threshold = options.footprint.trace.threshold;
+    }
+    return read;
+}
+
+}  // namespace
+
+Mask maskOf(const py::handle& from)
+{
+    if (py::isinstance<Mask>(from)) {
+        return from.cast<const Mask&>();
+    }
+    return {fromArray(from.cast<py::array>()), "array", {}};
+}
+
+void invert(droplet::Mask& mask)
+{
+    for (std::uint16_t& coverage : mask.coverage) {
+        coverage = static_cast<std::uint16_t>(0xFFFF - coverage);
+    }
+    mask.inverted = !mask.inverted;
+}
+
+void bindMask(py::module_& module)
+{
+    py::class_<Mask, std::shared_ptr<Mask>>(module, "Mask", py::buffer_protocol(),
+                                            R"(Coverage of the pixels of a picture by liquid, made by read_mask().
+
+numpy.asarray(mask) is a read-only array of uint16, rows from the top, that
+shares its memory: 0 is dry, 65535 is liquid.)")
+        .def_buffer([](Mask& self) {
+            const droplet::Mask& mask = self.mask;
+            constexpr auto kItem = static_cast<py::ssize_t>(sizeof(std::uint16_t));
+            return py::buffer_info(self.mask.coverage.data(), kItem, py::format_descriptor<std::uint16_t>::format(), 2,
+                                   {mask.height, mask.width}, {kItem * mask.width, kItem}, true);
+        })
+        .def_property_readonly(
+            "shape", [](const Mask& self) { return py::make_tuple(self.mask.height, self.mask.width); },
+            "Height and width [px].")
+        .def_property_readonly(
+            "channel", [](const Mask& self) { return self.mask.channel == droplet::Channel::Alpha ? "alpha" : "luma"; },
+            "Channel that shows the liquid: alpha or luma.")
+        .def_property_readonly(
+            "inverted", [](const Mask& self) { return self.mask.inverted; },
+            "Whether dark or transparent pixels are the liquid.")
+        .def_property_readonly(
+            "segment", [](const Mask& self) { return name(self.mask.segment); },
+            "How liquid was separated from dry: threshold, adaptive or grabcut.")
+        .def_property_readonly(
+            "segment_confidence", [](const Mask& self) { return self.mask.segment_confidence; },
+            "How much the picture looks like a mask, from 0 to 1.")
+        .def_property_readonly(
+            "physical_width", [](const Mask& self) { return self.mask.physical_width; },
+            "Width that an SVG states [m], or None.")
+        .def("__repr__", [](const Mask& self) {
+            return fmt::format("<Mask of {} x {} pixels>", self.mask.width, self.mask.height);
+        });
+    module.def("read_mask", &readMask);
+}
+
+}  // namespace binding

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+
+#include "droplet/footprint/mask.h"
+
+namespace binding {
+
+/// Mask with its origin.
+struct Mask {
+    droplet::Mask mask;
+    std::string path;                 ///< as given; of an array: array
+    std::optional<double> threshold;  ///< as given to read_mask
+};
+
+/// Mask from a Mask, or from an array of two dimensions, rows from the top.
+/// @param from             an array is of bool; of uint8 or uint16, whose largest value is liquid; or of floating-point
+///                         numbers from 0 to 1
+/// @throws droplet::Error  InvalidArgument: other shape or type, an empty array, numbers out of range
+Mask maskOf(const pybind11::handle& from);
+
+/// Exchanges liquid and dry.
+void invert(droplet::Mask& mask);
+
+/// Adds masks to the module.
+void bindMask(pybind11::module_& module);
+
+}  // namespace binding

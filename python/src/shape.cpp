@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape.h"
+
+#include <fmt/core.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "arguments.h"
+#include "droplet/error.h"
+#include "droplet/surface/onto.h"
+#include "droplet_report.h"
+#include "mask.h"
+#include "option_values.h"
+#include "shape_command.h"
+#include "shape_options.h"
+#include "surroundings.h"
+#include "work.h"
+
+namespace binding {
+namespace {
+
+namespace py = pybind11;
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+/// Settings completed by the mask's size, which may depend on an object, and by the ground.
+cli::DropletSettings settingsOf(const droplet::Mask& mask, const cli::Surroundings& around,
+                                const cli::ShapeOptions& options)
+{
+    cli::DropletSettings settings = options.settings;
+    droplet::TraceOptions& trace = settings.droplet.trace;
+    if (around.object && !options.footprint.sized) {
+        trace.width = droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
+    } else if (mask.physical_width && !options.footprint.sized) {
+        trace.width = *mask.physical_width;
+        if (!(trace.width >= cli::kLength.min && trace.width <= cli::kLength.max)) {
+            throw Error(ErrorCode::InvalidInput, fmt::format("the page states a width of {:.6g}m, which must be {}; "
+                                                             "give width instead",
+                                                             trace.width, cli::kLength.allowed));
+        }
+    }
+    const double pixel = droplet::pixelSize(mask, trace);
+    settings.droplet.solve.ground = groundOf(settings, around, {pixel * mask.width, pixel * mask.height});
+    return settings;
+}
+
+droplet::InputReport inputOf(const Mask& from, const droplet::Outline& outline, const cli::DropletSettings& settings)
+{
+    droplet::InputReport input;
+    input.path = from.path;
+    input.width_px = from.mask.width;
+    input.height_px = from.mask.height;
+    input.drawn = from.mask.raster_scale.has_value();
+    input.pixel_size = outline.pixel_size;
+    input.channel = from.mask.channel;
+    input.inverted = from.mask.inverted;
+    input.segment = from.mask.segment;
+    input.segment_confidence = from.mask.segment_confidence;
+    input.threshold = settings.droplet.trace.threshold;
+    input.level_dry = from.mask.level_dry;
+    input.level_liquid = from.mask.level_liquid;
+    input.anti_aliased = outline.anti_aliased;
+    input.specks_dropped = outline.specks_dropped;
+    input.largest_speck_px = outline.largest_speck_px;
+    return input;
+}
+
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    const double pixel = droplet::pixelSize(mask, options);
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
+}
+
+void warnOfMask(const droplet::Mask& mask, cli::DropletSettings& settings)
+{
+    constexpr double kMinConfidence = 0.5;
+    if (mask.segment_confidence < kMinConfidence) {
+        settings.warnings.insert(
+            settings.warnings.begin(),
+            fmt::format(
+                "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by segment {}); look "
+                "at the array of the mask, change it with segment, channel or threshold of read_mask",
+                100.0 * mask.segment_confidence, name(mask.segment)));
+    }
+}
+
+std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
+{
+    cli::StageClock clock;
+    clock.begin(droplet::Stage::Read);
+    Arguments all = arguments;
+    all.insert(all.end(), {"INPUT", "droplet.glb"});
+    auto options = parsed(cli::parseShape, all);
+    const Work work(options.run.threads);
+    droplet::Mask& mask = from.mask;
+    options.settings.droplet.trace = options.footprint.trace;
+    if (from.threshold && !options.footprint.mask.accept_any) {
+        options.settings.droplet.trace.threshold = *from.threshold;
+    }
+    if (options.footprint.mask.invert) {
+        invert(mask);
+    }
+    const cli::Surroundings around = cli::readSurroundings(options.settings);
+    cli::DropletSettings settings = settingsOf(mask, around, options);
+    cli::refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
+    droplet::Droplet made =
+        droplet::makeDroplet(mask, settings.droplet, [&](droplet::Stage stage) { clock.begin(stage); });
+    droplet::InputReport input = inputOf(from, made.outline, settings);
+    input.own_size = mask.physical_width && !options.footprint.sized && !around.object;
+    warnOfMask(mask, settings);
+    std::optional<droplet::ObjectReport> onto;
+    if (around.object) {
+        onto = cli::placeOnObject(made, *around.object, *settings.onto);
+    }
+    return Droplet::make(std::move(made), settings, std::move(input), std::move(onto), clock);
+}
+
+}  // namespace
+
+std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::DropletSettings& settings,
+                                       droplet::InputReport input, std::optional<droplet::ObjectReport> onto,
+                                       cli::StageClock& clock)
+{
+    droplet::Report report = cli::describe(droplet, settings);
+    report.input = std::move(input);
+    report.onto = std::move(onto);
+    report.time = clock.times();
+    report.time_total = clock.total();
+    report.peak_memory = cli::peakMemory();
+    return std::shared_ptr<Droplet>(new Droplet(std::move(droplet.surface), settings.material, std::move(report)));
+}
+
+std::string Droplet::json() const
+{
+    droplet::Report report = report_;
+    report.output = cli::describeOutput(surface(), "", droplet::Format::Glb);
+    std::ostringstream out;
+    droplet::writeReport(out, report);
+    return std::move(out).str();
+}
+
+void bindShape(py::module_& module)
+{
+    py::class_<Droplet, Surface, std::shared_ptr<Droplet>>(
+        module, "Droplet", py::dynamic_attr(),
+        R"(Droplets of liquid on one mask or text: a mesh with a report.
+
+Made by make_droplet() and glyphs(); for the arrays see Surface.)")
+        .def_property_readonly(
+            "report",
+            [](const py::object& self) {
+                const py::dict cache = self.attr("__dict__");
+                if (!cache.contains("_report")) {
+                    const auto& droplet = self.cast<const Droplet&>();
+                    std::string json;
+                    {
+                        const py::gil_scoped_release release;
+                        json = droplet.json();
+                    }
+                    cache["_report"] = reportOf("Report", json);
+                }
+                return py::object(cache["_report"]);
+            },
+            "Options, results and warnings as a Report, with the names of the command's JSON report. Its output has no "
+            "path, format or size, as there is no file.");
+
+    module.def("make_droplet",
+               [](const py::handle& mask, const Arguments& arguments) { return makeFrom(maskOf(mask), arguments); });
+}
+
+}  // namespace binding

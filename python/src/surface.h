@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/surface/material.h"
+#include "droplet/surface/surface.h"
+
+namespace binding {
+
+/// Surface that Python holds, with what its files need. It does not change after it was made, because arrays in Python
+/// share its memory.
+class Surface {
+public:
+    Surface(droplet::Surface surface, droplet::Material material, std::vector<std::string> warnings)
+        : surface_(std::move(surface)), material_(material), warnings_(std::move(warnings))
+    {
+    }
+    virtual ~Surface() = default;
+    Surface(const Surface&) = delete;
+    Surface& operator=(const Surface&) = delete;
+
+    [[nodiscard]] const droplet::Surface& surface() const { return surface_; }
+    [[nodiscard]] droplet::Material material() const { return material_; }
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    droplet::Surface surface_;
+    droplet::Material material_;
+    std::vector<std::string> warnings_;
+};
+
+/// Object of the package's reports from JSON text.
+/// @param name  class of droplet_shape._reports
+pybind11::object reportOf(const char* name, const std::string& json);
+
+/// Tuple of warnings, with the names that options have in Python.
+pybind11::tuple warningsOf(const std::vector<std::string>& warnings);
+
+/// Adds the class Surface to the module.
+void bindSurface(pybind11::module_& module);
+
+}  // namespace binding

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names, stubs, docstrings and examples of the package."""
+import ast
+import contextlib
+import doctest
+import importlib.util
+import inspect
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import droplet_shape as ds
+from droplet_shape import _functions, _reports
+from support import ROOT, program
+
+PACKAGE = ROOT / "python/droplet_shape"
+FUNCTIONS = ["animate", "compare", "flow", "glyphs", "make_droplet", "read_mask", "wind_tunnel", "windshield"]
+
+# Lines 8 and 9 have errors of types.
+TYPED = """\
+import numpy
+import droplet_shape as ds
+drop = ds.make_droplet(numpy.zeros((3, 3)), width=0.02, contact_angle="40deg", fill_range=(0, 2))
+volume: float = drop.report.shape.volume_m3
+area: float = float(drop.vertices.max()) + ds.compare(drop, "drop.glb").distance.upper_m
+ids: list = [frame.vertices for frame in ds.animate([numpy.zeros((3, 3))])]
+code: str = ds.NoSuchDroplet.code
+ds.make_droplet(numpy.zeros((3, 3)), witdh=0.02)
+number: int = drop.report
+"""
+
+
+def names_of_stub(path):
+    """Names that a stub defines, and the members of its classes."""
+    names = {}
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.ClassDef):
+            names[node.name] = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
+        elif isinstance(node, ast.FunctionDef):
+            names[node.name] = set()
+        elif isinstance(node, ast.ImportFrom):
+            names.update({alias.asname: set() for alias in node.names if alias.asname})
+        elif isinstance(node, ast.AnnAssign):
+            names[node.target.id] = set()
+    return names
+
+
+@contextlib.contextmanager
+def folder_with_data():
+    """A temporary folder with data in it, as the current one."""
+    before = Path.cwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(ROOT / "data", Path(folder, "data"))
+        os.chdir(folder)
+        try:
+            yield Path(folder)
+        finally:
+            os.chdir(before)
+
+
+class Names(unittest.TestCase):
+    def test_all_public_names_exist_and_are_in_the_stub(self):
+        stub = names_of_stub(PACKAGE / "__init__.pyi")
+        self.assertEqual(set(stub) - {"__version__"}, set(ds.__all__))
+        for name in ds.__all__:
+            self.assertTrue(hasattr(ds, name), name)
+        self.assertEqual(sorted(ds.__all__), list(ds.__all__))
+        self.assertLessEqual(set(ds.__all__), set(dir(ds)))
+        with self.assertRaises(AttributeError):
+            ds.nothing
+
+    def test_members_of_the_module_are_in_its_stub(self):
+        from droplet_shape import _core
+
+        stub = names_of_stub(PACKAGE / "_core.pyi")
+        self.assertEqual({name for name in vars(_core) if not name.startswith("_")}, set(stub) - {"_Path"})
+        for name in ("Animation", "Droplet", "Mask", "Surface"):
+            members = {member for member in vars(getattr(_core, name)) if not member.startswith("_")}
+            self.assertEqual(members, {member for member in stub[name] if not member.startswith("_")}, name)
+
+    def test_mypy_knows_the_types(self):
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("mypy is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            script = Path(folder, "script.py")
+            script.write_text(TYPED)
+            command = [sys.executable, "-m", "mypy", "--cache-dir", folder, "--python-version", "3.11", script]
+            path = {"MYPYPATH": str(Path(ds.__file__).parents[1])}
+            result = subprocess.run(command, cwd=folder, capture_output=True, text=True, env={**os.environ, **path})
+        self.assertEqual(re.findall(r":(\d+): error", result.stdout), ["8", "9"], result.stdout + result.stderr)
+
+    def test_version(self):
+        header = (ROOT / "include/droplet/version.h").read_text()
+        self.assertIn(f'"{ds.__version__}"', header)
+
+
+class Docstrings(unittest.TestCase):
+    def test_every_public_name_has_one(self):
+        for name in ds.__all__:
+            value = getattr(ds, name)
+            self.assertTrue((value.__doc__ or "").strip(), name)
+            if inspect.isclass(value) and value.__module__ == "droplet_shape":
+                for member, item in vars(value).items():
+                    if not member.startswith("_"):
+                        self.assertTrue((item.__doc__ or "").strip(), f"{name}.{member}")
+
+    def test_functions_describe_all_their_arguments_and_errors(self):
+        for name in FUNCTIONS:
+            text = getattr(ds, name).__doc__
+            for parameter in inspect.signature(getattr(ds, name)).parameters:
+                self.assertRegex(text, rf"\b{parameter.rstrip('_')}\b", name)
+            self.assertIn("Raises InvalidArgument", text)
+            self.assertNotRegex(text, r"--[a-z]")
+
+    def test_quantities_have_a_unit(self):
+        for name in FUNCTIONS:
+            function = getattr(ds, name)
+            for parameter in inspect.signature(function).parameters.values():
+                if "str | float" in str(parameter.annotation) and not parameter.name.endswith("hysteresis"):
+                    option = parameter.name.rstrip("_")
+                    self.assertRegex(function.__doc__, rf"\n      {option} \[.+?\]: |volume_tolerance:", f"{name}: {option}")
+
+
+class Examples(unittest.TestCase):
+    def test_docstrings(self):
+        with folder_with_data():
+            result = doctest.testmod(_functions)
+        self.assertEqual(result.failed, 0)
+        self.assertGreaterEqual(result.attempted, len(FUNCTIONS))
+
+    def test_page(self):
+        with folder_with_data():
+            result = doctest.testfile(str(ROOT / "docs/python.md"), module_relative=False)
+        self.assertEqual(result.failed, 0)
+        self.assertGreater(result.attempted, 10)
+
+    def test_script(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("matplotlib is not installed")
+        with folder_with_data() as folder:
+            subprocess.run([sys.executable, ROOT / "python/examples/plot_droplet.py"], check=True, capture_output=True)
+            self.assertEqual(len(list(folder.glob("*.png"))), 4)
+
+    def test_meshio(self):
+        if importlib.util.find_spec("meshio") is None:
+            self.skipTest("meshio is not installed")
+        with folder_with_data() as folder:
+            subprocess.run([sys.executable, ROOT / "python/examples/to_meshio.py"], check=True, capture_output=True)
+            self.assertTrue((folder / "drop.vtu").exists())
+
+
+class MadeFiles(unittest.TestCase):
+    def test_functions_and_reports_are_up_to_date(self):
+        command = [sys.executable, ROOT / "python/make_package.py", "--check", program()]
+        result = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_reports_leave_out_unknown_keys(self):
+        fill = _reports.ReportFill.from_json('{"by": "height_m", "amount": 1.0, "sharing": "each", "new": 3}')
+        self.assertEqual((fill.amount, fill.range), (1.0, None))
+
+    def test_messages_have_the_names_of_python(self):
+        from droplet_shape._errors import in_python
+
+        self.assertEqual(in_python("--contact-angle and --on: a--b, '--x'"), "contact_angle and on: a--b, 'x'")
+        self.assertFalse(re.search("--", in_python("--warm-up")))
+
+
+if __name__ == "__main__":
+    unittest.main()
