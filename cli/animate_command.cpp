@@ -161,29 +161,10 @@ private:
         progress_(Stage::Read);
     }
 
-    void begin(const FramePicture& picture)
-    {
-        const droplet::Mask& mask = picture.mask;
-        sequence_.volume_mode = options_.volume_mode;
-        sequence_.droplet = options_.settings.droplet;
-        sequence_.droplet.trace = options_.footprint.trace;
-        if (mask.physical_width && !options_.footprint.sized) {
-            sequence_.droplet.trace.width = *mask.physical_width;
-        }
-        const double pixel = droplet::pixelSize(mask, sequence_.droplet.trace);
-        sequence_.droplet.solve.ground =
-            groundOf(options_.settings, around_, {pixel * mask.width, pixel * mask.height});
-        report_.width_px = mask.width;
-        report_.height_px = mask.height;
-        report_.pixel_size = pixel;
-        report_.physics = sequence_.droplet.solve;
-        report_.ground = options_.settings.ground;
-    }
-
     void add(const FramePicture& picture)
     {
         if (report_.frames.empty()) {
-            begin(picture);
+            sequence_ = beginSequence(picture.mask, options_, around_, report_);
         }
         if (picture.disagrees) {
             disagreeing_.push_back(picture.number);
@@ -512,6 +493,26 @@ void printSummary(const droplet::SequenceReport& report, const RunOptions& run)
 }
 
 }  // namespace
+
+droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateOptions& options,
+                                       const Surroundings& around, droplet::SequenceReport& report)
+{
+    droplet::SequenceOptions sequence;
+    sequence.volume_mode = options.volume_mode;
+    sequence.droplet = options.settings.droplet;
+    sequence.droplet.trace = options.footprint.trace;
+    if (mask.physical_width && !options.footprint.sized) {
+        sequence.droplet.trace.width = *mask.physical_width;
+    }
+    const double pixel = droplet::pixelSize(mask, sequence.droplet.trace);
+    sequence.droplet.solve.ground = groundOf(options.settings, around, {pixel * mask.width, pixel * mask.height});
+    report.width_px = mask.width;
+    report.height_px = mask.height;
+    report.pixel_size = pixel;
+    report.physics = sequence.droplet.solve;
+    report.ground = options.settings.ground;
+    return sequence;
+}
 
 void makeAnimation(const AnimateOptions& options, Frames& frames)
 {

@@ -2,9 +2,18 @@
 #pragma once
 
 #include "animate_options.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/sequence/sequence.h"
+#include "droplet/sequence/sequence_report.h"
 #include "frames.h"
+#include "surroundings.h"
 
 namespace cli {
+
+/// Options of a sequence, completed by its first mask, which also opens the report.
+/// @param around  result of readSurroundings
+droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateOptions& options,
+                                       const Surroundings& around, droplet::SequenceReport& report);
 
 /// Runs `droplet-shape animate`: frames or a video in, an animated droplet out.
 /// @return                exit code

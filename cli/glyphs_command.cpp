@@ -89,19 +89,6 @@ std::string missingGlyphs(const std::vector<char32_t>& missing)
     return text;
 }
 
-droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
-{
-    droplet::TypeReport type;
-    type.family = font.family();
-    type.style = font.style();
-    type.face_index = options.face.face_index;
-    for (const auto& [tag, value] : options.face.axes) {
-        type.axes.emplace_back(tag, value);
-    }
-    type.em = options.type.glyph.em;
-    return type;
-}
-
 /// Letter that decides the height of all: o, or O, or 0, or the first glyph with ink.
 std::optional<GlyphId> referenceLetter(const Font& font, const droplet::GlyphOptions& options,
                                        const std::vector<GlyphRequest>& others)
@@ -310,6 +297,19 @@ void list(const Font& font, const GlyphsOptions& options)
 }
 
 }  // namespace
+
+droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
+{
+    droplet::TypeReport type;
+    type.family = font.family();
+    type.style = font.style();
+    type.face_index = options.face.face_index;
+    for (const auto& [tag, value] : options.face.axes) {
+        type.axes.emplace_back(tag, value);
+    }
+    type.em = options.type.glyph.em;
+    return type;
+}
 
 int runGlyphs(int argc, const char* const* argv)
 {

@@ -123,34 +123,6 @@ void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::Trac
     droplet::writePng(droplet::DeepPicture{used.width, used.height, 1, used.coverage}, out);
 }
 
-double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
-{
-    const double pixel = droplet::pixelSize(mask, options);
-    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
-}
-
-droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline,
-                                   const ShapeOptions& options)
-{
-    droplet::InputReport input;
-    input.path = options.input;
-    input.width_px = mask.width;
-    input.height_px = mask.height;
-    input.drawn = mask.raster_scale.has_value();
-    input.pixel_size = outline.pixel_size;
-    input.channel = mask.channel;
-    input.inverted = mask.inverted;
-    input.segment = mask.segment;
-    input.segment_confidence = mask.segment_confidence;
-    input.threshold = options.footprint.trace.threshold;
-    input.level_dry = mask.level_dry;
-    input.level_liquid = mask.level_liquid;
-    input.anti_aliased = outline.anti_aliased;
-    input.specks_dropped = outline.specks_dropped;
-    input.largest_speck_px = outline.largest_speck_px;
-    return input;
-}
-
 /// Whether only the page's droplet gets a slider: without --fill-range, if a slider is possible.
 bool hasSliderInPageOnly(const ShapeOptions& options)
 {
@@ -301,7 +273,7 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
     addPageSlider(settings.droplet, options);
     const auto begin = [&](Stage stage) { stages.begin(stage); };
     Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
-    droplet::InputReport input = describeInput(mask, droplet.outline, options);
+    droplet::InputReport input = describeInput(mask, droplet.outline, options.input, options.footprint.trace.threshold);
     input.own_size = takesOwnSize(mask, around, options);
     if (auto warning = maskWarning(mask)) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
@@ -356,6 +328,34 @@ void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
                                 "{:.3g}mm",
                                 edge / droplet::kMillimetre, triangles, min / droplet::kMillimetre));
     }
+}
+
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    const double pixel = droplet::pixelSize(mask, options);
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
+}
+
+droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline, std::string path,
+                                   double threshold)
+{
+    droplet::InputReport input;
+    input.path = std::move(path);
+    input.width_px = mask.width;
+    input.height_px = mask.height;
+    input.drawn = mask.raster_scale.has_value();
+    input.pixel_size = outline.pixel_size;
+    input.channel = mask.channel;
+    input.inverted = mask.inverted;
+    input.segment = mask.segment;
+    input.segment_confidence = mask.segment_confidence;
+    input.threshold = threshold;
+    input.level_dry = mask.level_dry;
+    input.level_liquid = mask.level_liquid;
+    input.anti_aliased = outline.anti_aliased;
+    input.specks_dropped = outline.specks_dropped;
+    input.largest_speck_px = outline.largest_speck_px;
+    return input;
 }
 
 double coveredArea(const droplet::Outline& outline)

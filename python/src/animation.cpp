@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "animate_command.h"
 #include "animate_options.h"
 #include "arguments.h"
 #include "droplet/error.h"
@@ -66,7 +67,7 @@ public:
             invert(mask);
         }
         if (report.frames.empty()) {
-            begin(mask);
+            sequence_ = cli::beginSequence(mask, options_, around_, made_->report);
         } else if (mask.width != report.width_px || mask.height != report.height_px) {
             throw Error(ErrorCode::InvalidInput,
                         fmt::format("{}: {} x {} pixels must be {} x {}, as in the first frame", name, mask.width,
@@ -106,25 +107,6 @@ public:
     [[nodiscard]] const std::optional<std::size_t>& threads() const { return options_.run.threads; }
 
 private:
-    void begin(const droplet::Mask& mask)
-    {
-        sequence_.volume_mode = options_.volume_mode;
-        sequence_.droplet = options_.settings.droplet;
-        sequence_.droplet.trace = options_.footprint.trace;
-        if (mask.physical_width && !options_.footprint.sized) {
-            sequence_.droplet.trace.width = *mask.physical_width;
-        }
-        const double pixel = droplet::pixelSize(mask, sequence_.droplet.trace);
-        sequence_.droplet.solve.ground =
-            groundOf(options_.settings, around_, {pixel * mask.width, pixel * mask.height});
-        droplet::SequenceReport& report = made_->report;
-        report.width_px = mask.width;
-        report.height_px = mask.height;
-        report.pixel_size = pixel;
-        report.physics = sequence_.droplet.solve;
-        report.ground = options_.settings.ground;
-    }
-
     void solve(const droplet::Mask& mask)
     {
         droplet::Outline outline = droplet::trace(mask, sequence_.droplet.trace);

@@ -16,6 +16,7 @@
 #include "droplet/surface/onto.h"
 #include "droplet/type/font.h"
 #include "droplet/type/glyph.h"
+#include "glyphs_command.h"
 #include "glyphs_options.h"
 #include "shape.h"
 #include "shape_command.h"
@@ -42,14 +43,7 @@ std::string missingText(const std::vector<char32_t>& missing)
 droplet::InputReport inputOf(const droplet::Font& font, const cli::GlyphsOptions& options, const std::string& text,
                              const droplet::TextLayout& layout)
 {
-    droplet::TypeReport type;
-    type.family = font.family();
-    type.style = font.style();
-    type.face_index = options.face.face_index;
-    for (const auto& [tag, value] : options.face.axes) {
-        type.axes.emplace_back(tag, value);
-    }
-    type.em = options.type.glyph.em;
+    droplet::TypeReport type = cli::describe(font, options);
     type.text = text;
     type.missing = layout.missing;
     droplet::InputReport input;

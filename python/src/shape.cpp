@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -51,33 +50,6 @@ cli::DropletSettings settingsOf(const droplet::Mask& mask, const cli::Surroundin
     return settings;
 }
 
-droplet::InputReport inputOf(const Mask& from, const droplet::Outline& outline, const cli::DropletSettings& settings)
-{
-    droplet::InputReport input;
-    input.path = from.path;
-    input.width_px = from.mask.width;
-    input.height_px = from.mask.height;
-    input.drawn = from.mask.raster_scale.has_value();
-    input.pixel_size = outline.pixel_size;
-    input.channel = from.mask.channel;
-    input.inverted = from.mask.inverted;
-    input.segment = from.mask.segment;
-    input.segment_confidence = from.mask.segment_confidence;
-    input.threshold = settings.droplet.trace.threshold;
-    input.level_dry = from.mask.level_dry;
-    input.level_liquid = from.mask.level_liquid;
-    input.anti_aliased = outline.anti_aliased;
-    input.specks_dropped = outline.specks_dropped;
-    input.largest_speck_px = outline.largest_speck_px;
-    return input;
-}
-
-double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
-{
-    const double pixel = droplet::pixelSize(mask, options);
-    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
-}
-
 void warnOfMask(const droplet::Mask& mask, cli::DropletSettings& settings)
 {
     constexpr double kMinConfidence = 0.5;
@@ -109,10 +81,10 @@ std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
     }
     const cli::Surroundings around = cli::readSurroundings(options.settings);
     cli::DropletSettings settings = settingsOf(mask, around, options);
-    cli::refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
+    cli::refuseTooShortEdge(cli::coveredArea(mask, settings.droplet.trace), settings.droplet);
     droplet::Droplet made =
         droplet::makeDroplet(mask, settings.droplet, [&](droplet::Stage stage) { clock.begin(stage); });
-    droplet::InputReport input = inputOf(from, made.outline, settings);
+    droplet::InputReport input = cli::describeInput(mask, made.outline, from.path, settings.droplet.trace.threshold);
     input.own_size = mask.physical_width && !options.footprint.sized && !around.object;
     warnOfMask(mask, settings);
     std::optional<droplet::ObjectReport> onto;
