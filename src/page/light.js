@@ -4,7 +4,7 @@
 // where the rays would land without the liquid. Several points of the window make the shadow soft.
 import { AddEquation, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
     OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
-import { kAcross, kSun, kUpward } from './studio.js';
+import { kAcross, kSun, kUpward } from './room.js';
 
 const kTexels = 768;
 

@@ -4,7 +4,7 @@ import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector2
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { GroundLight } from './light.js';
-import { putIntoRoom } from './studio.js';
+import { putIntoRoom } from './room.js';
 
 const kRatioLimit = 2;  // more pixels would not be visible
 const kFieldOfView = 26;
