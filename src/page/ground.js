@@ -101,27 +101,32 @@ void main() {
 
 export class Ground extends Group {
     /**
-     * @param height       of the ground, in the scene's units
      * @param step         of the grid, in the scene's units
      * @param picture_half half the sides of the mask, in the scene's units; a picture of its shape gets its place
      */
-    constructor({ height, step, light, picture_half }) {
+    constructor({ step, light, picture_half }) {
         super();
         this.picture_half = picture_half;
         this.uniforms = {
             colour: { value: new Color() }, far: { value: new Color() }, line: { value: new Color() },
             step_length: { value: step }, lines: { value: 0 }, sky: { value: 1 }, sun: { value: 1 }, pool: { value: 0 },
             lit: { value: light ? 1 : 0 }, light: { value: light?.target.texture ?? new Texture() },
-            light_centre: { value: light?.centre ?? new Vector2() }, light_half: { value: light?.half ?? 1 },
+            light_centre: { value: new Vector2() }, light_half: { value: 1 },
             picture: { value: new Texture() }, picture_half: { value: picture_half.clone() }, pictured: { value: 0 },
         };
         const floor = new Mesh(new CircleGeometry(30, 96),
             new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kGroundFragment, uniforms: this.uniforms }));
         floor.rotation.x = -Math.PI / 2;
-        floor.position.y = height;
+        floor.position.y = -2e-4;  // the droplet's base is not hidden by it
         const dome = new Mesh(new SphereGeometry(30, 32, 16),
             new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kDomeFragment, uniforms: this.uniforms, side: BackSide }));
         this.add(floor, dome);
+    }
+
+    /** Takes light that was aimed at another place. */
+    follow(light) {
+        this.uniforms.light_centre.value = light.centre;
+        this.uniforms.light_half.value = light.half;
     }
 
     #wear(look) {

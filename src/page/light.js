@@ -15,6 +15,7 @@ uniform vec3 sun;
 uniform float ground;
 uniform float ior;
 uniform bool refracted;
+uniform bool opaque;
 uniform vec2 shift;
 varying vec2 straight;
 varying vec2 bent;
@@ -35,7 +36,7 @@ void main() {
     facing = dot(normal, sun);
     vec2 landing = refracted ? bent : straight;
     // The base is skipped, but not the liquid's surface where it leans out over its rim.
-    gl_Position = normal.y < -0.95 ? vec4(2.0, 2.0, 2.0, 1.0) :
+    gl_Position = normal.y < -0.95 || (refracted && opaque) ? vec4(2.0, 2.0, 2.0, 1.0) :
         projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0) + vec4(shift, 0.0, 0.0);
 }`;
 
@@ -71,56 +72,79 @@ void main() {
 
 /** Light on the ground, minus its value without the droplet, as a texture over a square around the droplet. */
 export class GroundLight {
-    /**
-     * @param box     around the droplet at its fullest, in the scene's units
-     * @param ground  height of the ground
-     * @param look    ior; tint and its depth [scene] (no depth: the same tint everywhere); or opaque
-     */
-    constructor(box, ground, look, triangles) {
-        this.look = look;
-        const reach = (box.max.y - ground) * Math.hypot(kSun.x, kSun.z) / kSun.y + 0.12;
-        const centre = box.getCenter(new Vector3());
-        const half = Math.max(box.max.x - box.min.x, box.max.z - box.min.z) / 2 + reach;
-        this.centre = new Vector2(centre.x, centre.z);
-        this.half = half;
-        this.count = Math.round(Math.min(16, Math.max(6, 6e5 / triangles)));
-        this.camera = new OrthographicCamera(-half, half, half, -half, 0, 2);
-        this.camera.position.set(centre.x, ground + 1, centre.z);
+    constructor() {
+        this.centre = new Vector2();
+        this.camera = new OrthographicCamera();
         this.camera.up.set(0, 0, -1);
-        this.camera.lookAt(centre.x, ground, centre.z);
         this.scene = new Scene();
-        this.material = new ShaderMaterial({
-            vertexShader: kVertex,
-            fragmentShader: kFragment,
-            uniforms: {
-                sun: { value: new Vector3() },
-                ground: { value: ground },
-                ior: { value: look.ior },
-                refracted: { value: false },
-                shift: { value: new Vector2() },
-                share: { value: 1 },
-                tint: { value: look.tint ?? new Color(1, 1, 1) },
-                tint_depth: { value: look.tint_depth ?? 0 },
-            },
-            side: DoubleSide,
-            depthTest: false,
-            depthWrite: false,
-            toneMapped: false,
-            blending: CustomBlending,
-            blendEquation: AddEquation,
-            blendSrc: OneFactor,
-            blendDst: OneFactor,
-        });
+        this.uniforms = {
+            sun: { value: new Vector3() },
+            ground: { value: 0 },
+            refracted: { value: false },
+            shift: { value: new Vector2() },
+            share: { value: 1 },
+        };
+        this.shaders = new WeakMap();
         this.target = new WebGLRenderTarget(kTexels, kTexels, {
             type: HalfFloatType, depthBuffer: false, generateMipmaps: false, minFilter: LinearFilter,
             magFilter: LinearFilter, wrapS: ClampToEdgeWrapping, wrapT: ClampToEdgeWrapping,
         });
     }
 
+    /**
+     * @param box        around the droplet at its fullest, in the scene's units
+     * @param ground     height of the ground
+     * @param triangles  of the droplet; the light of many comes from fewer points of the window
+     */
+    aim(box, ground, triangles) {
+        const { camera } = this;
+        const reach = (box.max.y - ground) * Math.hypot(kSun.x, kSun.z) / kSun.y + 0.12;
+        const centre = box.getCenter(new Vector3());
+        const half = Math.max(box.max.x - box.min.x, box.max.z - box.min.z) / 2 + reach;
+        this.centre.set(centre.x, centre.z);
+        this.half = half;
+        this.count = Math.round(Math.min(16, Math.max(6, 6e5 / triangles)));
+        this.uniforms.ground.value = ground;
+        Object.assign(camera, { left: -half, right: half, top: half, bottom: -half, near: 0, far: 2 });
+        camera.position.set(centre.x, ground + 1, centre.z);
+        camera.lookAt(centre.x, ground, centre.z);
+        camera.updateProjectionMatrix();
+    }
+
+    /** The shader for the light through a material of the droplet. */
+    #through(material) {
+        if (!this.shaders.has(material)) {
+            this.shaders.set(material, new ShaderMaterial({
+                vertexShader: kVertex,
+                fragmentShader: kFragment,
+                uniforms: {
+                    ...this.uniforms,
+                    opaque: { value: false }, ior: { value: 1 }, tint: { value: new Color() }, tint_depth: { value: 0 },
+                },
+                side: DoubleSide,
+                depthTest: false,
+                depthWrite: false,
+                toneMapped: false,
+                blending: CustomBlending,
+                blendEquation: AddEquation,
+                blendSrc: OneFactor,
+                blendDst: OneFactor,
+            }));
+        }
+        const shader = this.shaders.get(material);
+        const { opaque, ior, tint, tint_depth } = shader.uniforms;
+        const tinted = Number.isFinite(material.attenuationDistance);
+        opaque.value = !(material.transmission > 0);
+        ior.value = material.ior ?? 1.333;
+        tint.value.copy(tinted ? material.attenuationColor : material.color);
+        tint_depth.value = tinted ? material.attenuationDistance : 0;  // 0: the same tint everywhere
+        return shader;
+    }
+
     /** Draws the texture for the current droplet; `coarse`: from fewer points of the window. */
     update(renderer, object, meshes, coarse) {
-        const { scene, material, camera, target, look } = this;
-        const { sun, refracted, share, shift } = material.uniforms;
+        const { scene, camera, target } = this;
+        const { sun, refracted, share, shift } = this.uniforms;
         const count = coarse ? Math.min(this.count, 6) : this.count;
         share.value = 1 / count;
         const parent = object.parent;
@@ -131,12 +155,14 @@ export class GroundLight {
 
         scene.add(object);
         // scene.overrideMaterial does not work: three.js still asks the mesh's own material whether it is transparent.
-        meshes.forEach((mesh) => { mesh.material = material; });
+        const shaders = worn.map((material) => this.#through(material));
+        meshes.forEach((mesh, i) => { mesh.material = shaders[i]; });
+        const clear = shaders.some(({ uniforms }) => !uniforms.opaque.value);
         renderer.setRenderTarget(target);
         renderer.setClearColor(0x000000, 0);
         renderer.clear();
         renderer.autoClear = false;
-        for (let i = 0; i < count; ++i) {
+        for (let i = 0; i < count && meshes.length > 0; ++i) {
             // Sunflower points are spread evenly over a disc.
             const radius = 0.075 * Math.sqrt((i + 0.5) / count);
             const angle = i * 2.399963;
@@ -144,9 +170,9 @@ export class GroundLight {
                 .addScaledVector(kUpward, radius * Math.sin(angle)).normalize();
             // Each pass is shifted by another part of a texel, so the mean has smooth edges.
             shift.value.set((0.754878 * i) % 1 - 0.5, (0.569840 * i) % 1 - 0.5).multiplyScalar(3 / kTexels);
-            for (const bends of look.opaque ? [false] : [false, true]) {
+            for (const bends of clear ? [false, true] : [false]) {
                 refracted.value = bends;
-                material.uniformsNeedUpdate = true;
+                shaders.forEach((shader) => { shader.uniformsNeedUpdate = true; });
                 renderer.render(scene, camera);
             }
         }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
+import { complain, download, drawScale, fileStem, find, offerGrounds, tabulate } from './controls.js';
 import { extent, length, refilled, rows, sides, volume } from './figures.js';
-import { kGrounds } from './ground.js';
 import { decodeBase64, loadDroplet } from './model.js';
-import { roundLength, Stage } from './stage.js';
+import { Stage } from './stage.js';
 
-const kLargestPicture = 2048;
-const find = (id) => document.getElementById(id);
 const root = document.documentElement;
 
 const { title, report } = JSON.parse(find('content').textContent);
@@ -15,17 +13,7 @@ const bytes = decodeBase64(find('model').textContent.trim());
 function showFigures(shown = report) {
     find('subtitle').textContent = [shown.liquid?.name, shown.shape && volume(shown.shape.volume_m3),
         extent(shown) && sides(extent(shown))].filter(Boolean).join(' · ');
-    const body = find('figures').querySelector('tbody');
-    body.replaceChildren();
-    for (const [name, value] of rows(shown)) {
-        const row = body.insertRow();
-        const head = document.createElement('th');
-        head.scope = 'row';
-        head.textContent = name;
-        row.append(head);
-        row.insertCell().textContent = value;
-    }
-    find('figures').hidden = body.rows.length === 0;
+    find('figures').hidden = tabulate(rows(shown)) === 0;
 }
 
 function showReport() {
@@ -40,14 +28,8 @@ function showReport() {
 }
 
 function offerDownload() {
-    const stem = title.replace(/[\u0000-\u001f\u007f"*/:<>?\\|]+/g, '_').replace(/^[.\s]+|[.\s]+$/g, '') || 'droplet';
-    find('download').addEventListener('click', () => {
-        const link = document.createElement('a');
-        link.href = URL.createObjectURL(new Blob([bytes], { type: 'model/gltf-binary' }));
-        link.download = `${stem}.glb`;
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-    });
+    find('download').addEventListener('click', () =>
+        download(new Blob([bytes], { type: 'model/gltf-binary' }), `${fileStem(title)}.glb`));
 }
 
 function offerRefill(stage, droplet, flat) {
@@ -128,86 +110,6 @@ function offerFilm(stage, droplet, still) {
     find('film').hidden = false;
     show(0);
     play(!still);
-}
-
-async function readPicture(file) {
-    const image = new Image();
-    image.src = URL.createObjectURL(file);
-    try {
-        await image.decode();
-        const shrink = Math.min(1, kLargestPicture / Math.max(image.naturalWidth, image.naturalHeight));
-        const canvas = document.createElement('canvas');
-        canvas.width = Math.max(1, Math.round(shrink * image.naturalWidth));
-        canvas.height = Math.max(1, Math.round(shrink * image.naturalHeight));
-        canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
-        return canvas;
-    } finally {
-        URL.revokeObjectURL(image.src);
-    }
-}
-
-function thumbnail(picture) {
-    const small = document.createElement('canvas');
-    small.width = small.height = 64;
-    const side = Math.min(picture.width, picture.height);
-    small.getContext('2d').drawImage(picture, (picture.width - side) / 2, (picture.height - side) / 2, side, side, 0, 0, 64, 64);
-    return small.toDataURL();
-}
-
-function offerGrounds(stage) {
-    const radios = [];
-    const apply = (marked) => {
-        find('stage').style.setProperty('--mark', stage.ground.mark);
-        find('picture').classList.toggle('chosen', marked === undefined);
-        radios.forEach((radio) => { radio.checked = radio.value === marked; });
-    };
-    const choose = (key) => {
-        stage.wear((ground) => ground.choose(key));
-        apply(key);
-    };
-    for (const [key, { name, swatch }] of Object.entries(kGrounds)) {
-        const label = document.createElement('label');
-        label.className = 'swatch';
-        label.title = name;
-        const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'ground', value: key });
-        radio.setAttribute('aria-label', name);
-        radio.addEventListener('change', () => choose(key));
-        const dot = document.createElement('i');
-        dot.style.background = swatch;
-        label.append(radio, dot);
-        find('picture').parentElement.before(label);
-        radios.push(radio);
-    }
-    find('picture').addEventListener('change', async (event) => {
-        const [file] = event.target.files;
-        event.target.value = '';  // so that the same file can be chosen again
-        if (!file) {
-            return;
-        }
-        try {
-            const picture = await readPicture(file);
-            find('picture').nextElementSibling.style.backgroundImage = `url(${thumbnail(picture)})`;
-            stage.wear((ground) => ground.show(picture, stage.renderer.capabilities.getMaxAnisotropy()));
-            apply(undefined);
-            find('trouble').hidden = true;
-        } catch {
-            complain(`${file.name} is no picture that this browser can read.`);
-        }
-    });
-    choose(matchMedia('(prefers-color-scheme: dark)').matches ? 'studio' : 'paper');
-}
-
-function complain(text) {
-    find('trouble').textContent = text;
-    find('trouble').hidden = false;
-}
-
-/** Scale bar: the longest of 1, 2 or 5 times a power of ten that fits into a fifth of the view. */
-function drawScale(stage) {
-    const scale = find('scale');
-    const metres = roundLength(stage.metresPerPixel * Math.min(180, 0.3 * stage.canvas.clientWidth));
-    scale.style.width = `${metres / stage.metresPerPixel}px`;
-    scale.firstElementChild.textContent = length(metres).replace(/(\.\d*?)0+(?=\D)/, '$1').replace(/\.(?=\D)/, '');
 }
 
 async function main() {

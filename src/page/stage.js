@@ -21,26 +21,34 @@ export class Stage {
      * @param droplet  from model.js
      * @param flat     whether the ground is flat, at height 0
      * @param extent   the mask's sides [m], or undefined
+     * @param space    box that is shown [m], for droplets that change; the droplet's own if undefined
      * @param still    no motion except by the user
      * @param drawn    called after every frame; its argument says whether the scene is at rest
      */
-    constructor({ canvas, droplet, flat, extent, still, drawn }) {
+    constructor({ canvas, droplet, flat, extent, space, still, drawn }) {
         this.canvas = canvas;
         this.droplet = droplet;
+        this.flat = flat;
         this.drawn = drawn;
         this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
         this.renderer.toneMapping = NeutralToneMapping;
         this.scene = new Scene();
         this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
-        this.#place(flat);
-        this.#light(flat);
+        this.#place(space);
+        this.room = { walls: { value: 1 }, lamps: { value: 1 } };
+        const { extensions } = this.renderer;
+        if (extensions.has('EXT_color_buffer_half_float') || extensions.has('EXT_color_buffer_float')) {
+            this.ground_light = new GroundLight();
+        }
         this.ground = new Ground({
-            height: this.level - 2e-4,
             step: this.grid_step * this.scale,
             light: this.ground_light,
             picture_half: new Vector2(...(extent ?? [2 / this.scale, 2 / this.scale])).multiplyScalar(this.scale / 2),
         });
+        this.ground.position.y = this.level;
         this.scene.add(this.ground);
+        this.#light();
+        this.thickness = droplet.meshes[0]?.material.thickness;
 
         this.controls = new OrbitControls(this.camera, canvas);
         Object.assign(this.controls, {
@@ -57,11 +65,10 @@ export class Stage {
     }
 
     /** Scales the droplet to a width of about 2 and puts it in the middle. */
-    #place(flat) {
+    #place(space) {
         const { droplet } = this;
-        const range = droplet.range ?? [1, 1];
-        const box = droplet.box([1]);
-        const all = droplet.box([1, Math.min(range[1], 2)]);
+        this.filled = [1, Math.min((droplet.range ?? [1, 1])[1], 2)];
+        const box = space?.clone() ?? droplet.box([1]);
         const size = Math.max(box.max.x - box.min.x, box.max.z - box.min.z, box.max.y - box.min.y);
         if (!(size > 0)) {
             throw new Error('the model has no extent');
@@ -74,43 +81,45 @@ export class Stage {
         this.box = box;
         this.box.min.multiplyScalar(this.scale);
         this.box.max.multiplyScalar(this.scale);
-        all.min.multiplyScalar(this.scale);
-        all.max.multiplyScalar(this.scale);
-        this.fullest = all;
-        this.level = flat ? 0 : this.box.min.y;
+        this.level = this.flat ? 0 : this.box.min.y;  // of the ground under it
         this.grid_step = roundLength(size / 12);
     }
 
-    #light(flat) {
-        const { droplet, renderer } = this;
-        this.room = { walls: { value: 1 }, lamps: { value: 1 } };
+    /** Puts the droplet's materials into the room, and its light on the ground. */
+    #light() {
+        const { droplet } = this;
         let triangles = 0;
-        const known = new Set();
         for (const mesh of droplet.meshes) {
             const { material } = mesh;
             const own = mesh.geometry.index.count / 3;
             triangles = droplet.mixer ? Math.max(triangles, own) : triangles + own;
-            if (known.has(material)) {
-                continue;
+            if (material.transmission > 0) {
+                // In world units, while thickness is in the mesh's.
+                material.userData.tint_depth ??= material.attenuationDistance;
+                material.attenuationDistance = material.userData.tint_depth * this.scale;
             }
-            known.add(material);
-            this.thickness ??= material.thickness;
-            if (Number.isFinite(material.attenuationDistance)) {
-                material.attenuationDistance *= this.scale;  // in world units, while thickness is in the mesh's
-            }
-            putIntoRoom(material, this.room, flat && material.transmission > 0 && material.thickness > 0);
+            putIntoRoom(material, this.room, this.flat && material.transmission > 0 && material.thickness > 0);
         }
-        const { extensions } = renderer;
-        if (extensions.has('EXT_color_buffer_half_float') || extensions.has('EXT_color_buffer_float')) {
-            const { material } = droplet.meshes[0];
-            const tinted = Number.isFinite(material.attenuationDistance);
-            this.ground_light = new GroundLight(this.fullest, this.level, {
-                opaque: !(material.transmission > 0), ior: material.ior ?? 1.333,
-                tint: tinted ? material.attenuationColor : material.color,
-                tint_depth: tinted ? material.attenuationDistance : undefined,
-            }, triangles);
+        if (this.ground_light && triangles > 0) {
+            const fullest = droplet.box(this.filled);
+            fullest.min.multiplyScalar(this.scale);
+            fullest.max.multiplyScalar(this.scale);
+            this.ground_light.aim(fullest, this.level, triangles);
+            this.ground.follow(this.ground_light);
         }
         this.light_is_old = true;
+    }
+
+    /**
+     * Shows what the droplet has become: its meshes, their materials and their light.
+     * @param flat  whether its ground is flat, at height 0
+     */
+    renew(flat = this.flat) {
+        this.flat = flat;
+        this.level = flat ? 0 : Math.min(0, this.droplet.box([1]).min.y * this.scale);
+        this.ground.position.y = this.level;
+        this.#light();
+        this.#changed();
     }
 
     set fill(amount) {
