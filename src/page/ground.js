@@ -100,19 +100,16 @@ void main() {
 }`;
 
 export class Ground extends Group {
-    /**
-     * @param step         of the grid, in the scene's units
-     * @param picture_half half the sides of the mask, in the scene's units; a picture of its shape gets its place
-     */
-    constructor({ step, light, picture_half }) {
+    /** @param light  from light.js; undefined: none reaches it */
+    constructor(light) {
         super();
-        this.picture_half = picture_half;
+        this.picture_half = new Vector2(1, 1);
         this.uniforms = {
             colour: { value: new Color() }, far: { value: new Color() }, line: { value: new Color() },
-            step_length: { value: step }, lines: { value: 0 }, sky: { value: 1 }, sun: { value: 1 }, pool: { value: 0 },
+            step_length: { value: 1 }, lines: { value: 0 }, sky: { value: 1 }, sun: { value: 1 }, pool: { value: 0 },
             lit: { value: light ? 1 : 0 }, light: { value: light?.target.texture ?? new Texture() },
             light_centre: { value: new Vector2() }, light_half: { value: 1 },
-            picture: { value: new Texture() }, picture_half: { value: picture_half.clone() }, pictured: { value: 0 },
+            picture: { value: new Texture() }, picture_half: { value: new Vector2(1, 1) }, pictured: { value: 0 },
         };
         const floor = new Mesh(new CircleGeometry(30, 96),
             new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kGroundFragment, uniforms: this.uniforms }));
@@ -121,6 +118,16 @@ export class Ground extends Group {
         const dome = new Mesh(new SphereGeometry(30, 32, 16),
             new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kDomeFragment, uniforms: this.uniforms, side: BackSide }));
         this.add(floor, dome);
+    }
+
+    /**
+     * @param step   of the grid, in the scene's units
+     * @param sides  of the mask, in the scene's units; a picture of its shape gets its place
+     */
+    place(step, sides) {
+        this.uniforms.step_length.value = step;
+        this.picture_half.set(...sides).multiplyScalar(0.5);
+        this.#layPicture();
     }
 
     /** Takes light that was aimed at another place. */
@@ -151,7 +158,7 @@ export class Ground extends Group {
     /** Puts a picture under the droplet: in the mask's place if it has the mask's shape, otherwise around it. */
     show(image, anisotropy) {
         const look = this.#wear(kPicture);
-        const { uniforms, picture_half } = this;
+        const { uniforms } = this;
         uniforms.picture.value.dispose();
         const texture = new Texture(image);
         texture.colorSpace = SRGBColorSpace;
@@ -160,10 +167,19 @@ export class Ground extends Group {
         texture.needsUpdate = true;
         uniforms.picture.value = texture;
         uniforms.pictured.value = 1;
+        this.#layPicture();
+        return look;
+    }
+
+    #layPicture() {
+        const { uniforms, picture_half } = this;
+        const { image } = uniforms.picture.value;
+        if (!image) {
+            return;
+        }
         const shape = image.width / image.height;
         const same = Math.abs(shape * picture_half.y / picture_half.x - 1) < 0.02;
         const short = same ? picture_half.y : 1.6 * Math.max(picture_half.x / Math.max(1, shape), picture_half.y);
         uniforms.picture_half.value.set(same ? picture_half.x : short * shape, short);
-        return look;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scene, camera and controls. A frame is drawn only if something changed.
-import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { GroundLight } from './light.js';
@@ -34,19 +34,18 @@ export class Stage {
         this.renderer.toneMapping = NeutralToneMapping;
         this.scene = new Scene();
         this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
-        this.#place(space);
+        this.holder = new Group();
+        this.holder.add(droplet.scene);
+        this.scene.add(this.holder);
         this.room = { walls: { value: 1 }, lamps: { value: 1 } };
         const { extensions } = this.renderer;
         if (extensions.has('EXT_color_buffer_half_float') || extensions.has('EXT_color_buffer_float')) {
             this.ground_light = new GroundLight();
         }
-        this.ground = new Ground({
-            step: this.grid_step * this.scale,
-            light: this.ground_light,
-            picture_half: new Vector2(...(extent ?? [2 / this.scale, 2 / this.scale])).multiplyScalar(this.scale / 2),
-        });
-        this.ground.position.y = this.level;
+        this.ground = new Ground(this.ground_light);
         this.scene.add(this.ground);
+        this.filled = [1, Math.min((droplet.range ?? [1, 1])[1], 2)];
+        this.#place(space ?? droplet.box([1]), extent);
         this.#light();
         this.thickness = droplet.meshes[0]?.material.thickness;
 
@@ -64,25 +63,27 @@ export class Stage {
         new ResizeObserver(() => this.resize()).observe(canvas);
     }
 
-    /** Scales the droplet to a width of about 2 and puts it in the middle. */
-    #place(space) {
-        const { droplet } = this;
-        this.filled = [1, Math.min((droplet.range ?? [1, 1])[1], 2)];
-        const box = space?.clone() ?? droplet.box([1]);
+    /** Scales a box to a width of about 2 and puts it in the middle. */
+    #place(box, extent) {
         const size = Math.max(box.max.x - box.min.x, box.max.z - box.min.z, box.max.y - box.min.y);
         if (!(size > 0)) {
             throw new Error('the model has no extent');
         }
         this.scale = 2 / size;
-        this.holder = new Group();
-        this.holder.add(droplet.scene);
         this.holder.scale.setScalar(this.scale);
-        this.scene.add(this.holder);
-        this.box = box;
+        this.box = box.clone();
         this.box.min.multiplyScalar(this.scale);
         this.box.max.multiplyScalar(this.scale);
         this.level = this.flat ? 0 : this.box.min.y;  // of the ground under it
-        this.grid_step = roundLength(size / 12);
+        this.ground.position.y = this.level;
+        this.ground.place(roundLength(size / 12) * this.scale, extent?.map((side) => side * this.scale) ?? [2, 2]);
+    }
+
+    /** Shows another space, with a mask of these sides [m]. */
+    move(space, extent) {
+        this.#place(space, extent);
+        this.reset();
+        this.renew();
     }
 
     /** Puts the droplet's materials into the room, and its light on the ground. */
@@ -267,6 +268,12 @@ export class Stage {
     get metresPerPixel() {
         const distance = this.camera.position.distanceTo(this.controls.target);
         return 2 * distance * Math.tan(MathUtils.degToRad(kFieldOfView / 2)) / this.canvas.clientHeight / this.scale;
+    }
+
+    /** The view as a PNG, as large as it is shown. */
+    picture() {
+        this.renderer.render(this.scene, this.camera);  // WebGL keeps its picture until the end of the task
+        return new Promise((done) => { this.canvas.toBlob(done, 'image/png'); });
     }
 
     request() {

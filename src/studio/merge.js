@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Joins the files of several layers into one.
+
+const kJson = 0x4e4f534a;
+const kBinary = 0x004e4942;
+
+function partsOf(glb) {
+    const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
+    const length = view.getUint32(12, true);
+    const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length)));
+    return { json, binary: glb.subarray(28 + length, 28 + length + view.getUint32(20 + length, true)) };
+}
+
+function glbOf(json, binary) {
+    const text = new TextEncoder().encode(JSON.stringify(json));
+    const [first, second] = [text, binary].map(({ length }) => Math.ceil(length / 4) * 4);
+    const glb = new Uint8Array(28 + first + second).fill(0x20, 20, 20 + first);
+    const view = new DataView(glb.buffer);
+    [0x46546c67, 2, glb.length, first, kJson].forEach((word, k) => view.setUint32(4 * k, word, true));
+    glb.set(text, 20);
+    view.setUint32(20 + first, second, true);
+    view.setUint32(24 + first, kBinary, true);
+    glb.set(binary, 28 + first);
+    return glb;
+}
+
+/** Joins GLB files of one scene each; nodes and meshes get the layers' names. */
+function mergeGlb(files, names) {
+    const whole = { asset: undefined, scene: 0, scenes: [{ nodes: [] }], buffers: [{}], extensionsUsed: [] };
+    const lists = ['accessors', 'bufferViews', 'materials', 'meshes', 'nodes'];
+    lists.forEach((list) => { whole[list] = []; });
+    const binaries = [];
+    let bytes = 0;
+    files.forEach((file, which) => {
+        const { json, binary } = partsOf(file);
+        const first = Object.fromEntries(lists.map((list) => [list, whole[list].length]));
+        const at = bytes;
+        whole.asset ??= json.asset;
+        whole.extensionsUsed = [...new Set([...whole.extensionsUsed, ...json.extensionsUsed ?? []])];
+        whole.bufferViews.push(...json.bufferViews.map((view) => ({ ...view, byteOffset: (view.byteOffset ?? 0) + at })));
+        whole.accessors.push(...json.accessors.map((each) => ({ ...each, bufferView: each.bufferView + first.bufferViews })));
+        whole.materials.push(...json.materials);
+        whole.meshes.push(...json.meshes.map((mesh) => ({
+            ...mesh, name: names[which],
+            primitives: mesh.primitives.map((primitive) => ({
+                ...primitive,
+                attributes: Object.fromEntries(Object.entries(primitive.attributes).map(([name, k]) => [name, k + first.accessors])),
+                indices: primitive.indices + first.accessors, material: primitive.material + first.materials,
+            })),
+        })));
+        whole.nodes.push(...json.nodes.map((node) => ({ ...node, name: names[which], mesh: node.mesh + first.meshes })));
+        whole.scenes[0].nodes.push(...json.scenes[0].nodes.map((k) => k + first.nodes));
+        const padded = new Uint8Array(Math.ceil(binary.length / 4) * 4);
+        padded.set(binary);
+        binaries.push(padded);
+        bytes += padded.length;
+    });
+    whole.buffers[0].byteLength = bytes;
+    if (whole.extensionsUsed.length === 0) {
+        delete whole.extensionsUsed;
+    }
+    return glbOf(whole, joined(binaries));
+}
+
+function joined(arrays) {
+    const whole = new Uint8Array(arrays.reduce((sum, { length }) => sum + length, 0));
+    let at = 0;
+    for (const array of arrays) {
+        whole.set(array, at);
+        at += array.length;
+    }
+    return whole;
+}
+
+/** Joins OBJ files: indices of later files follow those of earlier ones. */
+function mergeObj(files, names) {
+    const counts = { v: 0, vt: 0, vn: 0 };
+    const lines = [];
+    files.forEach((file, which) => {
+        const before = { ...counts };
+        for (const line of new TextDecoder().decode(file).split('\n')) {
+            const [word, ...rest] = line.split(' ');
+            if (word in counts) {
+                ++counts[word];
+            }
+            if (word === 'f') {
+                lines.push(`f ${rest.map((corner) => corner.split('/').map((index, k) =>
+                    (index === '' ? '' : Number(index) + [before.v, before.vt, before.vn][k])).join('/')).join(' ')}`);
+            } else if (word === 'o') {
+                lines.push(`o ${names[which].replace(/\s+/g, '_')}`);
+            } else if (!(which > 0 && word === '#') && line !== '') {
+                lines.push(line);
+            }
+        }
+    });
+    return new TextEncoder().encode(`${lines.join('\n')}\n`);
+}
+
+/** Joins binary STL files: an 80-byte head, the number of triangles, 50 bytes for each. */
+function mergeStl(files) {
+    const head = files[0].slice(0, 84);
+    const bodies = files.map((file) => file.subarray(84));
+    new DataView(head.buffer).setUint32(80, bodies.reduce((sum, { length }) => sum + length / 50, 0), true);
+    return joined([head, ...bodies]);
+}
+
+/** One file of several; a single file keeps its bytes. */
+export function merged(format, files, names) {
+    return files.length === 1 ? files[0] : { glb: mergeGlb, obj: mergeObj, stl: mergeStl }[format](files, names);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Controls for a table of fields.
+
+/** Three digits, for a slider's bubble. */
+const shown = (field, value) => `${String(value).replace('-', '\u2212')}${field.unit === '°' ? '' : '\u00a0'}${field.unit}`;
+
+function choice(field, id) {
+    const select = document.createElement('select');
+    select.id = id;
+    for (const [value, text] of Object.entries(field.choices)) {
+        select.add(new Option(text, value));
+    }
+    return select;
+}
+
+function number(field, id) {
+    const [min, max, step] = field.range;
+    return Object.assign(document.createElement('input'), {
+        id, type: 'number', inputMode: 'decimal', min, max, step: 'any', required: !field.optional,
+        placeholder: field.optional ? 'the liquid\u2019s own' : '',
+        // Arrow keys change it by this much.
+        onkeydown(event) {
+            const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+            const at = event.target.valueAsNumber;
+            if (way && Number.isFinite(at)) {
+                event.preventDefault();
+                const by = step === 'any' ? 10 ** (Math.floor(Math.log10(Math.max(Math.abs(at), 0.01))) - 1) : step;
+                event.target.value = Math.min(max, Math.max(min, Number((at + way * by).toPrecision(6))));
+                event.target.dispatchEvent(new Event('input', { bubbles: true }));
+            }
+        },
+    });
+}
+
+/**
+ * Builds the controls.
+ * @param hosts    {plain, more}: elements for usual and for rare fields
+ * @param prefix   of the controls' ids
+ * @param changed  called with the name and the new value of a field
+ * @return a function that shows settings
+ */
+export function buildForm(fields, hosts, prefix, changed) {
+    const rows = fields.map((field) => {
+        const id = `${prefix}-${field.name}`;
+        const row = document.createElement('div');
+        row.className = 'field';
+        const label = Object.assign(document.createElement('label'), { htmlFor: id, textContent: field.label });
+        const control = field.choices ? choice(field, id) : number(field, id);
+        row.append(label, control);
+        let slider;
+        if (!field.choices) {
+            row.append(Object.assign(document.createElement('span'), { className: 'unit', textContent: field.unit }));
+            control.setAttribute('aria-description', field.unit);
+        }
+        if (field.slider) {
+            const [min, max, step] = field.range;
+            slider = Object.assign(document.createElement('input'), { type: 'range', min, max, step });
+            slider.setAttribute('aria-label', field.label);
+            slider.addEventListener('input', () => {
+                control.value = slider.value;
+                changed(field.name, Number(slider.value));
+            });
+            row.append(slider);
+        }
+        control.addEventListener(field.choices ? 'change' : 'input', () => {
+            if (!control.checkValidity()) {
+                return;
+            }
+            changed(field.name, field.choices ? control.value : control.value === '' ? '' : control.valueAsNumber);
+        });
+        (field.more ? hosts.more : hosts.plain).append(row);
+        return { field, row, control, slider };
+    });
+    return (settings) => {
+        for (const { field, row, control, slider } of rows) {
+            row.hidden = field.when ? !field.when(settings) : false;
+            const value = settings[field.name];
+            if (field.choices || document.activeElement !== control || (control.value === '' ? '' : control.valueAsNumber) !== value) {
+                control.value = value;
+            }
+            if (slider) {
+                slider.value = value;
+                slider.setAttribute('aria-valuetext', shown(field, value));
+            }
+        }
+    };
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What Studio saves.
+import { download, fileStem } from '../page/controls.js';
+import { merged } from './merge.js';
+import { pictureOf, selectedLayer, textOf } from './project.js';
+
+const kTypes = { glb: 'model/gltf-binary', obj: 'model/obj', stl: 'model/stl' };
+
+/**
+ * Saves a file and returns its name.
+ * @param kind    glb, obj, stl, view, footprint or project
+ * @param parts   {project, solver, view, drawn: layers that have a droplet, bottom first}
+ */
+export async function save(kind, { project, solver, view, drawn }) {
+    const stem = fileStem(project.name);
+    if (kind === 'project') {
+        const name = `${stem}.droplet.json`;
+        download(new Blob([await textOf(project)], { type: 'application/json' }), name);
+        return name;
+    }
+    if (kind === 'view' || kind === 'footprint') {
+        const picture = kind === 'view' ? await view.picture() : await pictureOf(selectedLayer(project).mask);
+        const name = kind === 'view' ? `${stem}-view.png` : `${stem}.png`;
+        download(picture, name);
+        return name;
+    }
+    if (drawn.length === 0) {
+        throw new Error('there is no droplet yet');
+    }
+    const files = await solver.files(drawn.map(({ id }) => id), kind);
+    const name = `${stem}.${kind}`;
+    download(new Blob([merged(kind, files, drawn.map((layer) => layer.name))], { type: kTypes[kind] }), name);
+    return name;
+}

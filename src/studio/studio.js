@@ -1,0 +1,636 @@
+// SPDX-License-Identifier: MIT
+// Studio: wires the drawing, the solver and the view to one project.
+import { complain, drawScale, find, offerGrounds, tabulate } from '../page/controls.js';
+import { length, rows, volume } from '../page/figures.js';
+import { roundLength } from '../page/stage.js';
+import { blank, isDry } from './coverage.js';
+import { History } from './history.js';
+import { buildLayers } from './layers.js';
+import markup from './markup.html';
+import { inkOf, lookOf } from './materials.js';
+import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
+import { buildForm } from './physics_form.js';
+import { fitted, levelsOf, maskOfLevels, readPicture, showMask } from './pictures.js';
+import { newLayer, newProject, projectOf, selectedLayer, withLayer } from './project.js';
+import { save } from './save.js';
+import { Sheet } from './sheet.js';
+import { Solver } from './solver.js';
+import { Times } from './times.js';
+import { kTools } from './tools.js';
+import { View } from './view.js';
+
+const root = document.documentElement;
+
+const kIcons = {
+    brush: 'M16.5 3.5c-4 2-7 5-8.5 8l1 1c3-1.5 6-4.5 8-8.5zM7 12.5c-2 0-2.5 1.5-2.5 2.5S3.5 16.5 3 16.5c1.5 1 5.5.5 6-2.5z',
+    eraser: 'm8 16-4.5-4.5 8-8 5 5L9 16zM7 16h9M7.5 7.5l5 5',
+    line: 'M4.5 15.5l11-11M4.5 15.5h.01M15.5 4.5h.01',
+    rectangle: 'M3.5 5.5h13v9h-13z',
+    ellipse: 'M3 10a7 5 0 1 0 14 0a7 5 0 1 0-14 0z',
+    lasso: 'M4 13c-2-5 2-9 7-9s7 4 4.5 7-5 1-7 3-1.5 3-2.5 2.5S4.5 14 4 13z',
+    text: 'M4.5 6V4h11v2M10 4v12M7.5 16h5',
+    fill: 'M9 3.5 3.5 9l6 6 6-6zM3.5 9h12M16.5 12.5c1 1.5 1.3 2.2 1.3 2.8a1.3 1.3 0 0 1-2.6 0c0-.6.3-1.3 1.3-2.8z',
+    move: 'M10 2.5v15M2.5 10h15M7.5 5 10 2.5 12.5 5M7.5 15l2.5 2.5 2.5-2.5M5 7.5 2.5 10 5 12.5M15 7.5l2.5 2.5L15 12.5',
+};
+
+/** Keys of shortcuts must not act while somebody writes. */
+const writes = (target) => target.matches?.('input:not([type=range], [type=checkbox], [type=radio]), select, textarea');
+
+class Studio {
+    constructor({ wasm, worker_url, project }) {
+        document.body.className = 'studio';
+        document.body.dataset.part = 'draw';
+        document.body.innerHTML = markup;
+        this.history = new History(project);
+        this.known = new Map();    // layer → {job, report, draft, error}: what is known of its droplet
+        this.tool = 'brush';
+        this.setting = { size: 60, text: 'Aqua', font: 'sans', text_size: 320 };
+        this.solver = new Solver({ wasm, worker_url }, {
+            showed: (job, answer, draft) => this.#showed(job, answer, draft),
+            failed: (job, error, draft) => this.#refused(job, error, draft),
+        });
+        this.sheet = new Sheet(
+            { table: find('table'), paper: find('paper'), sheet: find('sheet'), cursor: find('cursor'), fit: find('fit') },
+            {
+                layers: () => this.#drawnLayers(),
+                base: () => (selectedLayer(this.project).visible ? selectedLayer(this.project).mask : null),
+                tool: () => ({ name: this.tool, removes: find('subtract').checked, setting: this.setting }),
+            },
+            {
+                began: () => this.#began(),
+                drew: (mask, rect, time) => this.#drew(mask, rect, time),
+                ended: (mask) => this.#ended(mask),
+                gaveUp: () => this.#gaveUp(),
+                moved: (x, y) => this.#sayPlace(x, y),
+            });
+        this.#offerTools();
+        this.#offerForms();
+        this.#offerLayers();
+        this.#offerFiles();
+        this.#offerKeys();
+        this.#offerView();
+        this.#update(undefined);
+        this.solver.ready.then(() => { root.dataset.solver = 'ready'; }, (error) => {
+            complain('The solver does not run in this browser. Drawings can be saved all the same.');
+            console.error(error);
+        });
+        addEventListener('beforeunload', (event) => {
+            if (this.unsaved) {
+                event.preventDefault();
+            }
+        });
+    }
+
+    get project() {
+        return this.history.state;
+    }
+
+    /** Layers as the sheet draws them: the selected one as it is under the hand. */
+    #drawnLayers() {
+        const { layers, selected } = this.project;
+        return layers.map(({ mask, liquid, visible }, index) => ({
+            data: index === selected && this.stroke ? this.stroke.data : mask.data, ink: inkOf(lookOf(liquid)),
+            selected: index === selected, visible,
+        })).filter(({ visible }) => visible);
+    }
+
+    /** Goes on to another project, as a step that can be undone. */
+    #change(project, run) {
+        const before = this.project;
+        this.history.add(project, run);
+        this.unsaved = true;
+        this.#update(before);
+    }
+
+    /** Shows the project, of which what is the same as before is shown already. */
+    #update(before) {
+        const { project } = this;
+        const { width, height, scene, layers } = project;
+        if (!before || width !== before.width || height !== before.height || scene.width !== before.scene.width) {
+            this.sheet.resize(width, height, roundLength(scene.width / 12) / scene.width);
+            this.view?.fit(this.#extent());
+        }
+        if (!before || layers !== before.layers || project.selected !== before.selected || width !== before.width) {
+            this.sheet.paint();
+        }
+        if (project.underlay !== before?.underlay) {
+            find('underlay').hidden = !project.underlay;
+            find('tracing').hidden = !project.underlay;
+            if (project.underlay) {
+                find('underlay').src = project.underlay.picture;
+                find('underlay').style.opacity = project.underlay.opacity;
+                find('opacity').value = project.underlay.opacity;
+            }
+        }
+        if (document.activeElement !== find('name')) {
+            find('name').value = project.name;
+        }
+        document.title = `${project.name} – Droplet Studio`;
+        this.show_layers(project);
+        this.show_liquid(selectedLayer(project).liquid);
+        this.show_scene(scene);
+        find('undo').disabled = !this.history.can_undo;
+        find('redo').disabled = !this.history.can_redo;
+        find('layer-remove').disabled = layers.length === 1;
+        find('layer-up').disabled = project.selected === layers.length - 1;
+        find('layer-down').disabled = project.selected === 0;
+        this.#solve(before);
+        this.#showFigures();
+    }
+
+    #extent() {
+        const { width, height, scene } = this.project;
+        return [scene.width * 1e-3, scene.width * 1e-3 * height / width];
+    }
+
+    /** Wants the droplets of layers that have changed, and removes those of layers that are dry or gone. */
+    #solve(before) {
+        const { layers, scene } = this.project;
+        for (const { id } of before?.layers ?? []) {
+            if (!layers.some((layer) => layer.id === id)) {
+                this.#drop(id);
+            }
+        }
+        for (const layer of layers) {
+            const { job } = this.known.get(layer.id) ?? {};
+            const options = optionsOf(layer, scene);
+            const same = job && job.mask === layer.mask && JSON.stringify(job.options) === JSON.stringify(options);
+            this.view?.setVisible(layer.id, layer.visible);
+            if (same) {
+                continue;
+            }
+            if (isDry(layer.mask)) {
+                this.#drop(layer.id);
+            } else if (layer.visible) {
+                this.#want(layer, layer.mask, performance.now());
+            }
+        }
+    }
+
+    #want(layer, mask, time) {
+        const { scene } = this.project;
+        const known = this.known.get(layer.id) ?? {};
+        // The oldest input that no frame shows yet; a new job takes it over from one that is not begun.
+        const waiting = known.job && known.job !== known.sent ? known.job.input : time;
+        const job = {
+            id: layer.id, mask, options: optionsOf(layer, scene), look: lookOf(layer.liquid), flat: scene.ground === 'flat',
+            input: Math.min(waiting, time),
+        };
+        this.known.set(layer.id, { ...known, job });
+        root.dataset.droplets = 'solving';
+        this.solver.want(job);
+    }
+
+    #drop(id) {
+        this.known.delete(id);
+        this.solver.forget(id);
+        this.view?.remove(id);
+        this.#settle();
+    }
+
+    #showed(job, { shape, report, solve_ms }, draft) {
+        const known = this.known.get(job.id);
+        if (!known) {
+            return;
+        }
+        Object.assign(known, { report, draft, shown: job, error: undefined });
+        if (this.view) {
+            if (draft) {
+                this.times.came({ input: job.input, solve_ms });
+            }
+            this.view.show(job.id, job.look, shape, job.flat);
+            const layer = this.project.layers.find(({ id }) => id === job.id);
+            this.view.setVisible(job.id, layer?.visible ?? true);
+        }
+        this.#settle();
+    }
+
+    #refused(job, error, draft) {
+        const known = this.known.get(job.id);
+        // A footprint that is too small for a draft may do for the whole mesh; that one's word counts.
+        if (known && !draft) {
+            Object.assign(known, { error, shown: job, report: undefined });
+            this.view?.remove(job.id);
+        }
+        this.#settle();
+    }
+
+    #settle() {
+        this.#showFigures();
+        if (!this.stroke && this.solver.at_rest) {
+            root.dataset.droplets = 'ready';
+            this.#say(this.#words());
+        }
+    }
+
+    // A stroke: the mask under the hand is solved as it grows, and becomes a step when the hand leaves.
+
+    #began() {
+        this.solver.hold(true);
+        this.history.rest();
+        find('hint').hidden = true;
+    }
+
+    #drew(mask, rect, time) {
+        this.stroke = mask;
+        this.sheet.paint(rect);
+        const layer = selectedLayer(this.project);
+        if (isDry(mask)) {
+            this.#drop(layer.id);
+        } else {
+            this.#want(layer, mask, time);
+        }
+    }
+
+    #ended(mask) {
+        this.stroke = undefined;
+        this.solver.hold(false);
+        this.#change(withLayer(this.project, { mask }));
+    }
+
+    #gaveUp() {
+        this.stroke = undefined;
+        this.solver.hold(false);
+        this.sheet.paint();
+        this.#solve(undefined);
+    }
+
+    // Words and figures.
+
+    #say(text) {
+        if (find('said').textContent !== text) {
+            find('said').textContent = text;
+        }
+    }
+
+    #sayPlace(x, y) {
+        const { width, scene } = this.project;
+        const layer = selectedLayer(this.project);
+        const at = Math.min(Math.floor(y), this.project.height - 1) * width + Math.min(Math.floor(x), width - 1);
+        const metres = (pixels) => length(pixels * scene.width * 1e-3 / width);
+        find('where').textContent = `${metres(x)} from the left, ${metres(y)} from the top, ${(this.stroke ?? layer.mask).data[at] >= 128 ? 'liquid' : 'dry'}`;
+    }
+
+    /** Layers whose droplets are shown. */
+    #drops() {
+        return this.project.layers.filter((layer) => layer.visible && this.known.get(layer.id)?.report);
+    }
+
+    #words() {
+        const errors = this.project.layers.filter(({ id, visible }) => visible && this.known.get(id)?.error)
+            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${name}: ` : ''}${plainly(this.known.get(id).error)}`);
+        const liquids = this.#drops().map(({ id }) => {
+            const { report: { liquid, shape } } = this.known.get(id);
+            return `${volume(shape.volume_m3)} of ${liquid.name}, ${length(shape.height_max_m)} high`;
+        });
+        return [...errors, ...liquids].join('; ');
+    }
+
+    #showFigures() {
+        const known = this.known.get(selectedLayer(this.project).id);
+        const refused = this.project.layers.some(({ id, visible }) => visible && this.known.get(id)?.error);
+        const draft = this.#drops().some(({ id }) => this.known.get(id).draft);
+        find('result').textContent = (draft && !refused ? '≈ ' : '') + this.#words();
+        find('result').classList.toggle('refused', refused);
+        find('hint').hidden = this.stroke !== undefined || this.project.underlay !== undefined || !this.project.layers.every(({ mask }) => isDry(mask));
+        const report = known?.report;
+        tabulate(report ? [...rows(report), ...(known.draft ? [['Draft', `${report.output?.triangles ?? report.mesh.triangles} triangles`]] :
+            [['Triangles', String(report.output?.triangles ?? report.mesh.triangles)]])] : [['Layer', 'no droplet']]);
+        find('warnings').replaceChildren(...(report && !known.draft ? report.warnings ?? [] : [])
+            .map((warning) => Object.assign(document.createElement('li'), { textContent: warning })));
+        find('command-line').hidden = !report;
+        if (report) {
+            find('command').textContent = commandOf(this.project.name.replaceAll('\'', ''), optionsOf(selectedLayer(this.project), this.project.scene));
+        }
+    }
+
+    #showTimes() {
+        const { summary } = this.times;
+        if (summary && find('times').open) {
+            const ms = (value) => `${value.toFixed(1)} ms`;
+            find('times').querySelector('tbody').replaceChildren(...[
+                ['Drafts', String(summary.drafts)], ['Hand to eye, median', ms(summary.median)],
+                ['Nine in ten within', ms(summary.nine_in_ten)], ['Solver, median', ms(summary.solve)],
+            ].map(([name, value]) => {
+                const row = document.createElement('tr');
+                row.append(Object.assign(document.createElement('th'), { scope: 'row', textContent: name }),
+                    Object.assign(document.createElement('td'), { textContent: value }));
+                return row;
+            }));
+        }
+    }
+
+    // Controls.
+
+    #offerTools() {
+        for (const [name, { name: text, key }] of Object.entries(kTools)) {
+            const label = document.createElement('label');
+            label.title = `${text} (${key.toUpperCase()})`;
+            const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'tool', value: name });
+            radio.setAttribute('aria-label', text);
+            radio.addEventListener('change', () => this.#choose(name));
+            label.append(radio);
+            label.insertAdjacentHTML('beforeend', `<svg viewBox="0 0 20 20" aria-hidden="true"><path d="${kIcons[name]}"/></svg>`);
+            find('tools').append(label);
+        }
+        find('size').addEventListener('input', () => this.#resize(Number(find('size').value)));
+        find('text').addEventListener('input', () => { this.setting.text = find('text').value; });
+        find('font').addEventListener('change', () => { this.setting.font = find('font').value; });
+        find('text-size').addEventListener('input', () => {
+            if (find('text-size').checkValidity() && find('text-size').value !== '') {
+                this.setting.text_size = find('text-size').valueAsNumber;
+            }
+        });
+        this.#choose('brush');
+        this.#resize(this.setting.size);
+    }
+
+    #choose(tool) {
+        this.sheet.cancel();
+        this.tool = tool;
+        find('tools').querySelector(`[value=${tool}]`).checked = true;
+        find('sizing').hidden = !kTools[tool].sized;
+        find('writing').hidden = !kTools[tool].written;
+        find('subtracting').hidden = ['eraser', 'move'].includes(tool);
+        find('sheet').setAttribute('aria-label', `Footprint, drawn with: ${kTools[tool].name}`);
+    }
+
+    #resize(size) {
+        this.setting.size = Math.min(300, Math.max(2, Math.round(size)));
+        find('size').value = this.setting.size;
+        const text = length(this.setting.size * this.project.scene.width * 1e-3 / this.project.width);
+        find('size-text').textContent = text;
+        find('size').setAttribute('aria-valuetext', text);
+    }
+
+    #offerForms() {
+        this.show_liquid = buildForm(kLayerFields, { plain: find('liquid'), more: find('liquid-more') }, 'liquid', (name, value) => {
+            const layer = selectedLayer(this.project);
+            this.#change(withLayer(this.project, { liquid: { ...layer.liquid, [name]: value } }), `${layer.id} ${name}`);
+        });
+        this.show_scene = buildForm(kSceneFields, { plain: find('scene') }, 'scene', (name, value) => {
+            this.#change({ ...this.project, scene: { ...this.project.scene, [name]: value } }, name);
+            this.#resize(this.setting.size);
+        });
+        find('name').addEventListener('input', () => this.#change({ ...this.project, name: find('name').value.trim() || 'Droplet' }, 'name'));
+        find('opacity').addEventListener('input', () =>
+            this.#change({ ...this.project, underlay: { ...this.project.underlay, opacity: Number(find('opacity').value) } }, 'opacity'));
+        find('untrace').addEventListener('click', () => this.#change({ ...this.project, underlay: undefined }));
+    }
+
+    #offerLayers() {
+        this.show_layers = buildLayers(find('layers'), {
+            select: (selected) => this.#select(selected),
+            show: (index, visible) => this.#change(withLayer(this.project, { visible }, index)),
+            rename: (index, name) => this.#change(withLayer(this.project, { name }, index)),
+        });
+        const insert = (layer) => {
+            const { layers, selected } = this.project;
+            this.#change({ ...this.project, layers: layers.toSpliced(selected + 1, 0, layer), selected: selected + 1 });
+            this.#say(`${layer.name} added`);
+        };
+        const free = (stem) => {
+            const names = new Set(this.project.layers.map(({ name }) => name));
+            return Array.from({ length: names.size + 1 }, (_, k) => `${stem} ${k + 1}`).find((name) => !names.has(name));
+        };
+        const swap = (by) => {
+            const { layers, selected } = this.project;
+            const moved = layers.toSpliced(selected, 1).toSpliced(selected + by, 0, layers[selected]);
+            this.#change({ ...this.project, layers: moved, selected: selected + by });
+        };
+        find('layer-add').addEventListener('click', () => insert(newLayer(this.project.width, this.project.height, free('Layer'))));
+        find('layer-copy').addEventListener('click', () => {
+            const { name, mask, liquid } = selectedLayer(this.project);
+            insert(newLayer(1, 1, free(name.replace(/ \d+$/, '')), { mask, liquid }));
+        });
+        find('layer-up').addEventListener('click', () => swap(1));
+        find('layer-down').addEventListener('click', () => swap(-1));
+        find('layer-clear').addEventListener('click', () =>
+            this.#change(withLayer(this.project, { mask: blank(this.project.width, this.project.height) })));
+        find('layer-remove').addEventListener('click', () => {
+            const { layers, selected } = this.project;
+            this.#say(`${layers[selected].name} removed`);
+            this.#change({ ...this.project, layers: layers.toSpliced(selected, 1), selected: Math.max(0, selected - 1) });
+        });
+    }
+
+    /** Selecting is no step of its own. */
+    #select(selected) {
+        const before = this.project;
+        this.sheet.cancel();
+        this.history.rest();
+        this.history.replace({ ...before, selected });
+        this.#update(before);
+    }
+
+    #undo(step) {
+        if (this.stroke) {
+            this.sheet.cancel();
+            return;
+        }
+        const before = this.project;
+        const moved = this.history[step]();
+        if (moved !== before) {
+            this.unsaved = true;
+            this.#update(before);
+        }
+    }
+
+    #replace(project) {
+        const before = this.project;
+        this.history.reset(project);
+        this.unsaved = false;
+        this.#update(before);
+        this.choose_ground?.(project.ground);
+    }
+
+    async #save(kind) {
+        find('saves').hidePopover();
+        try {
+            const name = await save(kind, { project: this.project, solver: this.solver, view: this.view, drawn: this.#drops() });
+            this.unsaved &&= kind !== 'project';
+            find('trouble').hidden = true;
+            this.#say(`${name} saved`);
+        } catch (error) {
+            complain(`Nothing was saved: ${plainly(error)}`);
+        }
+    }
+
+    #offerFiles() {
+        for (const button of find('saves').querySelectorAll('[data-save]')) {
+            button.addEventListener('click', () => this.#save(button.dataset.save));
+        }
+        find('new').addEventListener('click', () => {
+            const before = this.project;
+            const fresh = newProject();
+            this.history.add(fresh);  // it can be undone, so nothing is asked
+            this.#update(before);
+            this.#say('New project');
+        });
+        find('open').addEventListener('click', () => find('file').click());
+        find('file').addEventListener('change', (event) => {
+            const [file] = event.target.files;
+            event.target.value = '';
+            if (file) {
+                this.#open(file);
+            }
+        });
+        let depth = 0;
+        const dropping = (on) => document.body.classList.toggle('dropping', on);
+        addEventListener('dragenter', () => dropping(++depth > 0));
+        addEventListener('dragleave', () => dropping(--depth > 0));
+        addEventListener('dragover', (event) => event.preventDefault());
+        addEventListener('drop', (event) => {
+            event.preventDefault();
+            depth = 0;
+            dropping(false);
+            const [file] = event.dataTransfer.files;
+            if (file) {
+                this.#open(file);
+            }
+        });
+        addEventListener('paste', (event) => {
+            const file = [...event.clipboardData?.files ?? []].find(({ type }) => type.startsWith('image/'));
+            if (file) {
+                event.preventDefault();
+                this.#open(file);
+            }
+        });
+    }
+
+    async #open(file) {
+        find('trouble').hidden = true;
+        try {
+            if (/\.json$/i.test(file.name) || file.type === 'application/json') {
+                this.#replace(await projectOf(await file.text()));
+                this.#say(`${this.project.name} opened`);
+            } else {
+                await this.#import(await readPicture(file), file.name);
+            }
+        } catch (error) {
+            complain(`${file.name} cannot be opened: ${error instanceof DOMException ? 'it is no picture that this browser can read' : plainly(error)}.`);
+        }
+    }
+
+    /** Asks what a picture shall be, and shows the footprint that it gives. */
+    async #import(canvas, file_name) {
+        const levels = levelsOf(canvas);
+        const dialog = find('import');
+        find('threshold').value = levels.threshold;
+        find('invert').checked = levels.inverted;
+        let mask;
+        const show = () => {
+            mask = maskOfLevels(levels, Number(find('threshold').value), find('invert').checked);
+            showMask(find('preview'), mask, inkOf(lookOf(selectedLayer(this.project).liquid)));
+        };
+        show();
+        find('threshold').oninput = find('invert').oninput = show;
+        dialog.returnValue = '';
+        dialog.showModal();
+        await new Promise((done) => { dialog.addEventListener('close', done, { once: true }); });
+        if (dialog.returnValue === 'footprint') {
+            this.#take(mask, file_name);
+        } else if (dialog.returnValue === 'underlay') {
+            this.#change({ ...this.project, underlay: { picture: canvas.toDataURL(levels.photo ? 'image/jpeg' : 'image/png', 0.9), opacity: 0.5 } });
+        }
+    }
+
+    /** Takes a mask for the selected layer. An empty sheet gets its size and its name. */
+    #take(mask, file_name) {
+        const { project } = this;
+        if (project.layers.every(({ mask }) => isDry(mask))) {
+            const { width, height } = mask;
+            const name = project.name === 'Droplet' ? file_name.replace(/\.\w+$/, '') || 'Droplet' : project.name;
+            const layers = project.layers.map((layer, k) => ({ ...layer, mask: k === project.selected ? mask : blank(width, height) }));
+            this.#change({ ...project, name, width, height, layers });
+        } else {
+            this.#change(withLayer(project, { mask: fitted(mask, project.width, project.height) }));
+        }
+    }
+
+    #offerKeys() {
+        find('undo').addEventListener('click', () => this.#undo('undo'));
+        find('redo').addEventListener('click', () => this.#undo('redo'));
+        addEventListener('keydown', (event) => {
+            const key = event.key.toLowerCase();
+            if (find('import').open || event.altKey) {
+                return;
+            }
+            if (event.ctrlKey || event.metaKey) {
+                const act = {
+                    z: () => this.#undo(event.shiftKey ? 'redo' : 'undo'), y: () => this.#undo('redo'),
+                    s: () => this.#save('project'), o: () => find('file').click(),
+                }[key];
+                if (act && !(writes(event.target) && 'zy'.includes(key))) {
+                    event.preventDefault();
+                    act();
+                }
+                return;
+            }
+            if (writes(event.target)) {
+                return;
+            }
+            const tool = Object.keys(kTools).find((name) => kTools[name].key === key);
+            if (tool) {
+                this.#choose(tool);
+            } else if (key === '[' || key === ']') {
+                this.#resize(this.setting.size * (key === '[' ? 1 / 1.25 : 1.25));
+            } else if (key === 'x') {
+                find('subtract').checked = !find('subtract').checked;
+            }
+        });
+        for (const button of find('tabs').querySelectorAll('button')) {
+            button.addEventListener('click', () => {
+                document.body.dataset.part = button.dataset.part;
+                find('tabs').querySelectorAll('button').forEach((each) => each.setAttribute('aria-pressed', each === button));
+            });
+        }
+    }
+
+    #offerView() {
+        let frames = 0;
+        try {
+            this.view = new View({
+                canvas: find('view'), extent: this.#extent(), still: matchMedia('(prefers-reduced-motion: reduce)').matches,
+                drawn: (is_last) => {
+                    drawScale(this.view.stage);
+                    this.times.drawn();
+                    root.dataset.frames = ++frames;
+                    root.dataset.state = is_last ? 'resting' : 'moving';
+                    if (is_last) {
+                        this.#showTimes();
+                    }
+                },
+            });
+        } catch (error) {
+            complain('This browser does not show droplets in 3D. Drawing, figures and files are here all the same.');
+            find('grounds').hidden = true;
+            root.dataset.state = 'failed';
+            console.error(error);
+            return;
+        }
+        const { stage } = this.view;
+        this.times = new Times(stage.renderer.getContext());
+        window.studioTimes = this.times;
+        this.choose_ground = offerGrounds(stage, this.project.ground, (ground) => {
+            this.history.replace({ ...this.project, ground });
+            this.unsaved = true;
+        });
+        find('reset').addEventListener('click', () => stage.reset());
+        find('times').addEventListener('toggle', () => this.#showTimes());
+    }
+}
+
+/** An error in plain words: options in the command's style become words. */
+function plainly(error) {
+    return error.message.replace(/\n/g, ' ');
+}
+
+/**
+ * Opens Studio in this document.
+ * @param wasm        the solver: bytes, or the compiled module
+ * @param worker_url  of solver_worker.js
+ */
+export function openStudio({ wasm, worker_url, project = newProject() }) {
+    return new Studio({ wasm, worker_url, project });
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The droplets of all layers on the page's stage.
+import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from 'three';
+import { Stage } from '../page/stage.js';
+import { materialOf, thicken } from './materials.js';
+
+/** Meshes of layers, as the stage wants a droplet (model.js). */
+class Droplets {
+    constructor() {
+        this.scene = new Group();
+        this.layers = new Map();
+    }
+
+    get meshes() {
+        return [...this.layers.values()].filter(({ visible }) => visible);
+    }
+
+    box() {
+        return this.meshes.reduce((box, { userData }) => box.union(userData.box), new Box3());
+    }
+
+    show(id, look, { positions, normals, triangles, box, thickness }) {
+        const mesh = this.layers.get(id) ?? new Mesh(new BufferGeometry(), materialOf(look));
+        mesh.geometry.dispose();
+        mesh.geometry = new BufferGeometry();
+        mesh.geometry.setAttribute('position', new BufferAttribute(positions, 3));
+        mesh.geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+        mesh.geometry.setIndex(new BufferAttribute(triangles, 1));
+        mesh.userData.box = new Box3(new Vector3(...box.slice(0, 3)), new Vector3(...box.slice(3)));
+        mesh.userData.thickness = thickness;
+        mesh.frustumCulled = false;  // no bounding sphere is computed for every draft
+        this.layers.set(id, mesh);
+        this.scene.add(mesh);
+        this.look(id, look);
+    }
+
+    look(id, look) {
+        const mesh = this.layers.get(id);
+        if (mesh) {
+            if (mesh.material.name !== look) {
+                mesh.material.dispose();
+                mesh.material = materialOf(look);
+            }
+            thicken(mesh.material, mesh.userData.thickness);
+        }
+    }
+
+    remove(id) {
+        const mesh = this.layers.get(id);
+        mesh?.geometry.dispose();
+        mesh?.material.dispose();
+        mesh?.removeFromParent();
+        this.layers.delete(id);
+    }
+}
+
+/** What is shown of a sheet of these sides [m]. */
+function spaceOf([width, depth]) {
+    return new Box3(new Vector3(-width / 2, 0, -depth / 2), new Vector3(width / 2, 0.08 * width, depth / 2));
+}
+
+export class View {
+    /**
+     * @param canvas  to draw on
+     * @param extent  the sheet's sides [m]
+     * @param drawn   as of Stage
+     */
+    constructor({ canvas, extent, still, drawn }) {
+        this.droplets = new Droplets();
+        this.stage = new Stage({ canvas, droplet: this.droplets, flat: true, extent, space: spaceOf(extent), still, drawn });
+        this.stage.controls.addEventListener('start', () => { this.stage.touched = true; });
+    }
+
+    /** Shows a sheet of other sides [m]. */
+    fit(extent) {
+        this.stage.move(spaceOf(extent), extent);
+    }
+
+    show(id, look, shape, flat) {
+        this.droplets.show(id, look, shape);
+        this.stage.renew(flat);
+    }
+
+    /** Changes a look without a new mesh. */
+    look(id, look) {
+        this.droplets.look(id, look);
+        this.stage.renew();
+    }
+
+    remove(id) {
+        this.droplets.remove(id);
+        this.stage.renew();
+    }
+
+    setVisible(id, visible) {
+        const mesh = this.droplets.layers.get(id);
+        if (mesh && mesh.visible !== visible) {
+            mesh.visible = visible;
+            this.stage.renew();
+        }
+    }
+
+    /** The view as a picture. */
+    picture() {
+        return this.stage.picture();
+    }
+}
