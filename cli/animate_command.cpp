@@ -23,6 +23,7 @@
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
+#include "mask_shape.h"
 #include "progress_display.h"
 #include "shape_command.h"
 #include "stage_clock.h"

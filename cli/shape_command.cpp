@@ -25,6 +25,7 @@
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
+#include "mask_shape.h"
 #include "picture_watch.h"
 #include "progress_display.h"
 #include "stage_clock.h"
@@ -73,47 +74,6 @@ std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOp
         return std::nullopt;
     }
     return static_cast<int>(std::min<double>(kLongest, std::ceil(side * kPixelsPerEdge / edge)));
-}
-
-/// Whether the picture's size is the one that its file states.
-bool takesOwnSize(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
-{
-    return mask.physical_width && !options.footprint.sized && !around.object;
-}
-
-/// Settings completed by the picture's size, which may depend on an object, and by the ground.
-DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
-{
-    DropletSettings settings = options.settings;
-    droplet::DropletOptions& droplet = settings.droplet;
-    droplet.trace = options.footprint.trace;
-    if (around.object && !options.footprint.sized) {
-        droplet.trace.width =
-            droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
-    } else if (takesOwnSize(mask, around, options)) {
-        droplet.trace.width = *mask.physical_width;
-        if (!(droplet.trace.width >= kLength.min && droplet.trace.width <= kLength.max)) {
-            throw Error(ErrorCode::InvalidInput,
-                        fmt::format("the page states a width of {:.6g}m, which must be {}; give --width instead",
-                                    droplet.trace.width, kLength.allowed));
-        }
-    }
-    const double pixel = droplet::pixelSize(mask, droplet.trace);
-    droplet.solve.ground = groundOf(settings, around, {pixel * mask.width, pixel * mask.height});
-    return settings;
-}
-
-/// Warning about a mask that may be wrong.
-std::optional<std::string> maskWarning(const droplet::Mask& mask)
-{
-    constexpr double kMinConfidence = 0.5;
-    if (mask.segment_confidence >= kMinConfidence) {
-        return std::nullopt;
-    }
-    return fmt::format(
-        "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); look at it with "
-        "--mask-out, change it with --segment, --channel or --threshold",
-        100.0 * mask.segment_confidence, name(mask.segment));
 }
 
 /// Writes the mask as it was traced, with 16 bits.
@@ -269,13 +229,10 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
         settings = completeSettings(mask, around, options);
     }
     picture = {};
-    refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
     addPageSlider(settings.droplet, options);
     const auto begin = [&](Stage stage) { stages.begin(stage); };
-    Droplet droplet = forInput(options, [&] { return droplet::makeDroplet(mask, settings.droplet, begin); });
-    droplet::InputReport input = describeInput(mask, droplet.outline, options.input, options.footprint.trace.threshold);
-    input.own_size = takesOwnSize(mask, around, options);
-    if (auto warning = maskWarning(mask)) {
+    MaskShape made = forInput(options, [&] { return makeOfMask(mask, settings, options, begin); });
+    if (auto warning = maskWarning(mask, "look at it with --mask-out")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
     std::optional<OutputFile> mask_file;
@@ -283,7 +240,7 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
         mask_file = {*options.footprint.mask_out,
                      [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
     }
-    return finish(std::move(droplet), settings, input, around, options, stages, mask_file);
+    return finish(std::move(made.droplet), settings, made.input, around, options, stages, mask_file);
 }
 
 void printSummary(const droplet::Report& report, const RunOptions& run)
@@ -312,57 +269,6 @@ void printSummary(const droplet::Report& report, const RunOptions& run)
 }
 
 }  // namespace
-
-void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
-{
-    if (!options.mesh.edge) {
-        return;
-    }
-    const double edge = *options.mesh.edge;
-    const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
-    const double triangles = area / equilateral;
-    if (triangles > static_cast<double>(kMaxTriangles)) {
-        const double min = edge * std::sqrt(triangles / static_cast<double>(kMaxTriangles));
-        throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("--edge: {:.3g}mm would take {:.3g} triangles on this footprint, must be at least "
-                                "{:.3g}mm",
-                                edge / droplet::kMillimetre, triangles, min / droplet::kMillimetre));
-    }
-}
-
-double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
-{
-    const double pixel = droplet::pixelSize(mask, options);
-    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
-}
-
-droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline, std::string path,
-                                   double threshold)
-{
-    droplet::InputReport input;
-    input.path = std::move(path);
-    input.width_px = mask.width;
-    input.height_px = mask.height;
-    input.drawn = mask.raster_scale.has_value();
-    input.pixel_size = outline.pixel_size;
-    input.channel = mask.channel;
-    input.inverted = mask.inverted;
-    input.segment = mask.segment;
-    input.segment_confidence = mask.segment_confidence;
-    input.threshold = threshold;
-    input.level_dry = mask.level_dry;
-    input.level_liquid = mask.level_liquid;
-    input.anti_aliased = outline.anti_aliased;
-    input.specks_dropped = outline.specks_dropped;
-    input.largest_speck_px = outline.largest_speck_px;
-    return input;
-}
-
-double coveredArea(const droplet::Outline& outline)
-{
-    return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
-                           [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
-}
 
 std::optional<std::string> groundPicture(const ShapeOptions& options)
 {

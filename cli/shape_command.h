@@ -15,23 +15,6 @@
 
 namespace cli {
 
-/// Refuses an --edge that would give more than kMaxTriangles triangles on a footprint.
-/// @param area             area of the footprint [m²]
-/// @throws droplet::Error  InvalidArgument
-void refuseTooShortEdge(double area, const droplet::DropletOptions& options);
-
-/// Area of all footprints [m²].
-double coveredArea(const droplet::Outline& outline);
-/// Area that a mask covers [m²].
-double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options);
-
-/// Describes a mask for the report.
-/// @param outline    of the mask
-/// @param path       of the picture
-/// @param threshold  at which the outline was traced
-droplet::InputReport describeInput(const droplet::Mask& mask, const droplet::Outline& outline, std::string path,
-                                   double threshold);
-
 /// Path of the picture on the ground below the droplets, if it is given.
 std::optional<std::string> groundPicture(const ShapeOptions& options);
 /// Path of the panorama that lights the scene, if it is given.

@@ -18,8 +18,8 @@
 #include "droplet/type/glyph.h"
 #include "glyphs_command.h"
 #include "glyphs_options.h"
+#include "mask_shape.h"
 #include "shape.h"
-#include "shape_command.h"
 #include "surroundings.h"
 #include "work.h"
 

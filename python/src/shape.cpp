@@ -15,8 +15,8 @@
 #include "droplet/surface/onto.h"
 #include "droplet_report.h"
 #include "mask.h"
+#include "mask_shape.h"
 #include "option_values.h"
-#include "shape_command.h"
 #include "shape_options.h"
 #include "surroundings.h"
 #include "work.h"
@@ -29,40 +29,6 @@ namespace py = pybind11;
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// Settings completed by the mask's size, which may depend on an object, and by the ground.
-cli::DropletSettings settingsOf(const droplet::Mask& mask, const cli::Surroundings& around,
-                                const cli::ShapeOptions& options)
-{
-    cli::DropletSettings settings = options.settings;
-    droplet::TraceOptions& trace = settings.droplet.trace;
-    if (around.object && !options.footprint.sized) {
-        trace.width = droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
-    } else if (mask.physical_width && !options.footprint.sized) {
-        trace.width = *mask.physical_width;
-        if (!(trace.width >= cli::kLength.min && trace.width <= cli::kLength.max)) {
-            throw Error(ErrorCode::InvalidInput, fmt::format("the page states a width of {:.6g}m, which must be {}; "
-                                                             "give width instead",
-                                                             trace.width, cli::kLength.allowed));
-        }
-    }
-    const double pixel = droplet::pixelSize(mask, trace);
-    settings.droplet.solve.ground = groundOf(settings, around, {pixel * mask.width, pixel * mask.height});
-    return settings;
-}
-
-void warnOfMask(const droplet::Mask& mask, cli::DropletSettings& settings)
-{
-    constexpr double kMinConfidence = 0.5;
-    if (mask.segment_confidence < kMinConfidence) {
-        settings.warnings.insert(
-            settings.warnings.begin(),
-            fmt::format(
-                "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by segment {}); look "
-                "at the array of the mask, change it with segment, channel or threshold of read_mask",
-                100.0 * mask.segment_confidence, name(mask.segment)));
-    }
-}
-
 std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
 {
     cli::StageClock clock;
@@ -72,26 +38,24 @@ std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
     auto options = parsed(cli::parseShape, all);
     const Work work(options.run.threads);
     droplet::Mask& mask = from.mask;
-    options.settings.droplet.trace = options.footprint.trace;
+    options.input = from.path;
     if (from.threshold && !options.footprint.mask.accept_any) {
-        options.settings.droplet.trace.threshold = *from.threshold;
+        options.footprint.trace.threshold = *from.threshold;
     }
     if (options.footprint.mask.invert) {
         invert(mask);
     }
     const cli::Surroundings around = cli::readSurroundings(options.settings);
-    cli::DropletSettings settings = settingsOf(mask, around, options);
-    cli::refuseTooShortEdge(cli::coveredArea(mask, settings.droplet.trace), settings.droplet);
-    droplet::Droplet made =
-        droplet::makeDroplet(mask, settings.droplet, [&](droplet::Stage stage) { clock.begin(stage); });
-    droplet::InputReport input = cli::describeInput(mask, made.outline, from.path, settings.droplet.trace.threshold);
-    input.own_size = mask.physical_width && !options.footprint.sized && !around.object;
-    warnOfMask(mask, settings);
+    cli::DropletSettings settings = cli::completeSettings(mask, around, options);
+    cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage) { clock.begin(stage); });
+    if (auto warning = cli::maskWarning(mask, "look at the array of the mask")) {
+        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
+    }
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
-        onto = cli::placeOnObject(made, *around.object, *settings.onto);
+        onto = cli::placeOnObject(made.droplet, *around.object, *settings.onto);
     }
-    return Droplet::make(std::move(made), settings, std::move(input), std::move(onto), clock);
+    return Droplet::make(std::move(made.droplet), settings, std::move(made.input), std::move(onto), clock);
 }
 
 }  // namespace

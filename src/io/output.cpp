@@ -24,21 +24,11 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/io/mesh_files.h"
-#include "io/dry_surface.h"
 
 namespace droplet {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
-    {Format::Glb, "glb"},
-    {Format::Gltf, "gltf"},
-    {Format::Obj, "obj"},
-    {Format::Ply, "ply"},
-    {Format::Stl, "stl"},
-}};
 
 constexpr int kMaxLinks = 40;          // Linux's own limit
 constexpr int kMaxLeftovers = 10'000;  // maximum number of temporary names tried; killed processes leave files behind
@@ -64,11 +54,6 @@ std::string quoted(const fs::path& path)
 [[noreturn]] void fail(const fs::path& path, const std::string& cause)
 {
     throw Error(ErrorCode::OutputFailed, "output " + quoted(path) + ": " + cause);
-}
-
-[[noreturn]] void refuse(Format format)
-{
-    throw Error(ErrorCode::InvalidArgument, "format = " + std::to_string(static_cast<int>(format)) + " is unknown");
 }
 
 std::string textOf(int error)
@@ -470,49 +455,6 @@ std::uint64_t replaceWhole(const fs::path& path, const Target& target, const std
 }
 
 }  // namespace
-
-Format formatNamed(std::string_view name)
-{
-    std::string wanted(name.substr(!name.empty() && name.front() == '.' ? 1 : 0));
-    std::transform(wanted.begin(), wanted.end(), wanted.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    std::string known;
-    for (const auto& [format, known_name] : kFormats) {
-        if (wanted == known_name) {
-            return format;
-        }
-        known += std::string(" ") + known_name;
-    }
-    throw Error(ErrorCode::InvalidArgument, "format \"" + std::string(name) + "\" is unknown; known are" + known);
-}
-
-const char* name(Format format)
-{
-    for (const auto& [known, known_name] : kFormats) {
-        if (known == format) {
-            return known_name;
-        }
-    }
-    refuse(format);
-}
-
-std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format format, const WriteOptions& options)
-{
-    switch (format) {
-        case Format::Glb:
-        case Format::Gltf: {
-            const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
-        }
-        case Format::Obj:
-            return writeObj(surface, out, {options.unit, options.material, options.material_file});
-        case Format::Ply:
-            return writePly(surface, out);
-        case Format::Stl:
-            return writeStl(surface, out, options.unit);
-    }
-    refuse(format);
-}
 
 void checkWritable(const fs::path& path, const OutputOptions& options)
 {

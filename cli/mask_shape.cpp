@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mask_shape.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/surface/onto.h"
+#include "droplet/units.h"
+
+namespace cli {
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+/// Area that a mask covers [m²].
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    const double pixel = droplet::pixelSize(mask, options);
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
+}
+
+/// Whether the picture's size is the one that its file states.
+bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint)
+{
+    return mask.physical_width && !footprint.sized && !settings.onto;
+}
+
+}  // namespace
+
+void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
+{
+    if (!options.mesh.edge) {
+        return;
+    }
+    const double edge = *options.mesh.edge;
+    const double equilateral = std::sqrt(3.0) / 4.0 * edge * edge;
+    const double triangles = area / equilateral;
+    if (triangles > static_cast<double>(kMaxTriangles)) {
+        const double min = edge * std::sqrt(triangles / static_cast<double>(kMaxTriangles));
+        throw Error(ErrorCode::InvalidArgument,
+                    fmt::format("--edge: {:.3g}mm would take {:.3g} triangles on this footprint, must be at least "
+                                "{:.3g}mm",
+                                edge / droplet::kMillimetre, triangles, min / droplet::kMillimetre));
+    }
+}
+
+double coveredArea(const droplet::Outline& outline)
+{
+    return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
+                           [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
+}
+
+DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
+{
+    DropletSettings settings = options.settings;
+    droplet::TraceOptions& trace = settings.droplet.trace;
+    trace = options.footprint.trace;
+    if (around.object && !options.footprint.sized) {
+        trace.width = droplet::metresPerUv(*around.object) * std::sqrt(static_cast<double>(mask.width) / mask.height);
+    } else if (takesOwnSize(mask, settings, options.footprint)) {
+        trace.width = *mask.physical_width;
+        if (!(trace.width >= kLength.min && trace.width <= kLength.max)) {
+            throw Error(ErrorCode::InvalidInput,
+                        fmt::format("the page states a width of {:.6g}m, which must be {}; give --width instead",
+                                    trace.width, kLength.allowed));
+        }
+    }
+    const double pixel = droplet::pixelSize(mask, trace);
+    settings.droplet.solve.ground = groundOf(settings, around, {pixel * mask.width, pixel * mask.height});
+    return settings;
+}
+
+MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings, const ShapeOptions& options,
+                     const droplet::Progress& progress)
+{
+    refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
+    MaskShape made{droplet::makeDroplet(mask, settings.droplet, progress), {}};
+    const droplet::Outline& outline = made.droplet.outline;
+    droplet::InputReport& input = made.input;
+    input.path = options.input;
+    input.width_px = mask.width;
+    input.height_px = mask.height;
+    input.drawn = mask.raster_scale.has_value();
+    input.own_size = takesOwnSize(mask, settings, options.footprint);
+    input.pixel_size = outline.pixel_size;
+    input.channel = mask.channel;
+    input.inverted = mask.inverted;
+    input.segment = mask.segment;
+    input.segment_confidence = mask.segment_confidence;
+    input.threshold = settings.droplet.trace.threshold;
+    input.level_dry = mask.level_dry;
+    input.level_liquid = mask.level_liquid;
+    input.anti_aliased = outline.anti_aliased;
+    input.specks_dropped = outline.specks_dropped;
+    input.largest_speck_px = outline.largest_speck_px;
+    return made;
+}
+
+std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice)
+{
+    constexpr double kMinConfidence = 0.5;
+    if (mask.segment_confidence >= kMinConfidence) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); {}, change it with "
+        "--segment, --channel or --threshold",
+        100.0 * mask.segment_confidence, name(mask.segment), advice);
+}
+
+}  // namespace cli

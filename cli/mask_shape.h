@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "droplet/droplet.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/footprint/outline.h"
+#include "droplet/io/report.h"
+#include "droplet/progress.h"
+#include "shape_options.h"
+#include "surroundings.h"
+
+namespace cli {
+
+/// Refuses an --edge that would give more than kMaxTriangles triangles on a footprint.
+/// @param area             area of the footprint [m²]
+/// @throws droplet::Error  InvalidArgument
+void refuseTooShortEdge(double area, const droplet::DropletOptions& options);
+
+/// Area of all footprints [m²].
+double coveredArea(const droplet::Outline& outline);
+
+/// Settings completed by the picture's size, which may depend on an object or on the picture, and by the ground.
+/// @throws droplet::Error  InvalidInput: the picture states a size out of range; InvalidArgument
+DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options);
+
+/// Droplet of a mask, with what its report needs.
+struct MaskShape {
+    droplet::Droplet droplet;
+    droplet::InputReport input;
+};
+
+/// Makes the droplet of a mask.
+/// @param settings         from completeSettings
+/// @param options          the input's path and the footprint
+/// @param progress         called at every stage but Read and Write
+/// @throws droplet::Error  as droplet::makeDroplet
+MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings, const ShapeOptions& options,
+                     const droplet::Progress& progress);
+
+/// Warning about a mask that may be wrong.
+/// @param advice  how to look at the mask
+std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice);
+
+}  // namespace cli

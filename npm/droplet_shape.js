@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads the solver, and calls it.
+import { pngOf } from './png.js';
+
+// As in src/module.cpp.
+const kMask = { png: 0, bytes: 1, words: 2 };
+const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8 };
+
+/** Why there is no droplet. `code` is InvalidArgument, InvalidInput, NoSuchDroplet, OutOfMemory or Internal. */
+export class DropletError extends Error {
+    constructor(code, message) {
+        super(message);
+        this.name = 'DropletError';
+        this.code = code;
+    }
+}
+
+const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
+const dashed = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+/** The command's words for options, as this package has them. */
+const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelCase(name));
+
+/** Units of numbers, by the name that the help gives an option's value. */
+const kUnits = { LENGTH: 'm', L: 'm', AREA: 'm2', VOLUME: 'm3', 'V|every': 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', DENSITY: 'kg/m3' };
+/** Options of files, of the terminal and of the threads. */
+const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber', 'onto',
+    'surface-depth']);
+
+/** Options in the command's help: the heading, an option with its value, and its text in lines after column 26. */
+function optionsOf(help) {
+    const options = [];
+    let group = '';
+    for (const line of help.split('\n')) {
+        const head = /^  (?:-\w, )?--([a-z-]+)(?: (\S+))? *(.*)/.exec(line);
+        if (/^[A-Z].*:$/.test(line)) {
+            group = line.slice(0, -1);
+        } else if (head) {
+            options.push({ name: head[1], group, value: head[2] ?? '', text: head[3] });
+        } else if (line.startsWith(' '.repeat(26)) && options.length > 0) {
+            options.at(-1).text = `${options.at(-1).text} ${line.trim()}`.trim();
+        }
+    }
+    return options.filter(({ name }) => !kNotHere.has(name)).map((option) => {
+        const [, text, value] = /^(.*?)(?: \[([^[\]]*)\])?$/.exec(option.text);
+        return { ...option, name: camelCase(option.name), text: inScript(text), default: value ?? '' };
+    });
+}
+
+function textOf(option, value) {
+    const { name } = option;
+    const refuse = (allowed) => {
+        throw new DropletError('InvalidArgument', `${name}: ${JSON.stringify(value)} must be ${allowed}`);
+    };
+    if (typeof value === 'string') {
+        return value === '' || value.includes('\0') ? refuse('a text that is not empty') : value;
+    }
+    if (option.value === 'RANGE' && Array.isArray(value)) {
+        return value.join('..');
+    }
+    if (typeof value !== 'number') {
+        return refuse(option.value in kUnits ? 'a number or a text' : 'a text');
+    }
+    return Number.isFinite(value) ? `${value}${kUnits[option.value] ?? ''}` : refuse('a finite number');
+}
+
+function argumentsOf(options, known) {
+    const list = [];
+    for (const [name, value] of Object.entries(options ?? {})) {
+        const option = known.get(name);
+        if (!option) {
+            throw new DropletError('InvalidArgument', `${name}: unknown option; known are ${[...known.keys()].join(', ')}`);
+        }
+        if (value === undefined || value === null || value === false) {
+            continue;
+        }
+        if (option.value === '') {
+            if (value !== true) {
+                throw new DropletError('InvalidArgument', `${name}: ${JSON.stringify(value)} must be true or false`);
+            }
+            list.push(`--${dashed(name)}`);
+        } else {
+            list.push(`--${dashed(name)}=${textOf(option, value)}`);
+        }
+    }
+    return list;
+}
+
+/** Bytes of a mask and their kind. */
+function describe(mask) {
+    if (mask instanceof Uint8Array && !(mask instanceof Uint8ClampedArray)) {
+        return { kind: kMask.png, bytes: mask, width: 0, height: 0 };
+    }
+    const { width, height, data } = mask ?? {};
+    const refuse = (what) => {
+        throw new DropletError('InvalidArgument', `mask: ${what}`);
+    };
+    if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
+        refuse(`must be the bytes of a PNG, or have a width and a height of at least 1; it has ${width} and ${height}`);
+    }
+    if (!(data instanceof Uint8Array || data instanceof Uint8ClampedArray || data instanceof Uint16Array)) {
+        refuse('data must be a Uint8Array, a Uint8ClampedArray or a Uint16Array');
+    }
+    const pixels = width * height;
+    if (data.length === pixels) {
+        const kind = data instanceof Uint16Array ? kMask.words : kMask.bytes;
+        return { kind, bytes: new Uint8Array(data.buffer, data.byteOffset, data.byteLength), width, height };
+    }
+    if (data.length === 4 * pixels && !(data instanceof Uint16Array)) {
+        return { kind: kMask.png, bytes: pngOf(mask), width: 0, height: 0 };
+    }
+    return refuse(`data has ${data.length} items, must have ${pixels} (coverage) or ${4 * pixels} (RGBA)`);
+}
+
+/** What the module needs of a system: a clock, and nothing else. */
+function importsOf(memory) {
+    const success = 0;
+    const badDescriptor = 8;
+    const noSuchCall = 52;
+    const now = (place) => {
+        new DataView(memory().buffer).setBigUint64(place, BigInt(Math.round(performance.now() * 1e6)), true);
+        return success;
+    };
+    const system = {
+        clock_time_get: (clock, precision, place) => now(place),
+        proc_exit: (code) => {
+            throw new Error(`the solver ended with ${code}`);
+        },
+        environ_sizes_get: (count, size) => {
+            const view = new DataView(memory().buffer);
+            view.setUint32(count, 0, true);
+            view.setUint32(size, 0, true);
+            return success;
+        },
+        environ_get: () => success,
+    };
+    const other = { emscripten_notify_memory_growth: () => {} };
+    const rest = (known, missing) => new Proxy(known, { get: (target, name) => target[name] ?? (() => missing) });
+    return { wasi_snapshot_preview1: rest(system, badDescriptor), env: rest(other, -noSuchCall) };
+}
+
+/**
+ * Loads the solver. All calls after it are synchronous.
+ * @param {BufferSource | WebAssembly.Module} wasm  bytes of droplet_shape.wasm, or the compiled module
+ */
+export async function loadSolver(wasm) {
+    let instance;
+    const module = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
+    const offered = importsOf(() => instance.exports.memory);
+    const imports = {};
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+        (imports[from] ??= {})[name] = offered[from][name];
+    }
+    instance = await WebAssembly.instantiate(module, imports);
+    const solver = instance.exports;
+    solver._initialize?.();
+
+    const decoder = new TextDecoder();
+    const put = (bytes) => {
+        const place = solver.malloc(Math.max(bytes.length, 1));
+        if (place === 0) {
+            throw new DropletError('OutOfMemory', 'out of memory; use a smaller mask');
+        }
+        new Uint8Array(solver.memory.buffer, place, bytes.length).set(bytes);
+        return place;
+    };
+    const take = (result, which, Items) => {
+        const place = solver.droplet_array(result, which);
+        const bytes = solver.droplet_array_bytes(result, which);
+        return new Items(solver.memory.buffer.slice(place, place + bytes));
+    };
+    const text = (result, which) => decoder.decode(take(result, which, Uint8Array));
+    const check = (result) => {
+        const code = text(result, kArray.code);
+        if (code !== '') {
+            throw new DropletError(code, inScript(text(result, kArray.message)));
+        }
+    };
+    const helpText = () => {
+        const bytes = new Uint8Array(solver.memory.buffer, solver.droplet_help());
+        return decoder.decode(bytes.slice(0, bytes.indexOf(0)));
+    };
+    const options = optionsOf(helpText());
+    const known = new Map(options.map((option) => [option.name, option]));
+    // The solver's own memory of droplets whose objects are gone.
+    const forgotten = new FinalizationRegistry((result) => solver.droplet_delete(result));
+
+    class Droplet {
+        #result;
+        #surface;
+        #report;
+
+        constructor(result) {
+            this.#result = result;
+            forgotten.register(this, result, this);
+        }
+
+        get surface() {
+            const result = this.#kept();
+            this.#surface ??= {
+                positions: take(result, kArray.positions, Float32Array),
+                normals: take(result, kArray.normals, Float32Array),
+                uvs: take(result, kArray.uvs, Float32Array),
+                contactAngles: take(result, kArray.contactAngles, Float32Array),
+                triangles: take(result, kArray.triangles, Uint32Array),
+            };
+            return this.#surface;
+        }
+
+        get report() {
+            if (!this.#report) {
+                this.#report = JSON.parse(text(this.#kept(), kArray.report));
+                this.#report.warnings = this.#report.warnings.map(inScript);
+            }
+            return this.#report;
+        }
+
+        file(format = 'glb') {
+            const result = this.#kept();
+            const place = put(new TextEncoder().encode(`${format}\0`));
+            solver.droplet_write(result, place);
+            solver.free(place);
+            check(result);
+            return take(result, kArray.file, Uint8Array);
+        }
+
+        /** Gives its memory back at once. */
+        free() {
+            if (this.#result) {
+                forgotten.unregister(this);
+                solver.droplet_delete(this.#result);
+                this.#result = undefined;
+            }
+        }
+
+        #kept() {
+            if (!this.#result) {
+                throw new DropletError('InvalidArgument', 'the droplet was freed');
+            }
+            return this.#result;
+        }
+    }
+
+    return {
+        options,
+        makeDroplet(mask, given = {}) {
+            const words = argumentsOf(given, known);
+            const argumentBytes = new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
+            const { kind, bytes, width, height } = describe(mask);
+            const at = put(argumentBytes);
+            const pixels = put(bytes);
+            const result = solver.droplet_make(at, argumentBytes.length, pixels, bytes.length, width, height, kind);
+            solver.free(pixels);
+            solver.free(at);
+            try {
+                check(result);
+            } catch (error) {
+                solver.droplet_delete(result);
+                throw error;
+            }
+            return new Droplet(result);
+        },
+    };
+}

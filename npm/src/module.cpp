@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The functions that solver.js calls: makes a droplet from a mask by the command's options, and hands out its arrays.
+#include <emscripten/emscripten.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "droplet/droplet.h"
+#include "droplet/error.h"
+#include "droplet/footprint/mask.h"
+#include "droplet/io/output.h"
+#include "droplet/io/report.h"
+#include "droplet_report.h"
+#include "mask_shape.h"
+#include "shape_options.h"
+#include "stage_clock.h"
+#include "surroundings.h"
+
+namespace {
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+/// How a mask is given; known to solver.js.
+enum class MaskKind : int { Png = 0, Bytes = 1, Words = 2 };
+
+/// Arrays of a result; known to solver.js.
+enum class Array : int { Positions, Normals, Uvs, ContactAngles, Triangles, Report, File, Message, Code };
+
+/// A droplet, or the error that prevented it.
+struct Result {
+    droplet::Surface surface;
+    droplet::Report report;
+    droplet::Material material = droplet::Material::Water;
+    droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;
+    std::vector<float> positions;
+    std::vector<float> normals;
+    std::vector<float> uvs;
+    std::string json;
+    std::string file;
+    std::string message;
+    std::string code;
+};
+
+struct Given {
+    std::span<const std::byte> bytes;
+    int width = 0;
+    int height = 0;
+    MaskKind kind = MaskKind::Png;
+};
+
+const char* nameOf(ErrorCode code)
+{
+    switch (code) {
+        case ErrorCode::InvalidArgument:
+            return "InvalidArgument";
+        case ErrorCode::InvalidInput:
+            return "InvalidInput";
+        case ErrorCode::OutputFailed:
+            return "OutputFailed";
+        case ErrorCode::NoSuchDroplet:
+            break;
+    }
+    return "NoSuchDroplet";
+}
+
+void declare(cli::CommandLine& line)
+{
+    cli::declareShapes(line);
+    cli::declareRun(line);
+}
+
+cli::ShapeOptions parse(const std::vector<std::string>& arguments)
+{
+    cli::CommandLine line({"droplet-shape", "", "", ""});
+    declare(line);
+    std::vector<const char*> words{"droplet-shape"};
+    for (const std::string& argument : arguments) {
+        words.push_back(argument.c_str());
+    }
+    line.parse(static_cast<int>(words.size()), words.data());
+    cli::ShapeOptions options;
+    options.input = "mask";
+    options.output = "droplet.glb";
+    options = cli::readShapes(line, std::move(options), "OUTPUT");
+    if (options.run.config || options.settings.ground.path || options.settings.onto) {
+        throw Error(ErrorCode::InvalidArgument, "--config, --onto and height maps of --surface need files, which the "
+                                                "module cannot read");
+    }
+    return options;
+}
+
+droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
+{
+    if (given.kind == MaskKind::Png) {
+        return droplet::decodeMask(given.bytes, options);
+    }
+    droplet::Mask mask;
+    mask.width = given.width;
+    mask.height = given.height;
+    if (given.kind == MaskKind::Words) {
+        mask.coverage.resize(given.bytes.size() / sizeof(std::uint16_t));
+        std::memcpy(mask.coverage.data(), given.bytes.data(), mask.coverage.size() * sizeof(std::uint16_t));
+    } else {
+        mask.coverage.reserve(given.bytes.size());
+        for (const std::byte level : given.bytes) {
+            mask.coverage.push_back(static_cast<std::uint16_t>(257 * std::to_integer<int>(level)));
+        }
+    }
+    if (options.invert) {
+        for (std::uint16_t& coverage : mask.coverage) {
+            coverage = static_cast<std::uint16_t>(0xFFFF - coverage);
+        }
+        mask.inverted = true;
+    }
+    return mask;
+}
+
+void make(Result& result, const std::vector<std::string>& arguments, const Given& given)
+{
+    cli::StageClock clock;
+    clock.begin(droplet::Stage::Read);
+    const cli::ShapeOptions options = parse(arguments);
+    const droplet::Mask mask = maskOf(given, options.footprint.mask);
+    cli::DropletSettings settings = cli::completeSettings(mask, {}, options);
+    settings.droplet.fill_range = options.settings.droplet.fill_range;
+    cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage) { clock.begin(stage); });
+    if (auto warning = cli::maskWarning(mask, "look at it")) {
+        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
+    }
+    clock.begin(droplet::Stage::Write);
+    result.report = cli::describe(made.droplet, settings);
+    result.report.fill_range = settings.droplet.fill_range;
+    result.report.input = std::move(made.input);
+    result.report.output = cli::describeOutput(made.droplet.surface, "", droplet::Format::Glb);
+    result.surface = std::move(made.droplet.surface);
+    result.material = settings.material;
+    result.unit = settings.unit;
+    result.report.time = clock.times();
+    result.report.time_total = clock.total();
+    result.report.peak_memory = static_cast<std::uint64_t>(__builtin_wasm_memory_size(0)) * 65536U;
+}
+
+template <typename Vector>
+std::vector<float> floats(const std::vector<Vector>& vectors)
+{
+    constexpr std::size_t kCount = sizeof(Vector) / sizeof(double);
+    std::vector<float> result;
+    result.reserve(kCount * vectors.size());
+    for (const Vector& v : vectors) {
+        result.push_back(static_cast<float>(v.x));
+        result.push_back(static_cast<float>(v.y));
+        if constexpr (kCount == 3) {
+            result.push_back(static_cast<float>(v.z));
+        }
+    }
+    return result;
+}
+
+/// Calls a function, and keeps what it throws as the result's message.
+template <typename Function>
+void guarded(Result& result, const Function& function)
+{
+    try {
+        function();
+    } catch (const Error& error) {
+        result.code = nameOf(error.code());
+        result.message = error.what();
+    } catch (const std::bad_alloc&) {
+        result.code = "OutOfMemory";
+        result.message = "out of memory; use a smaller mask or fewer --triangles";
+    } catch (const std::exception& error) {
+        result.code = "Internal";
+        result.message = error.what();
+    }
+}
+
+}  // namespace
+
+extern "C" {
+
+/// Makes a droplet.
+/// @param arguments  such as `--volume=30uL`, each ended by a zero byte
+/// @param mask       bytes of the mask, `kind` as in MaskKind; width and height only if it is not a PNG
+EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t argument_bytes, const std::byte* mask,
+                                          std::size_t mask_bytes, int width, int height, int kind)
+{
+    auto result = std::make_unique<Result>();
+    guarded(*result, [&] {
+        std::vector<std::string> words;
+        for (const char* word = arguments; word < arguments + argument_bytes; word += words.back().size() + 1) {
+            words.emplace_back(word);
+        }
+        make(*result, words, {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
+    });
+    return result.release();
+}
+
+/// Writes the droplet's file in a format, for Array::File.
+EMSCRIPTEN_KEEPALIVE void droplet_write(Result* result, const char* format)
+{
+    guarded(*result, [&] {
+        std::ostringstream out;
+        droplet::WriteOptions options;
+        options.material = result->material;
+        options.unit = result->unit;
+        options.closed = result->report.output.topology.closed;
+        droplet::writeSurface(result->surface, out, droplet::formatNamed(format), options);
+        result->file = std::move(out).str();
+    });
+}
+
+/// Array of a result: where it begins.
+EMSCRIPTEN_KEEPALIVE const void* droplet_array(Result* result, int array)
+{
+    switch (static_cast<Array>(array)) {
+        case Array::Positions:
+            result->positions = floats(result->surface.positions);
+            return result->positions.data();
+        case Array::Normals:
+            result->normals = floats(result->surface.normals);
+            return result->normals.data();
+        case Array::Uvs:
+            result->uvs = floats(result->surface.uvs);
+            return result->uvs.data();
+        case Array::ContactAngles:
+            return result->surface.contact_angle.data();
+        case Array::Triangles:
+            return result->surface.triangles.data();
+        case Array::Report:
+            guarded(*result, [&] {
+                std::ostringstream out;
+                droplet::writeReport(out, result->report);
+                result->json = std::move(out).str();
+            });
+            return result->json.data();
+        case Array::File:
+            return result->file.data();
+        case Array::Message:
+            return result->message.data();
+        case Array::Code:
+            return result->code.data();
+    }
+    return nullptr;
+}
+
+/// Length of an array [byte], after droplet_array.
+EMSCRIPTEN_KEEPALIVE std::size_t droplet_array_bytes(const Result* result, int array)
+{
+    switch (static_cast<Array>(array)) {
+        case Array::Positions:
+            return result->positions.size() * sizeof(float);
+        case Array::Normals:
+            return result->normals.size() * sizeof(float);
+        case Array::Uvs:
+            return result->uvs.size() * sizeof(float);
+        case Array::ContactAngles:
+            return result->surface.contact_angle.size() * sizeof(float);
+        case Array::Triangles:
+            return result->surface.triangles.size() * sizeof(droplet::Triangle);
+        case Array::Report:
+            return result->json.size();
+        case Array::File:
+            return result->file.size();
+        case Array::Message:
+            return result->message.size();
+        case Array::Code:
+            return result->code.size();
+    }
+    return 0;
+}
+
+EMSCRIPTEN_KEEPALIVE void droplet_delete(const Result* result)
+{
+    delete result;
+}
+
+/// Help of the options, which solver.js turns into their list.
+EMSCRIPTEN_KEEPALIVE const char* droplet_help()
+{
+    static const std::string text = [] {
+        cli::CommandLine line({"droplet-shape", "", "", ""});
+        declare(line);
+        return line.help();
+    }();
+    return text.c_str();
+}
+
+}  // extern "C"
