@@ -147,6 +147,7 @@ export class Ground extends Group {
         uniforms.pool.value = look.pool ?? 0;
         uniforms.pictured.value = 0;
         this.mark = look.mark;
+        this.look = look;
         return look;
     }
 

@@ -11,7 +11,8 @@ export const kUpward = new Vector3().copy(kSun).cross(kAcross);
 
 const vec3 = (v) => `vec3(${v.toArray().map((x) => x.toFixed(6)).join(', ')})`;
 
-const kRoom = `
+/** roomRadiance and roomIrradiance, in GLSL. */
+export const kRoom = `
 uniform float room_walls;
 uniform float room_lamps;
 

@@ -5,8 +5,10 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { GroundLight } from './light.js';
 import { putIntoRoom } from './room.js';
+import { Sketcher } from './sketch.js';
 
 const kRatioLimit = 2;  // more pixels would not be visible
+const kSketchRatio = 0.5;
 const kFieldOfView = 26;
 
 /** Largest number up to a given one that is 1, 2 or 5 times a power of ten. */
@@ -162,6 +164,23 @@ export class Stage {
         return this.droplet.box([fill]).max.y;
     }
 
+    /** Draws plainly and in fewer pixels, without light through the liquid, for graphics that are slow. */
+    sketch(sketchy) {
+        if (this.sketchy !== sketchy) {
+            this.sketchy = sketchy;
+            this.resize();
+        }
+    }
+
+    #render() {
+        if (this.sketchy) {
+            this.sketcher ??= new Sketcher(this.renderer, this.scene, this.room);
+            this.sketcher.render(this.camera, this.ground, this.droplet.meshes);
+        } else {
+            this.renderer.render(this.scene, this.camera);
+        }
+    }
+
     /** Sets the covered width at the canvas's right [CSS px]; the droplet is centred in the rest. */
     set covered(width) {
         this.cover = width;
@@ -174,7 +193,7 @@ export class Stage {
         if (!width || !height) {
             return;
         }
-        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, kRatioLimit));
+        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, kRatioLimit) * (this.sketchy ? kSketchRatio : 1));
         this.renderer.setSize(width, height, false);
         const cover = this.cover ?? 0;
         this.camera.aspect = width / height;
@@ -283,11 +302,11 @@ export class Stage {
     #draw() {
         this.frame_id = undefined;
         this.controls.update();  // requests another frame while the motion fades
-        if (this.light_is_old && this.ground_light) {
+        if (this.light_is_old && this.ground_light && !this.sketchy) {
             this.ground_light.update(this.renderer, this.holder, this.droplet.meshes, this.light_is_coarse);
             this.light_is_old = false;
         }
-        this.renderer.render(this.scene, this.camera);
-        this.drawn(this.frame_id === undefined && !this.light_is_coarse);
+        this.#render();
+        this.drawn(this.frame_id === undefined && !this.light_is_coarse && !this.sketchy);
     }
 }

@@ -6,7 +6,7 @@ const kRest = 250;  // without a change, the hand rests [ms]
 
 /** A worker that answers each message. */
 class Servant {
-    constructor({ worker_url, wasm }) {
+    constructor({ worker_url, wasm }, drafts = false) {
         this.worker = new Worker(worker_url);
         this.waiting = new Map();
         this.token = 0;
@@ -24,7 +24,7 @@ class Servant {
             this.waiting.forEach(({ reject }) => reject(error));
             this.waiting.clear();
         });
-        this.ready = this.ask('start', { wasm });
+        this.ready = this.ask('start', { wasm, drafts });
     }
 
     ask(act, message, transferred = []) {
@@ -38,7 +38,7 @@ class Servant {
         await this.ready;
         const data = job.mask.data.slice();
         return this.ask('solve', {
-            id: job.id, options: job.options, draft, mask: { width: job.mask.width, height: job.mask.height, data },
+            id: job.id, options: job.options, stroke: job.stroke, draft, mask: { width: job.mask.width, height: job.mask.height, data },
         }, [data.buffer]);
     }
 
@@ -52,16 +52,17 @@ class Servant {
 export class Solver {
     /**
      * @param parts     {worker_url, wasm}
-     * @param showed    called with (job, answer, is_draft) for every droplet
+     * @param showed    called with (job, answer, is_draft) for every droplet; the next draft waits for what it returns
      * @param failed    called with (job, error, is_draft)
+     * @param settled   called when all drafts are made
      */
-    constructor(parts, { showed, failed }) {
-        Object.assign(this, { parts, showed, failed });
+    constructor(parts, { showed, failed, settled }) {
+        Object.assign(this, { parts, showed, failed, settled });
         this.jobs = new Map();     // the newest of every layer
         this.drafts = new Map();   // those of which a draft is shown
         this.wholes = new Map();   // those of which the whole mesh is shown, or is refused
         this.kept = new Map();     // those whose droplet the worker still holds
-        this.drafter = new Servant(parts);
+        this.drafter = new Servant(parts, true);
         this.finisher = new Servant(parts);
     }
 
@@ -111,15 +112,17 @@ export class Solver {
         }
         const job = [...this.jobs.values()].find((wanted) => this.drafts.get(wanted.id) !== wanted && this.wholes.get(wanted.id) !== wanted);
         if (!job) {
+            this.settled();
             return;
         }
         this.drafting = job;
+        job.begun = true;
         this.drafts.set(job.id, job);
         try {
             const answer = await this.drafter.solve(job, true);
             // An older draft is still nearer to the hand than what is shown; a whole mesh is not replaced by its draft.
-            if (this.jobs.has(job.id) && this.wholes.get(job.id) !== this.jobs.get(job.id)) {
-                this.showed(job, answer, true);
+            if (this.jobs.has(job.id) && !this.isWhole(job.id)) {
+                await this.showed(job, answer, true);
             }
         } catch (error) {
             if (this.jobs.get(job.id) === job) {
@@ -160,6 +163,11 @@ export class Solver {
             this.showed(job, outcome.answer, false);
         }
         return true;
+    }
+
+    /** Whether the newest of a layer is shown, or refused, as a whole mesh. */
+    isWhole(id) {
+        return this.wholes.get(id) === this.jobs.get(id);
     }
 
     /** Whether every layer's whole mesh is shown or refused. */

@@ -43,11 +43,13 @@ class Studio {
         document.body.innerHTML = markup;
         this.history = new History(project);
         this.known = new Map();    // layer → {job, report, draft, error}: what is known of its droplet
+        this.strokes = 0;
         this.tool = 'brush';
         this.setting = { size: 60, text: 'Aqua', font: 'sans', text_size: 320 };
         this.solver = new Solver({ wasm, worker_url }, {
             showed: (job, answer, draft) => this.#showed(job, answer, draft),
             failed: (job, error, draft) => this.#refused(job, error, draft),
+            settled: () => this.#settle(),
         });
         this.sheet = new Sheet(
             { table: find('table'), paper: find('paper'), sheet: find('sheet'), cursor: find('cursor'), fit: find('fit') },
@@ -170,11 +172,11 @@ class Studio {
     #want(layer, mask, time) {
         const { scene } = this.project;
         const known = this.known.get(layer.id) ?? {};
-        // The oldest input that no frame shows yet; a new job takes it over from one that is not begun.
-        const waiting = known.job && known.job !== known.sent ? known.job.input : time;
+        // A job takes over the oldest input from one that it replaces before that is begun.
+        const waiting = known.job && !known.job.begun ? known.job.input : time;
         const job = {
             id: layer.id, mask, options: optionsOf(layer, scene), look: lookOf(layer.liquid), flat: scene.ground === 'flat',
-            input: Math.min(waiting, time),
+            input: Math.min(waiting, time), stroke: `${layer.id} ${this.strokes}`,
         };
         this.known.set(layer.id, { ...known, job });
         root.dataset.droplets = 'solving';
@@ -188,16 +190,20 @@ class Studio {
         this.#settle();
     }
 
-    #showed(job, { shape, report, solve_ms }, draft) {
+    async #showed(job, { shape, report, solve_ms }, draft) {
+        if (this.times.slow) {
+            await this.frame;  // slow graphics fall behind if they are given more frames than they can draw
+        }
         const known = this.known.get(job.id);
-        if (!known) {
+        if (!known || (draft && this.solver.isWhole(job.id))) {
             return;
         }
-        Object.assign(known, { report, draft, shown: job, error: undefined });
+        Object.assign(known, { report, draft, error: undefined });
         if (this.view) {
             if (draft) {
-                this.times.came({ input: job.input, solve_ms });
+                this.frame = this.times.came({ input: job.input, solve_ms });
             }
+            this.view.stage.sketch(draft && this.times.slow);
             this.view.show(job.id, job.look, shape, job.flat);
             const layer = this.project.layers.find(({ id }) => id === job.id);
             this.view.setVisible(job.id, layer?.visible ?? true);
@@ -209,7 +215,7 @@ class Studio {
         const known = this.known.get(job.id);
         // A footprint that is too small for a draft may do for the whole mesh; that one's word counts.
         if (known && !draft) {
-            Object.assign(known, { error, shown: job, report: undefined });
+            Object.assign(known, { error, report: undefined });
             this.view?.remove(job.id);
         }
         this.#settle();
@@ -226,6 +232,7 @@ class Studio {
     // A stroke: the mask under the hand is solved as it grows, and becomes a step when the hand leaves.
 
     #began() {
+        ++this.strokes;
         this.solver.hold(true);
         this.history.rest();
         find('hint').hidden = true;
@@ -612,6 +619,7 @@ class Studio {
         const { stage } = this.view;
         this.times = new Times(stage.renderer.getContext());
         window.studioTimes = this.times;
+        this.times.learn(() => stage.renderer.render(stage.scene, stage.camera));
         this.choose_ground = offerGrounds(stage, this.project.ground, (ground) => {
             this.history.replace({ ...this.project, ground });
             this.unsaved = true;

@@ -2,16 +2,47 @@
 // From the hand to the eye: times of drafts, each from the oldest input in it to the end of the frame that shows it.
 
 const kKept = 500;
+const kSlow = 12;  // a frame of nothing but ground that takes longer is one of slow graphics [ms]
 
 export class Times {
     constructor(gl) {
         this.gl = gl;
         this.drafts = [];   // {input, sent, solve_ms, came, drawn, shown} [ms]
+        this.slow = false;
         this.open = [];     // drafts that no finished frame shows yet
     }
 
+    /** Whether the graphics are slow; learnt from a frame without droplets, drawn when its shaders are ready. */
+    async learn(render) {
+        render();
+        await this.#done();
+        const began = performance.now();
+        render();
+        await this.#done();
+        this.slow = performance.now() - began > kSlow;
+    }
+
+    /** Waits until the graphics card has done its commands. */
+    #done() {
+        const { gl } = this;
+        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        return new Promise((done) => {
+            const wait = () => {
+                if (!fence || gl.isContextLost() || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED) {
+                    gl.deleteSync(fence);
+                    done();
+                } else {
+                    setTimeout(wait);
+                }
+            };
+            setTimeout(wait);
+        });
+    }
+
+    /** A draft came; the promise returned is kept when a frame shows it. */
     came(times) {
-        this.open.push({ ...times, came: performance.now() });
+        return new Promise((done) => { this.open.push({ ...times, came: performance.now(), done }); });
     }
 
     /** A frame's commands were given; it is shown when the graphics card has done them. */
@@ -20,24 +51,15 @@ export class Times {
         if (drafts.length === 0) {
             return;
         }
-        const { gl } = this;
         const now = performance.now();
-        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-        gl.flush();
-        const wait = () => {
-            if (gl.isContextLost() || !fence) {
-                return;
-            }
-            if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
-                setTimeout(wait);
-                return;
-            }
-            gl.deleteSync(fence);
+        this.#done().then(() => {
             const shown = performance.now();
-            this.drafts.push(...drafts.map((draft) => ({ ...draft, drawn: now, shown })));
+            for (const { done, ...draft } of drafts) {
+                this.drafts.push({ ...draft, drawn: now, shown });
+                done();
+            }
             this.drafts.splice(0, this.drafts.length - kKept);
-        };
-        setTimeout(wait);
+        });
     }
 
     /** Median, and the time that nine in ten do not exceed, from input to frame [ms]; undefined without drafts. */
