@@ -12,22 +12,22 @@ export const kLayerFields = [
     },
     {
         name: 'material', label: 'Look', value: 'own',
-        choices: { own: 'The liquid\u2019s own', water: 'Clear water', ink: 'Blue ink', mercury: 'Mercury', honey: 'Honey', plain: 'Plain' },
+        choices: { own: 'as the liquid', water: 'Clear water', ink: 'Blue ink', mercury: 'Mercury', honey: 'Honey', plain: 'Plain' },
     },
     {
         name: 'by', label: 'Amount', value: 'free',
         choices: {
-            free: '40°, or what it can hold', contactAngle: 'Contact angle', natural: 'Natural angle', volume: 'Volume', height: 'Height',
+            free: '40° if it can', contactAngle: 'Contact angle', natural: 'Natural angle', volume: 'Volume', height: 'Height',
         },
     },
     { name: 'contactAngle', label: 'Contact angle', value: 60, unit: '°', range: [1, 179, 1], slider: true, when: ({ by }) => by === 'contactAngle' },
     {
-        name: 'on', label: 'It lies on', value: 'glass', choices: { glass: 'Glass', ptfe: 'PTFE', wax: 'Wax', lotus: 'Lotus leaf' },
+        name: 'on', label: 'Lies on', value: 'glass', choices: { glass: 'Glass', ptfe: 'PTFE', wax: 'Wax', lotus: 'Lotus leaf' },
         when: ({ by }) => by === 'natural',
     },
     { name: 'volume', label: 'Volume', value: 50, unit: 'µL', range: [0.001, 1e9, 'any'], when: ({ by }) => by === 'volume' },
     { name: 'height', label: 'Height', value: 1.5, unit: 'mm', range: [0.001, 1e6, 'any'], when: ({ by }) => by === 'height' },
-    { name: 'fill', label: 'Shared by', value: 'each', choices: { each: 'Each droplet by itself', total: 'All droplets in total' } },
+    { name: 'fill', label: 'For', value: 'each', choices: { each: 'each droplet', total: 'all in total' } },
     {
         name: 'model', label: 'Model', value: 'auto',
         choices: { auto: 'Automatic', linear: 'Linear', exact: 'Exact' }, more: true,
@@ -41,12 +41,12 @@ export const kLayerFields = [
 const curved = ({ ground }) => ground !== 'flat';
 
 export const kSceneFields = [
-    { name: 'width', label: 'Width of the sheet', value: 20, unit: 'mm', range: [0.01, 1e5, 'any'] },
+    { name: 'width', label: 'Sheet width', value: 20, unit: 'mm', range: [0.01, 1e5, 'any'] },
     { name: 'gravity', label: 'Gravity', value: 9.81, unit: 'm/s²', range: [-1000, 1000, 'any'] },
-    { name: 'tilt', label: 'Tilt of the ground', value: 0, unit: '°', range: [0, 180, 1], slider: true },
-    { name: 'tiltDirection', label: 'Downhill direction', value: -90, unit: '°', range: [-180, 180, 5], slider: true, when: ({ tilt }) => Number(tilt) > 0 },
+    { name: 'tilt', label: 'Tilt', value: 0, unit: '°', range: [0, 180, 1], slider: true },
+    { name: 'tiltDirection', label: 'Downhill', value: -90, unit: '°', range: [-180, 180, 5], slider: true, when: ({ tilt }) => Number(tilt) > 0 },
     {
-        name: 'ground', label: 'Shape of the ground', value: 'flat',
+        name: 'ground', label: 'Surface', value: 'flat',
         choices: { flat: 'Flat', sphere: 'Sphere', bowl: 'Bowl', cylinder: 'Cylinder', gutter: 'Gutter' },
     },
     { name: 'radius', label: 'Radius', value: 40, unit: 'mm', range: [0.01, 1e6, 'any'], when: curved },

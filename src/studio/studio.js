@@ -137,7 +137,7 @@ class Studio {
         find('layer-up').disabled = project.selected === layers.length - 1;
         find('layer-down').disabled = project.selected === 0;
         this.#solve(before);
-        this.#showFigures();
+        this.#settle();
     }
 
     #extent() {
@@ -225,7 +225,8 @@ class Studio {
         this.#showFigures();
         if (!this.stroke && this.solver.at_rest) {
             root.dataset.droplets = 'ready';
-            this.#say(this.#words());
+            this.view?.stage.sketch(false);
+            this.#say(this.#words().replaceAll('\n', '; '));
         }
     }
 
@@ -290,7 +291,7 @@ class Studio {
             const { report: { liquid, shape } } = this.known.get(id);
             return `${volume(shape.volume_m3)} of ${liquid.name}, ${length(shape.height_max_m)} high`;
         });
-        return [...errors, ...liquids].join('; ');
+        return [...errors, ...liquids].join('\n');
     }
 
     #showFigures() {
@@ -459,7 +460,7 @@ class Studio {
             find('trouble').hidden = true;
             this.#say(`${name} saved`);
         } catch (error) {
-            complain(`Nothing was saved: ${plainly(error)}`);
+            complain(`Nothing was saved. ${plainly(error)}.`);
         }
     }
 
@@ -515,7 +516,7 @@ class Studio {
                 await this.#import(await readPicture(file), file.name);
             }
         } catch (error) {
-            complain(`${file.name} cannot be opened: ${error instanceof DOMException ? 'it is no picture that this browser can read' : plainly(error)}.`);
+            complain(`${file.name} cannot be opened. ${error instanceof DOMException ? 'It is no picture that this browser can read' : plainly(error)}.`);
         }
     }
 
@@ -629,9 +630,9 @@ class Studio {
     }
 }
 
-/** An error in plain words: options in the command's style become words. */
-function plainly(error) {
-    return error.message.replace(/\n/g, ' ');
+/** An error's message as a sentence on one line. */
+function plainly({ message }) {
+    return message.charAt(0).toUpperCase() + message.slice(1).replaceAll('\n', ' ');
 }
 
 /**

@@ -68,6 +68,7 @@ export class View {
     constructor({ canvas, extent, still, drawn }) {
         this.droplets = new Droplets();
         this.stage = new Stage({ canvas, droplet: this.droplets, flat: true, extent, space: spaceOf(extent), still, drawn });
+        this.stage.ground.outline();
         this.stage.controls.addEventListener('start', () => { this.stage.touched = true; });
     }
 

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws in Studio with a real browser: node --test studio_test.mjs
+// STUDIO is the HTML file, CHROMIUM the browser, DROPLET_SHAPE the command, if its figures shall be compared.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE } = process.env;
+const kUrl = pathToFileURL(resolve(STUDIO)).href;
+const kDesktop = { viewport: { width: 1100, height: 640 } };
+const kPhone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+let browser;
+let folder;
+before(async () => {
+    folder = mkdtempSync(join(tmpdir(), 'studio-'));
+    browser = await chromium.launch({
+        executablePath: CHROMIUM, args: ['--headless=new', '--no-sandbox', '--enable-unsafe-swiftshader', '--disable-background-networking'],
+    });
+});
+after(async () => {
+    await browser.close();
+    rmSync(folder, { recursive: true });
+});
+
+/** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
+function studio(name, options, run) {
+    test(name, async () => {
+        const context = await browser.newContext({ acceptDownloads: true, deviceScaleFactor: 0.5, colorScheme: 'light', ...options });
+        const complaints = [];
+        await context.route('**', (route) => {
+            const asked = route.request().url();
+            if (asked === kUrl || /^(data|blob):/.test(asked)) {
+                return route.continue();
+            }
+            complaints.push(`request of ${asked}`);
+            return route.abort();
+        });
+        const page = await context.newPage();
+        page.setDefaultTimeout(120_000);  // enough when many tests share the processor
+        page.on('console', (message) => {
+            // Chromium's messages about software rendering are expected, no others.
+            if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
+                complaints.push(message.text());
+            }
+        });
+        page.on('pageerror', (error) => complaints.push(error.message));
+        page.on('dialog', (dialog) => {
+            complaints.push(`dialog ${dialog.message()}`);
+            return dialog.dismiss();
+        });
+        page.on('popup', () => complaints.push('popup'));
+        await page.goto(kUrl);
+        await page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
+        await run(page);
+        assert.deepEqual(complaints, []);
+        await context.close();
+    });
+}
+
+/** Waits until all whole meshes are shown and nothing moves. */
+async function settle(page) {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await page.waitForFunction(() => document.documentElement.dataset.droplets === 'ready' && document.documentElement.dataset.state === 'resting');
+}
+
+const said = (page) => page.locator('#said').textContent();
+const result = (page) => page.locator('#result').textContent();
+const choose = (page, tool) => page.locator(`#tools [value=${tool}]`).check({ force: true });
+const setValue = (page, id, value) => page.locator(`#${id}`).evaluate((control, to) => {
+    control.value = to;
+    control.dispatchEvent(new Event('input', { bubbles: true }));
+    control.dispatchEvent(new Event('change', { bubbles: true }));
+}, String(value));
+
+/** Draws through points, as parts of the sheet's width and height. */
+async function stroke(page, ...points) {
+    const box = await page.locator('#sheet').boundingBox();
+    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
+    await page.mouse.move(...at(points[0]));
+    await page.mouse.down();
+    for (const point of points.slice(1)) {
+        await page.mouse.move(...at(point), { steps: 5 });
+    }
+    await page.mouse.up();
+}
+
+/** What is drawn in a part of the sheet, {left, top, width, height} as parts of its sides: RGBA. */
+const pixels = (page, part) => page.locator('#sheet').evaluateHandle((canvas, { left = 0, top = 0, width, height }) => {
+    const [x, y] = [Math.floor(left * canvas.width), Math.floor(top * canvas.height)];
+    const [wide, high] = [Math.ceil(width * canvas.width), Math.ceil(height * canvas.height)];
+    const context = new OffscreenCanvas(wide, high).getContext('2d', { willReadFrequently: true });
+    context.drawImage(canvas, -x, -y);
+    return context.getImageData(0, 0, wide, high).data;
+}, part);
+
+/** Opacity of the drawing at a point of the sheet, 0 to 255. */
+const opacity = async (page, left, top) => (await pixels(page, { left, top, width: 1e-6, height: 1e-6 })).evaluate((data) => data[3]);
+
+/** Pixels of the sheet with any liquid, as a hash and a count. */
+const drawing = async (page) => (await pixels(page, { width: 1, height: 1 })).evaluate(async (data) => {
+    const digest = await crypto.subtle.digest('SHA-256', data);
+    return { hash: [...new Uint8Array(digest)].join(), count: data.reduce((sum, value, i) => sum + (i % 4 === 3 && value > 0 ? 1 : 0), 0) };
+});
+
+async function saved(page, kind) {
+    await page.locator('#save').click();
+    const [file] = await Promise.all([page.waitForEvent('download'), page.locator(`[data-save=${kind}]`).click()]);
+    const path = join(folder, file.suggestedFilename());
+    await file.saveAs(path);
+    return { name: file.suggestedFilename(), path, bytes: readFileSync(path) };
+}
+
+const largest = (list) => list.reduce((most, value) => Math.max(most, value), -Infinity);
+const jsonOf = (glb) => JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+
+async function drop(page, name, type, bytes) {
+    const transfer = await page.evaluateHandle(([file_name, file_type, base64]) => {
+        const data = new DataTransfer();
+        data.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], file_name, { type: file_type }));
+        return data;
+    }, [name, type, Buffer.from(bytes).toString('base64')]);
+    await page.dispatchEvent('#sheet', 'drop', { dataTransfer: transfer });
+}
+
+/** A picture that the browser draws: a dark disc on white. */
+const discPicture = (page, type) => page.evaluate(async (kind) => {
+    const canvas = new OffscreenCanvas(300, 200);
+    const context = canvas.getContext('2d');
+    context.fillStyle = 'white';
+    context.fillRect(0, 0, 300, 200);
+    context.fillStyle = 'black';
+    context.arc(150, 100, 60, 0, 7);
+    context.fill();
+    const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: kind })).arrayBuffer());
+    return [...bytes];
+}, type);
+
+studio('a stroke becomes a droplet; undo and redo take it away and bring it back', kDesktop, async (page) => {
+    assert.equal(await page.locator('#hint').isVisible(), true);
+    assert.equal(await page.locator('#undo').isDisabled(), true);
+    await stroke(page, [0.2, 0.5], [0.5, 0.4], [0.8, 0.5]);
+    await settle(page);
+    assert.equal(await page.locator('#hint').isVisible(), false);
+    assert.match(await said(page), /^[\d.]+\sµL of water, [\d.]+\sµm high$/);
+    assert.equal(await result(page), await said(page));
+    assert.ok(await opacity(page, 0.5, 0.4) > 200);
+    assert.equal(await opacity(page, 0.5, 0.9), 0);
+    const drawn = await drawing(page);
+    const words = await said(page);
+    await page.keyboard.press('Control+z');
+    await settle(page);
+    assert.equal((await drawing(page)).count, 0);
+    assert.equal(await result(page), '');
+    await page.locator('#redo').click();
+    await settle(page);
+    assert.deepEqual(await drawing(page), drawn);
+    assert.equal(await said(page), words);
+    assert.equal(await page.locator('#redo').isDisabled(), true);
+});
+
+studio('eraser and shapes that are taken away leave holes', kDesktop, async (page) => {
+    await choose(page, 'rectangle');
+    await stroke(page, [0.2, 0.2], [0.8, 0.8]);
+    const { count } = await drawing(page);
+    assert.ok(Math.abs(count / 1024 ** 2 - 0.36) < 0.01, String(count));
+    await choose(page, 'eraser');
+    await stroke(page, [0.5, 0.5], [0.55, 0.5]);
+    assert.equal(await opacity(page, 0.52, 0.5), 0);
+    await choose(page, 'ellipse');
+    await page.keyboard.press('x');
+    assert.equal(await page.locator('#subtract').isChecked(), true);
+    await stroke(page, [0.3, 0.3], [0.4, 0.4]);
+    assert.equal(await opacity(page, 0.35, 0.35), 0);
+    assert.ok(await opacity(page, 0.31, 0.31) > 0);
+    await settle(page);
+    const figures = await page.locator('#figures table').innerText();
+    assert.match(figures, /Holes\s+2/);
+    // Filling a hole and moving the layer.
+    await page.locator('#subtract').uncheck();
+    await choose(page, 'fill');
+    await stroke(page, [0.35, 0.35]);
+    await settle(page);
+    assert.match(await page.locator('#figures table').innerText(), /Holes\s+1/);
+    await choose(page, 'move');
+    await stroke(page, [0.5, 0.5], [0.6, 0.5]);
+    assert.equal(await opacity(page, 0.25, 0.5), 0);
+    assert.ok(await opacity(page, 0.88, 0.5) > 200);
+});
+
+studio('line, outline and text draw what their names say', kDesktop, async (page) => {
+    await choose(page, 'line');
+    await stroke(page, [0.1, 0.1], [0.4, 0.3], [0.9, 0.1]);
+    assert.ok(await opacity(page, 0.5, 0.1) > 200);
+    assert.equal(await opacity(page, 0.4, 0.3), 0);
+    await choose(page, 'lasso');
+    await stroke(page, [0.1, 0.9], [0.5, 0.5], [0.9, 0.9]);
+    assert.ok(await opacity(page, 0.5, 0.7) > 200);
+    assert.equal(await opacity(page, 0.15, 0.6), 0);
+    await page.locator('#layer-clear').click();
+    assert.equal((await drawing(page)).count, 0);
+    await choose(page, 'text');
+    await page.locator('#text').fill('II');
+    await setValue(page, 'text-size', 500);
+    await stroke(page, [0.5, 0.5]);
+    await settle(page);
+    assert.match(await page.locator('#figures table').innerText(), /Droplets\s+2/);
+});
+
+studio('the keyboard draws, and says where it is', kDesktop, async (page) => {
+    await page.locator('#sheet').focus();
+    await page.keyboard.press('ArrowLeft');
+    assert.match(await page.locator('#where').textContent(), /^9\.69\smm from the left, 10\.0\smm from the top, dry$/);
+    await page.keyboard.press('Space');
+    for (let i = 0; i < 8; ++i) {
+        await page.keyboard.press('ArrowLeft');
+    }
+    await page.keyboard.press('Space');
+    assert.match(await page.locator('#where').textContent(), /liquid$/);
+    await settle(page);
+    assert.match(await said(page), /of water/);
+    // Escape gives a shape up.
+    const drawn = await drawing(page);
+    await page.keyboard.press('r');
+    await page.keyboard.press('Space');
+    await page.keyboard.press('Control+ArrowDown');
+    await page.keyboard.press('Escape');
+    assert.deepEqual(await drawing(page), drawn);
+    // Every control has a name, and Tab reaches the sheet, the view and the forms.
+    const nameless = await page.evaluate(() => [...document.querySelectorAll('input, button, select, canvas, summary')]
+        .filter((control) => !(control.labels?.length || control.getAttribute('aria-label') || control.textContent.trim())).map(({ outerHTML }) => outerHTML));
+    assert.deepEqual(nameless, []);
+    await page.keyboard.press('b');
+    const reached = new Set();
+    await page.locator('#name').focus();
+    for (let i = 0; i < 60; ++i) {
+        await page.keyboard.press('Tab');
+        reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.name));
+    }
+    for (const id of ['undo', 'save', 'tool', 'sheet', 'size', 'view', 'layer', 'layer-add', 'liquid-liquid', 'scene-tilt', 'ground', 'reset']) {
+        assert.ok(reached.has(id), `${id} is not reached: ${[...reached]}`);
+    }
+});
+
+studio('layers have liquids of their own, and one GLB holds them', kDesktop, async (page) => {
+    await stroke(page, [0.2, 0.3], [0.5, 0.3]);
+    await page.locator('#layer-add').click();
+    await setValue(page, 'liquid-liquid', 'honey');
+    await stroke(page, [0.5, 0.7], [0.8, 0.7]);
+    await settle(page);
+    assert.match(await said(page), /of water, .* high; .* of honey, /);
+    const glb = await saved(page, 'glb');
+    assert.equal(glb.name, 'Droplet.glb');
+    const json = jsonOf(glb.bytes);
+    assert.deepEqual(json.materials.map(({ name }) => name), ['water', 'honey']);
+    assert.deepEqual(json.nodes.map(({ name }) => name), ['Layer 1', 'Layer 2']);
+    assert.equal(glb.bytes.readUInt32LE(8), glb.bytes.length);
+    for (const { indices, attributes } of json.meshes.flatMap(({ primitives }) => primitives)) {
+        const view = json.bufferViews[json.accessors[indices].bufferView];
+        const { componentType, count, byteOffset = 0 } = json.accessors[indices];
+        const start = 28 + glb.bytes.readUInt32LE(12) + view.byteOffset + byteOffset;
+        const at = (k) => (componentType === 5123 ? glb.bytes.readUInt16LE(start + 2 * k) : glb.bytes.readUInt32LE(start + 4 * k));
+        const most = largest(Array.from({ length: count }, (_, k) => at(k)));
+        assert.equal(most, json.accessors[attributes.POSITION].count - 1);
+    }
+    const obj = (await saved(page, 'obj')).bytes.toString();
+    const vertices = obj.match(/^v /gm).length;
+    assert.equal(largest([...obj.matchAll(/^f (.*)$/gm)].flatMap(([, corners]) => corners.split(' ').map((corner) => parseInt(corner, 10)))), vertices);
+    const stl = (await saved(page, 'stl')).bytes;
+    assert.equal(stl.length, 84 + 50 * stl.readUInt32LE(80));
+    // A hidden layer is not drawn, not told and not saved.
+    await page.locator('#layers li', { hasText: 'Layer 1' }).getByRole('button', { name: 'Show' }).click();
+    await settle(page);
+    assert.match(await said(page), /^\S+\s\S+ of honey/);
+    assert.equal(await opacity(page, 0.3, 0.3), 0);
+    assert.equal(jsonOf((await saved(page, 'glb')).bytes).meshes.length, 1);
+    // Removing a layer can be undone.
+    await page.locator('#layer-remove').click();
+    assert.equal(await page.locator('#layers li').count(), 1);
+    await page.locator('#undo').click();
+    assert.equal(await page.locator('#layers li').count(), 2);
+});
+
+studio('a saved project opens as it was', kDesktop, async (page) => {
+    await stroke(page, [0.2, 0.3], [0.5, 0.3]);
+    await page.locator('#layer-copy').click();
+    await setValue(page, 'liquid-by', 'volume');
+    await setValue(page, 'liquid-volume', 3);
+    await setValue(page, 'scene-tilt', 30);
+    await page.locator('#name').fill('Tea for two');
+    await settle(page);
+    const project = await saved(page, 'project');
+    assert.equal(project.name, 'Tea for two.droplet.json');
+    const before_it = { drawing: await drawing(page), said: await result(page), layers: await page.locator('#layers').innerText() };
+    await page.locator('#new').click();
+    await settle(page);
+    assert.equal((await drawing(page)).count, 0);
+    await page.locator('#file').setInputFiles(project.path);
+    await page.waitForFunction(() => document.getElementById('name').value === 'Tea for two');
+    await settle(page);
+    assert.deepEqual({ drawing: await drawing(page), said: await result(page), layers: await page.locator('#layers').innerText() }, before_it);
+    assert.equal(await page.locator('#scene-tilt').inputValue(), '30');
+    assert.equal(await page.locator('#liquid-volume').inputValue(), '3');
+    const again = await saved(page, 'project');
+    assert.deepEqual(JSON.parse(again.bytes), JSON.parse(project.bytes));
+    // What is no project is refused in words and changes nothing.
+    writeFileSync(join(folder, 'wrong.json'), '{"format": "droplet-shape.studio", "version": 99}');
+    await page.locator('#file').setInputFiles(join(folder, 'wrong.json'));
+    await page.waitForFunction(() => !document.getElementById('trouble').hidden);
+    assert.match(await page.locator('#trouble').textContent(), /wrong\.json cannot be opened\. Its version is 99/);
+    assert.deepEqual(await drawing(page), before_it.drawing);
+});
+
+studio('a dropped picture becomes a footprint of its size, or lies below', kDesktop, async (page) => {
+    await drop(page, 'disc.png', 'image/png', await discPicture(page, 'image/png'));
+    await page.locator('#import').waitFor();
+    assert.equal(await page.locator('#invert').isChecked(), true);
+    await page.getByRole('button', { name: 'Use as footprint' }).click();
+    await settle(page);
+    assert.deepEqual(await page.locator('#sheet').evaluate(({ width, height }) => [width, height]), [300, 200]);
+    assert.equal(await page.locator('#name').inputValue(), 'disc');
+    assert.ok(await opacity(page, 0.5, 0.5) > 200);
+    assert.equal(await opacity(page, 0.1, 0.1), 0);
+    const svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8" width="8" height="8"><path d="M1 1h6v2H1z"/></svg>';
+    await drop(page, 'bar.svg', 'image/svg+xml', Buffer.from(svg));
+    await page.locator('#import').waitFor();
+    await page.getByRole('button', { name: 'Lay below, to trace' }).click();
+    assert.equal(await page.locator('#underlay').isVisible(), true);
+    await setValue(page, 'opacity', 0.2);
+    assert.equal(await page.locator('#underlay').evaluate(({ style }) => style.opacity), '0.2');
+    await drop(page, 'bar.svg', 'image/svg+xml', Buffer.from(svg));
+    await page.locator('#import').waitFor();
+    await page.getByRole('button', { name: 'Use as footprint' }).click();
+    assert.ok(await opacity(page, 0.5, 0.25) > 200);
+    assert.equal(await opacity(page, 0.5, 0.8), 0);
+    await drop(page, 'broken.png', 'image/png', Buffer.from('no picture'));
+    await page.waitForFunction(() => !document.getElementById('trouble').hidden);
+    assert.match(await page.locator('#trouble').textContent(), /broken\.png cannot be opened/);
+});
+
+studio('physics change the droplet, and a refusal is said in words', kDesktop, async (page) => {
+    await choose(page, 'ellipse');
+    await stroke(page, [0.3, 0.3], [0.7, 0.7]);
+    await settle(page);
+    const seen = new Set([await result(page)]);
+    const changes = [['liquid-liquid', 'mercury'], ['liquid-by', 'contactAngle'], ['liquid-contactAngle', 30], ['liquid-by', 'height'],
+        ['liquid-height', 1], ['scene-gravity', 2], ['scene-tilt', 20], ['scene-width', 40], ['scene-ground', 'sphere']];
+    for (const [id, value] of changes) {
+        await setValue(page, id, value);
+        await settle(page);
+        seen.add(await result(page));
+    }
+    assert.ok(seen.size >= changes.length - 1, [...seen].join('\n'));
+    await setValue(page, 'scene-ground', 'flat');
+    await setValue(page, 'liquid-height', 100000);
+    await settle(page);
+    assert.match(await result(page), /^No stable droplet was found/);
+    assert.equal(await page.locator('#result').evaluate(({ classList }) => classList.contains('refused')), true);
+    await page.locator('#undo').click();
+    await settle(page);
+    assert.equal(await page.locator('#result').evaluate(({ classList }) => classList.contains('refused')), false);
+});
+
+if (DROPLET_SHAPE) {
+    studio('figures and files are those of the command', kDesktop, async (page) => {
+        await stroke(page, [0.2, 0.5], [0.5, 0.3], [0.8, 0.5]);
+        await setValue(page, 'liquid-by', 'contactAngle');
+        await setValue(page, 'liquid-contactAngle', 35);
+        await settle(page);
+        const footprint = await saved(page, 'footprint');
+        const glb = await saved(page, 'glb');
+        const words = (await page.locator('#command').textContent()).split(' ').slice(3);
+        const made = join(folder, 'made.glb');
+        execFileSync(DROPLET_SHAPE, [footprint.path, made, ...words, '--json', join(folder, 'made.json'), '-q']);
+        const report = JSON.parse(readFileSync(join(folder, 'made.json')));
+        const { volume, length, rows } = await import(pathToFileURL(resolve(import.meta.dirname, '../../src/page/figures.js')).href);
+        assert.equal(await result(page), `${volume(report.shape.volume_m3)} of water, ${length(report.shape.height_max_m)} high`);
+        const table = await page.locator('#figures table tr').evaluateAll((list) => list.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
+        assert.deepEqual(table.slice(0, -1), rows(report));
+        assert.deepEqual(glb.bytes, readFileSync(made));
+    });
+}
+
+studio('on a phone all controls are reached with a finger', kPhone, async (page) => {
+    const overflow = () => page.evaluate(() => Math.max(document.documentElement.scrollWidth, document.body.scrollWidth) - innerWidth);
+    assert.equal(await overflow(), 0);
+    const touch = await page.context().newCDPSession(page);
+    const box = await page.locator('#sheet').boundingBox();
+    const fingers = (type, ...points) => touch.send('Input.dispatchTouchEvent',
+        { type, touchPoints: points.map(([x, y], id) => ({ x: box.x + x * box.width, y: box.y + y * box.height, id })) });
+    await fingers('touchStart', [0.3, 0.5]);
+    for (let i = 1; i <= 5; ++i) {
+        await fingers('touchMove', [0.3 + 0.08 * i, 0.5]);
+    }
+    await fingers('touchEnd');
+    await settle(page);
+    assert.match(await said(page), /of water/);
+    // Two fingers zoom and do not draw.
+    const drawn = await drawing(page);
+    await fingers('touchStart', [0.4, 0.2]);
+    await fingers('touchStart', [0.4, 0.2], [0.6, 0.2]);
+    for (let i = 1; i <= 4; ++i) {
+        await fingers('touchMove', [0.4 - 0.05 * i, 0.2], [0.6 + 0.05 * i, 0.2]);
+    }
+    await fingers('touchEnd');
+    assert.deepEqual(await drawing(page), drawn);
+    assert.ok((await page.locator('#sheet').boundingBox()).width > 1.5 * box.width);
+    assert.equal(await page.evaluate(() => visualViewport.scale), 1);
+    await page.locator('#fit').tap();
+    assert.equal(Math.round((await page.locator('#sheet').boundingBox()).width), Math.round(box.width));
+    const small = [];
+    for (const part of ['draw', 'layers', 'liquid', 'ground', 'view']) {
+        await page.locator(`#tabs [data-part=${part}]`).tap();
+        assert.equal(await overflow(), 0, part);
+        small.push(...await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary')]
+            .filter((control) => control.checkVisibility() && !control.closest('#swatches'))
+            .map((control) => [control.id || control.outerHTML.slice(0, 60), (control.closest('label') ?? control).getBoundingClientRect()])
+            .filter(([, { width, height }]) => Math.min(width, height) < 39.5).map(([id, { width, height }]) => `${id}: ${width} × ${height}`)));
+    }
+    assert.deepEqual(small, []);
+});
+
+studio('a pen draws by its pressure', kDesktop, async (page) => {
+    const pen = await page.context().newCDPSession(page);
+    const box = await page.locator('#sheet').boundingBox();
+    const press = (type, x, y, force) => pen.send('Input.dispatchMouseEvent',
+        { type, x: box.x + x * box.width, y: box.y + y * box.height, button: 'left', buttons: 1, pointerType: 'pen', force, clickCount: 1 });
+    const width = async (force, y) => {
+        await press('mousePressed', 0.2, y, force);
+        await press('mouseMoved', 0.8, y, force);
+        await press('mouseReleased', 0.8, y, force);
+        const column = await pixels(page, { left: 0.5, top: y - 0.1, width: 1e-6, height: 0.2 });
+        return column.evaluate((data) => data.filter((value, i) => i % 4 === 3 && value > 0).length);
+    };
+    const [light, firm] = [await width(0.1, 0.25), await width(0.9, 0.75)];
+    assert.ok(light > 0 && firm > 2 * light, `${light} ${firm}`);
+});
+
+studio('the policy lets nothing else run', kDesktop, async (page) => {
+    const policy = await page.locator('meta[http-equiv=Content-Security-Policy]').getAttribute('content');
+    const rules = Object.fromEntries(policy.split('; ').map((rule) => [rule.split(' ')[0], rule.split(' ').slice(1)]));
+    assert.deepEqual(rules['default-src'], ['\'none\'']);
+    assert.equal(rules['script-src'].length, 2);
+    assert.match(rules['script-src'].join(' '), /^'sha256-[^']+' 'wasm-unsafe-eval'$/);
+    assert.deepEqual(Object.keys(rules).sort(), ['base-uri', 'default-src', 'form-action', 'img-src', 'script-src', 'style-src', 'worker-src']);
+});
+
+studio('times from the hand to the eye', { viewport: { width: 1440, height: 900 }, deviceScaleFactor: 1 }, async (page) => {
+    const box = await page.locator('#sheet').boundingBox();
+    const at = (t) => [box.x + box.width * (0.2 + 0.6 * t), box.y + box.height * (0.5 - 0.25 * Math.sin(6 * t))];
+    await page.mouse.move(...at(0));
+    await page.mouse.down();
+    for (let i = 1; i <= 60; ++i) {
+        await page.mouse.move(...at(i / 60));
+        await page.waitForTimeout(16);
+    }
+    await page.mouse.up();
+    await settle(page);
+    const summary = await page.evaluate(() => window.studioTimes.summary);
+    assert.ok(summary.drafts > 0);
+    console.log(`stroke on 1024 × 1024 to 3D: median ${summary.median.toFixed(1)} ms, nine in ten within ` +
+        `${summary.nine_in_ten.toFixed(1)} ms, of which the solver ${summary.solve.toFixed(1)} ms; ${summary.drafts} drafts`);
+});
