@@ -49,6 +49,7 @@ uniform float light_half;
 uniform sampler2D picture;
 uniform vec2 picture_half;
 uniform float pictured;
+uniform vec2 sheet_half;
 varying vec3 place;
 
 // 1 on the lines of a grid, which are at least a pixel wide; 0 where the grid is finer than the pixels.
@@ -73,6 +74,8 @@ void main() {
     if (pictured > 0.5 && max(edge.x, edge.y) < 1.0) {
         base = mix(base, print.rgb, print.a);
     }
+    float to_edge = max(abs(place.x) - sheet_half.x, abs(place.z) - sheet_half.y);
+    base *= 1.0 - step(0.0, sheet_half.x) * 0.28 * (1.0 - smoothstep(0.0, 1.5 * fwidth(to_edge), abs(to_edge)));
     vec2 lamp = (place.xz - light_centre) / light_half;
     vec2 inside = step(abs(lamp), vec2(1.0));
     vec3 reached = vec3(1.0) + lit * inside.x * inside.y *
@@ -110,6 +113,7 @@ export class Ground extends Group {
             lit: { value: light ? 1 : 0 }, light: { value: light?.target.texture ?? new Texture() },
             light_centre: { value: new Vector2() }, light_half: { value: 1 },
             picture: { value: new Texture() }, picture_half: { value: new Vector2(1, 1) }, pictured: { value: 0 },
+            sheet_half: { value: new Vector2(-1, -1) },
         };
         const floor = new Mesh(new CircleGeometry(30, 96),
             new ShaderMaterial({ vertexShader: kVertex, fragmentShader: kGroundFragment, uniforms: this.uniforms }));
@@ -128,6 +132,11 @@ export class Ground extends Group {
         this.uniforms.step_length.value = step;
         this.picture_half.set(...sides).multiplyScalar(0.5);
         this.#layPicture();
+    }
+
+    /** Draws the mask's edges on the ground. */
+    outline() {
+        this.uniforms.sheet_half.value = this.picture_half;
     }
 
     /** Takes light that was aimed at another place. */

@@ -330,12 +330,14 @@ studio('a dropped picture becomes a footprint of its size, or lies below', kDesk
     await drop(page, 'bar.svg', 'image/svg+xml', Buffer.from(svg));
     await page.locator('#import').waitFor();
     await page.getByRole('button', { name: 'Lay below, to trace' }).click();
-    assert.equal(await page.locator('#underlay').isVisible(), true);
+    await page.locator('#underlay').waitFor();
     await setValue(page, 'opacity', 0.2);
     assert.equal(await page.locator('#underlay').evaluate(({ style }) => style.opacity), '0.2');
     await drop(page, 'bar.svg', 'image/svg+xml', Buffer.from(svg));
     await page.locator('#import').waitFor();
     await page.getByRole('button', { name: 'Use as footprint' }).click();
+    await page.locator('#import').waitFor({ state: 'hidden' });
+    await settle(page);
     assert.ok(await opacity(page, 0.5, 0.25) > 200);
     assert.equal(await opacity(page, 0.5, 0.8), 0);
     await drop(page, 'broken.png', 'image/png', Buffer.from('no picture'));
@@ -373,16 +375,23 @@ if (DROPLET_SHAPE) {
         await setValue(page, 'liquid-contactAngle', 35);
         await settle(page);
         const footprint = await saved(page, 'footprint');
-        const glb = await saved(page, 'glb');
-        const words = (await page.locator('#command').textContent()).split(' ').slice(3);
         const made = join(folder, 'made.glb');
-        execFileSync(DROPLET_SHAPE, [footprint.path, made, ...words, '--json', join(folder, 'made.json'), '-q']);
-        const report = JSON.parse(readFileSync(join(folder, 'made.json')));
+        const command = async () => {
+            const words = (await page.locator('#command').textContent()).split(' ').slice(3);
+            execFileSync(DROPLET_SHAPE, [footprint.path, made, ...words, '--json', join(folder, 'made.json'), '-q']);
+            return JSON.parse(readFileSync(join(folder, 'made.json')));
+        };
+        const report = await command();
         const { volume, length, rows } = await import(pathToFileURL(resolve(import.meta.dirname, '../../src/page/figures.js')).href);
         assert.equal(await result(page), `${volume(report.shape.volume_m3)} of water, ${length(report.shape.height_max_m)} high`);
         const table = await page.locator('#figures table tr').evaluateAll((list) => list.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
         assert.deepEqual(table.slice(0, -1), rows(report));
-        assert.deepEqual(glb.bytes, readFileSync(made));
+        // The exact models call functions that C libraries round differently in the last digit; the linear one does not.
+        await page.locator('#panel details summary', { hasText: 'More' }).click();
+        await setValue(page, 'liquid-model', 'linear');
+        await settle(page);
+        await command();
+        assert.deepEqual((await saved(page, 'glb')).bytes, readFileSync(made));
     });
 }
 
