@@ -26,6 +26,7 @@
 #include "morph_command.h"
 #include "option_values.h"
 #include "shape_command.h"
+#include "studio_command.h"
 #include "terminal.h"
 #include "wind_tunnel_command.h"
 #include "windshield_command.h"
@@ -71,10 +72,15 @@ struct Command {
 
 const std::vector<Command>& commands()
 {
-    static const std::vector<Command> all{{"animate", cli::runAnimate},      {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},      {"flow", cli::runFlow},
-                                          {"glyphs", cli::runGlyphs},        {"liquid2d", cli::runLiquid2d},
-                                          {"morph", cli::runMorph},          {"wind-tunnel", cli::runWindTunnel},
+    static const std::vector<Command> all{{"animate", cli::runAnimate},
+                                          {"batch", cli::runBatch},
+                                          {"compare", cli::runCompare},
+                                          {"flow", cli::runFlow},
+                                          {"glyphs", cli::runGlyphs},
+                                          {"liquid2d", cli::runLiquid2d},
+                                          {"morph", cli::runMorph},
+                                          {"studio", cli::runStudio},
+                                          {"wind-tunnel", cli::runWindTunnel},
                                           {"windshield", cli::runWindshield}};
     return all;
 }

@@ -108,7 +108,8 @@ std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::str
         return std::nullopt;
     }
     return fmt::format(
-        "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); {}, change it with "
+        "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); {}, change it "
+        "with "
         "--segment, --channel or --threshold",
         100.0 * mask.segment_confidence, name(mask.segment), advice);
 }

@@ -23,6 +23,7 @@ const CommandText& commandText()
         "  glyphs       Make droplets from type\n"
         "  liquid2d     Draw an animation of liquid in the plane\n"
         "  morph        Let liquid flow from one footprint to the next\n"
+        "  studio       Draw footprints in a browser and see their droplets\n"
         "  wind-tunnel  Compute how droplets move in the wind\n"
         "  windshield   Show rain on the windshield of a moving car\n"
         "\n" +

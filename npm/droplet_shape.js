@@ -21,7 +21,7 @@ const dashed = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCa
 const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelCase(name));
 
 /** Units of numbers, by the name that the help gives an option's value. */
-const kUnits = { LENGTH: 'm', L: 'm', AREA: 'm2', VOLUME: 'm3', 'V|every': 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', DENSITY: 'kg/m3' };
+const kUnits = { LENGTH: 'm', AREA: 'm2', VOLUME: 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', D: 'kg/m3' };
 /** Options of files, of the terminal and of the threads. */
 const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber', 'onto',
     'surface-depth']);

@@ -93,8 +93,9 @@ cli::ShapeOptions parse(const std::vector<std::string>& arguments)
     options.output = "droplet.glb";
     options = cli::readShapes(line, std::move(options), "OUTPUT");
     if (options.run.config || options.settings.ground.path || options.settings.onto) {
-        throw Error(ErrorCode::InvalidArgument, "--config, --onto and height maps of --surface need files, which the "
-                                                "module cannot read");
+        throw Error(ErrorCode::InvalidArgument,
+                    "--config, --onto and height maps of --surface need files, which the "
+                    "module cannot read");
     }
     return options;
 }

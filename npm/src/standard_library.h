@@ -98,8 +98,12 @@ void selectNth(Iterator first, Iterator nth, Iterator last, Less less = {})
         const Iterator a = first + 1;
         const Iterator b = first + (last - first) / 2;
         const Iterator c = last - 1;
-        const Iterator median = less(*a, *b) ? (less(*b, *c) ? b : less(*a, *c) ? c : a)
-                                             : (less(*a, *c) ? a : less(*b, *c) ? c : b);
+        const Iterator median = less(*a, *b) ? (less(*b, *c)   ? b
+                                                : less(*a, *c) ? c
+                                                               : a)
+                                             : (less(*a, *c)   ? a
+                                                : less(*b, *c) ? c
+                                                               : b);
         iter_swap(first, median);
         Iterator low = first + 1;
         Iterator high = last;

@@ -5,8 +5,9 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_INCLUDE_JSON
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
+
+#include <nlohmann/json.hpp>
 
 namespace tinygltf {
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "studio_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <system_error>
+
+#include "command_line.h"
+#include "droplet/error.h"
+#include "files.h"
+#include "option_values.h"
+#include "process.h"
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using droplet::Error;
+using droplet::ErrorCode;
+
+const CommandText& commandText()
+{
+    static const CommandText text{"droplet-shape studio", "draw footprints in a browser and see their droplets",
+                                  "[OPTIONS] [FILE]",
+                                  "Studio is one page that needs no network. It draws or reads a footprint, has the\n"
+                                  "physics of this command, and saves GLB, OBJ, STL and PNG.\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape studio\n"
+                                  "  droplet-shape studio studio.html\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage, or built without Studio;\n"
+                                  "  4 the page cannot be written, or no browser was found"};
+    return text;
+}
+
+/// The page, where it was installed or built, relative to this program.
+fs::path pageOfStudio()
+{
+    std::error_code unknown;
+    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+    fs::path page = (program.parent_path() / DROPLET_STUDIO_PAGE).lexically_normal();
+    if (!fs::exists(page, unknown)) {
+        refuse("studio is not available: " + page.string() +
+               " does not exist, because the program was built without DROPLET_STUDIO");
+    }
+    return page;
+}
+
+void open(const fs::path& page)
+{
+    const Started browser = start({"xdg-open", page.string()}, Piped::Output);
+    const std::string advice = "; open " + page.string() + " in a browser";
+    if (browser.failure != 0) {
+        throw Error(ErrorCode::OutputFailed, "xdg-open is missing" + advice);
+    }
+    const int status = waitFor(browser.process.id);
+    const std::string log = firstLine(browser.process.log);
+    std::fclose(browser.process.output);
+    std::fclose(browser.process.log);
+    if (status != 0) {
+        throw Error(ErrorCode::OutputFailed, "xdg-open failed" + (log.empty() ? "" : ": " + log) + advice);
+    }
+}
+
+}  // namespace
+
+int runStudio(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    line.addArguments("FILE", "Write the page here instead of opening it; - is standard output");
+    line.addFlag("Run", "--no-clobber", "Do not replace an existing file");
+    line.addFlag("Run", "-h,--help", "Print this help");
+    line.parse(argc, argv);
+    if (line.flag("--help")) {
+        print(line.help());
+        return 0;
+    }
+    const std::vector<Given> paths = line.values("FILE");
+    if (paths.size() > 1) {
+        refuse("'" + paths[1].text + "': one FILE is enough");
+    }
+    const droplet::OutputOptions options{line.flag("--no-clobber")};
+    const fs::path page = pageOfStudio();
+    if (paths.empty()) {
+        open(page);
+        return 0;
+    }
+    const std::string& path = paths[0].text;
+    checkFiles({}, {{"FILE", path}}, options);
+    writeTogether({{path, [&](std::ostream& out) { out << textOf(page.string()); }}}, options);
+    return 0;
+}
+
+}  // namespace cli

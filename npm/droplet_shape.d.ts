@@ -1,0 +1,138 @@
+// Made by make_types.mjs.
+
+/**
+ * Where the liquid is: the bytes of a PNG, which is read by the rules of the command; or coverage, 0 dry and 255 (or
+ * 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
+ */
+export type Mask =
+    | Uint8Array
+    | { width: number; height: number; data: Uint8Array | Uint8ClampedArray | Uint16Array };
+
+/** The command's options. Texts have units, such as '30uL'; numbers are SI. */
+export interface Options {
+    /** Width of the picture; an SVG may state its own; a number is in m [20mm] */
+    width?: string | number;
+    /** Size of one pixel, instead of width; a number is in m */
+    pixelSize?: string | number;
+    /** Channel that shows the liquid: auto takes alpha if the picture has transparent parts, else what differs from the brightness of its border [auto] */
+    channel?: 'auto' | 'alpha' | 'luma';
+    /** Coverage at which liquid begins, between 0 and 1 [0.5] */
+    threshold?: number;
+    /** Exchange liquid and dry */
+    invert?: boolean;
+    /** How to separate liquid from dry: threshold for drawings and scans, adaptive for photographs in uneven light, grabcut by colour; auto chooses and reports its choice [auto] */
+    segment?: 'auto' | 'threshold' | 'adaptive' | 'grabcut';
+    /** Take the regions of this colour, such as red or #e30613 */
+    colour?: string;
+    /** Remove spots, and bends of the rim, that are narrower than this; a number is in m */
+    smooth?: string | number;
+    /** Fill holes smaller than this, such as glints: 1mm2; a number is in m² */
+    fillHoles?: string | number;
+    /** Keep only the N largest droplets */
+    keep?: string | number;
+    /** Drop spots and holes smaller than F square pixels [3] */
+    speckSize?: number;
+    /** Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does not; a number is in rad [40deg] */
+    contactAngle?: string | number;
+    /** What the liquid lies on, for contactAngle natural [glass] */
+    on?: 'glass' | 'ptfe' | 'wax' | 'lotus';
+    /** Amount of liquid, by its volume; a number is in m³ */
+    volume?: string | number;
+    /** Amount of liquid, by its largest height; if two droplets have it, the one with less liquid; a number is in m */
+    height?: string | number;
+    /** each: every droplet gets this amount; total: all droplets share it at one pressure [each] */
+    fill?: 'each' | 'total';
+    /** Liquid, at 20 C [water] */
+    liquid?: 'water' | 'ethanol' | 'glycerol' | 'mercury' | 'honey';
+    /** Surface tension, instead of the liquid's own; a number is in N/m */
+    surfaceTension?: string | number;
+    /** Density, instead of the liquid's own; a number is in kg/m³ */
+    density?: string | number;
+    /** Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % [auto] */
+    model?: 'auto' | 'linear' | 'exact';
+    /** Gravity into the ground; negative under a ceiling; a number is in m/s² [9.81m/s2] */
+    gravity?: string | number;
+    /** Tilt of the ground: 90deg is a wall, 180deg a ceiling; a number is in rad [0deg] */
+    tilt?: string | number;
+    /** Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower edge; a number is in rad [-90deg] */
+    tiltDirection?: string | number;
+    /** Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis x, y or an angle; R < 0 is a bowl or a gutter [flat] */
+    surface?: string;
+    /** Keep the liquid above the ground; where it would sink in, the ground stays dry */
+    noPenetration?: boolean;
+    /** Advancing contact angle; with receding the report says whether droplets slide; a number is in rad */
+    advancing?: string | number;
+    /** Receding contact angle, at most advancing; a number is in rad */
+    receding?: string | number;
+    /** Approximate number of triangles on the footprint: 5000, 5k, 1M [40k] */
+    triangles?: string | number;
+    /** Edge length of the triangles, instead of triangles; a number is in m */
+    edge?: string | number;
+    /** Largest edge length far from the rim, as a multiple of the length at the rim [1] */
+    grading?: 1 | 2 | 4 | 8 | 16 | 32 | 64;
+    /** Leave out the base */
+    open?: boolean;
+    /** Look in glTF, OBJ, previews and the page; does not change the shape [the liquid's own] */
+    material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain';
+    /** Unit of length in OBJ and STL [mm] */
+    unit?: 'm' | 'cm' | 'mm';
+    /** Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; takes the linear model unless model exact is given */
+    fillRange?: string | [number, number];
+    /** Solver of the linear system: llt is Eigen's factorisation, multigrid iterates, auto takes the faster one [auto] */
+    solver?: 'auto' | 'llt' | 'multigrid';
+}
+
+/** Triangles in space: metres, z up. Arrays of vertices have one length. */
+export interface Surface {
+    /** x, y, z of every vertex [m]; a vertex that needs two normals, as on the rim, is there twice */
+    positions: Float32Array;
+    /** x, y, z of every vertex's normal */
+    normals: Float32Array;
+    /** place of every vertex in the mask: 0, 0 top left, 1, 1 bottom right */
+    uvs: Float32Array;
+    /** contact angle at the liquid's vertices on the rim [rad], 0 at others */
+    contactAngles: Float32Array;
+    /** vertices of every triangle, counter-clockwise from outside */
+    triangles: Uint32Array;
+}
+
+export interface Droplet {
+    readonly surface: Surface;
+    /** The command's report, droplet-shape.report/1. */
+    readonly report: Record<string, any>;
+    /** Bytes of a file. */
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl'): Uint8Array;
+    /** Gives the solver's memory back before the garbage collector does. */
+    free(): void;
+}
+
+export interface Option {
+    name: string;
+    group: string;
+    /** name of the value in the help, or the allowed words; empty for a flag */
+    value: string;
+    text: string;
+    default: string;
+}
+
+export interface Solver {
+    readonly options: Option[];
+    makeDroplet(mask: Mask, options?: Options): Droplet;
+}
+
+/** Why there is no droplet. */
+export class DropletError extends Error {
+    code: 'InvalidArgument' | 'InvalidInput' | 'NoSuchDroplet' | 'OutOfMemory' | 'Internal';
+}
+
+/** Loads the solver from the bytes of droplet_shape.wasm, as in a page without a server. */
+export function loadSolver(wasm: BufferSource | WebAssembly.Module): Promise<Solver>;
+
+/** Options, with the texts and defaults of the command's help. */
+export const options: Option[];
+
+/** Makes the droplet of a mask: the bytes of a GLB. */
+export function makeDroplet(mask: Mask, options?: Options): Uint8Array;
+
+/** Makes the droplet of a mask: its surface, its report, and its files. */
+export function shapeDroplet(mask: Mask, options?: Options): Droplet;

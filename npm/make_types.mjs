@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints droplet_shape.d.ts, with the options that the solver has: node make_types.mjs WASM > droplet_shape.d.ts
+import { readFileSync } from 'node:fs';
+import { loadSolver } from './droplet_shape.js';
+
+const { options } = await loadSolver(readFileSync(process.argv[2]));
+
+const units = {
+    LENGTH: 'm', AREA: 'm²', VOLUME: 'm³', ANGLE: 'rad', S: 'N/m', G: 'm/s²', D: 'kg/m³',
+};
+function typeOf({ value }) {
+    if (value === '') {
+        return 'boolean';
+    }
+    if (value in units) {
+        return 'string | number';
+    }
+    if (value === 'RANGE') {
+        return 'string | [number, number]';
+    }
+    if (value === 'N') {
+        return 'string | number';
+    }
+    if (value === 'F') {
+        return 'number';
+    }
+    const words = value.split('|');
+    if (words.every((word) => /^\d+$/.test(word))) {
+        return words.join(' | ');
+    }
+    return words.every((word) => /^[a-z]+$/.test(word)) ? words.map((word) => `'${word}'`).join(' | ') : 'string';
+}
+const lines = options.map((option) => {
+    const unit = units[option.value] ? `; a number is in ${units[option.value]}` : '';
+    const usual = option.default === '' ? '' : ` [${option.default}]`;
+    return `    /** ${option.text}${unit}${usual} */\n    ${option.name}?: ${typeOf(option)};`;
+});
+
+process.stdout.write(`// Made by make_types.mjs.
+
+/**
+ * Where the liquid is: the bytes of a PNG, which is read by the rules of the command; or coverage, 0 dry and 255 (or
+ * 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
+ */
+export type Mask =
+    | Uint8Array
+    | { width: number; height: number; data: Uint8Array | Uint8ClampedArray | Uint16Array };
+
+/** The command's options. Texts have units, such as '30uL'; numbers are SI. */
+export interface Options {
+${lines.join('\n')}
+}
+
+/** Triangles in space: metres, z up. Arrays of vertices have one length. */
+export interface Surface {
+    /** x, y, z of every vertex [m]; a vertex that needs two normals, as on the rim, is there twice */
+    positions: Float32Array;
+    /** x, y, z of every vertex's normal */
+    normals: Float32Array;
+    /** place of every vertex in the mask: 0, 0 top left, 1, 1 bottom right */
+    uvs: Float32Array;
+    /** contact angle at the liquid's vertices on the rim [rad], 0 at others */
+    contactAngles: Float32Array;
+    /** vertices of every triangle, counter-clockwise from outside */
+    triangles: Uint32Array;
+}
+
+export interface Droplet {
+    readonly surface: Surface;
+    /** The command's report, droplet-shape.report/1. */
+    readonly report: Record<string, any>;
+    /** Bytes of a file. */
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl'): Uint8Array;
+    /** Gives the solver's memory back before the garbage collector does. */
+    free(): void;
+}
+
+export interface Option {
+    name: string;
+    group: string;
+    /** name of the value in the help, or the allowed words; empty for a flag */
+    value: string;
+    text: string;
+    default: string;
+}
+
+export interface Solver {
+    readonly options: Option[];
+    makeDroplet(mask: Mask, options?: Options): Droplet;
+}
+
+/** Why there is no droplet. */
+export class DropletError extends Error {
+    code: 'InvalidArgument' | 'InvalidInput' | 'NoSuchDroplet' | 'OutOfMemory' | 'Internal';
+}
+
+/** Loads the solver from the bytes of droplet_shape.wasm, as in a page without a server. */
+export function loadSolver(wasm: BufferSource | WebAssembly.Module): Promise<Solver>;
+
+/** Options, with the texts and defaults of the command's help. */
+export const options: Option[];
+
+/** Makes the droplet of a mask: the bytes of a GLB. */
+export function makeDroplet(mask: Mask, options?: Options): Uint8Array;
+
+/** Makes the droplet of a mask: its surface, its report, and its files. */
+export function shapeDroplet(mask: Mask, options?: Options): Droplet;
+`);
