@@ -484,6 +484,12 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     if (const auto unit = line.value("--unit"); unit && !has_unit) {
         warn(*unit, "are in metres");
     }
+    if (settings.materials && !has_material && !is_shown) {
+        warn({settings.materials->path, "--materials"}, "have no material");
+    }
+    if (settings.nodes == droplet::Nodes::Each && format != droplet::Format::Glb && format != droplet::Format::Gltf) {
+        warn({"each", "--nodes"}, "have no nodes");
+    }
 }
 
 RunOptions readRun(const CommandLine& line)

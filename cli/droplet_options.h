@@ -13,6 +13,7 @@
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
 #include "droplet/shape/figures.h"
+#include "materials_file.h"
 
 namespace cli {
 
@@ -42,6 +43,8 @@ struct DropletSettings {
     std::optional<std::string> onto;  ///< path of the wetted object
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
+    std::optional<Materials> materials;  ///< of single droplets, over `material`
+    droplet::Nodes nodes = droplet::Nodes::One;
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< unit in OBJ and STL
     std::vector<std::string> warnings;                           ///< options without effect
 };

@@ -137,9 +137,40 @@ void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options
     }
 }
 
+/// Names, looks and figures of the droplets in files. Empty if all are alike and need no names.
+/// @param settings  receives warnings about the file of materials
+std::vector<droplet::FileDroplet> fileDroplets(const Droplet& droplet, DropletSettings& settings)
+{
+    std::vector<droplet::FileDroplet> all;
+    if (settings.nodes == droplet::Nodes::One && !settings.materials) {
+        return all;
+    }
+    std::vector<droplet::Look> looks(droplet.figures.size(), droplet::lookOf(settings.material));
+    if (settings.materials) {
+        for (std::string& warning : applyMaterials(*settings.materials, looks)) {
+            settings.warnings.push_back(std::move(warning));
+        }
+    }
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+        const droplet::ShapeFigures& figures = droplet.figures[k];
+        all.push_back({fmt::format("droplet_{}", k + 1), looks[k], figures.volume, figures.contact_angle.mean,
+                       figures.height_max, droplet.solution.droplets[k].pressure});
+    }
+    return all;
+}
+
+std::vector<droplet::Look> looksOf(const std::vector<droplet::FileDroplet>& droplets)
+{
+    std::vector<droplet::Look> looks;
+    for (const droplet::FileDroplet& droplet : droplets) {
+        looks.push_back(droplet.look);
+    }
+    return looks;
+}
+
 /// Writes the page with the droplet as a GLB.
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
-               const droplet::Report& report)
+               const std::vector<droplet::FileDroplet>& droplets, const droplet::Report& report)
 {
     droplet::PageContent page;
     if (report.input.type && report.input.type->text) {
@@ -148,7 +179,8 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
         page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
     }
     std::ostringstream glb;
-    droplet::writeGltf(surface, glb, {true, options.settings.material, report.output.topology.closed});
+    droplet::writeGltf(surface, glb,
+                       {true, options.settings.material, report.output.topology.closed, droplet::Nodes::One, droplets});
     page.glb = std::move(glb).str();
     std::ostringstream json;
     droplet::writeReport(json, report);
@@ -157,10 +189,12 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 }
 
 /// Subject of the preview.
-PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around)
+PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, std::vector<droplet::Look> looks,
+                         const Surroundings& around)
 {
-    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent,
-                           around.below,    around.light,      around.object};
+    PreviewSubject subject{
+        droplet.surface, droplet::lookOf(settings.material), looks, droplet.domain.extent, around.below, around.light,
+        around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
     subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
@@ -169,9 +203,16 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     return subject;
 }
 
+/// What is written beside the surface.
+struct Extras {
+    std::vector<droplet::FileDroplet> droplets;
+    std::optional<PreviewSubject> subject;
+    std::optional<OutputFile> mask;
+};
+
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
-void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
-          const std::optional<OutputFile>& mask, StageClock& clock, droplet::Report& report)
+void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
+          droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!hasSliderInPageOnly(options)) {
@@ -182,10 +223,12 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                                                   options.format,
                                                   {.material = options.settings.material,
                                                    .closed = report.output.topology.closed,
-                                                   .unit = options.settings.unit}},
+                                                   .unit = options.settings.unit,
+                                                   .nodes = options.settings.nodes,
+                                                   .droplets = extras.droplets}},
                                                  report.output.bytes);
-    if (mask) {
-        files.push_back(*mask);
+    if (extras.mask) {
+        files.push_back(*extras.mask);
     }
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
@@ -198,11 +241,11 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                              if (refill) {
                                  droplet.surface.refill.swap(refill);
                              }
-                             writeHtml(out, droplet.surface, options, report);
+                             writeHtml(out, droplet.surface, options, extras.droplets, report);
                          }});
     }
-    if (subject) {
-        for (OutputFile& file : previewFiles(*options.preview, *subject)) {
+    if (extras.subject) {
+        for (OutputFile& file : previewFiles(*options.preview, *extras.subject)) {
             files.push_back(std::move(file));
         }
     }
@@ -234,7 +277,7 @@ struct Stages {
 };
 
 /// Places a droplet on its object, writes its files, and returns the report.
-droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
+droplet::Report finish(Droplet droplet, DropletSettings settings, const droplet::InputReport& input,
                        const Surroundings& around, const ShapeOptions& options, Stages& stages,
                        const std::optional<OutputFile>& mask = std::nullopt)
 {
@@ -243,16 +286,16 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const d
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
+    Extras extras{fileDroplets(droplet, settings), {}, mask};
     droplet::Report report = describe(droplet, settings);
     report.fill_range = options.settings.droplet.fill_range;
     report.input = input;
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.onto = onto;
-    std::optional<PreviewSubject> subject;
     if (options.preview) {
-        subject.emplace(subjectOf(droplet, settings, around));
+        extras.subject.emplace(subjectOf(droplet, settings, looksOf(extras.droplets), around));
     }
-    save(droplet, options, subject, mask, stages.clock, report);
+    save(droplet, options, extras, stages.clock, report);
     return report;
 }
 
@@ -441,6 +484,9 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     }
     if (options.settings.onto) {
         inputs.push_back({"--onto", *options.settings.onto});
+    }
+    if (options.settings.materials) {
+        inputs.push_back({"--materials", options.settings.materials->path});
     }
     if (const auto picture = groundPicture(options)) {
         inputs.push_back({"--ground", *picture});

@@ -159,6 +159,10 @@ void declareDroplets(CommandLine& line)
     declareSurface(line);
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
+    line.add("Surface", "--nodes", "one|each",
+             "Nodes in glTF: one for all droplets, or one each, named droplet_1, droplet_2 …, with its figures [one]");
+    line.add("Surface", "--materials", "FILE",
+             "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
              "takes the linear model unless --model exact is given");
@@ -191,6 +195,13 @@ ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const s
 {
     options.settings = readDroplet(line);
     options.run = readRun(line);
+    if (const auto nodes = line.value("--nodes")) {
+        options.settings.nodes =
+            choice<droplet::Nodes>(*nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}});
+    }
+    if (const auto materials = line.value("--materials")) {
+        options.settings.materials = readMaterials(materials->text);
+    }
     readFormat(line, subject, options);
     readFillRange(line, options);
     return options;

@@ -26,9 +26,14 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
                          bytes = droplet::writeSurface(surface, out, target.format, target.options);
                      }});
     if (material_file) {
-        files.push_back({*material_file, [material = target.options.material](std::ostream& out) {
-                             droplet::writeMtl(material, out);
-                         }});
+        std::vector<droplet::Look> looks;
+        for (const droplet::FileDroplet& droplet : target.options.droplets) {
+            looks.push_back(droplet.look);
+        }
+        if (looks.empty()) {
+            looks.push_back(droplet::lookOf(target.options.material));
+        }
+        files.push_back({*material_file, [looks](std::ostream& out) { droplet::writeMtl(looks, out); }});
     }
     return files;
 }

@@ -469,6 +469,15 @@ std::uint64_t replaceWhole(const fs::path& path, const Target& target, const std
     return bytes;
 }
 
+std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets)
+{
+    std::vector<Look> looks;
+    for (const FileDroplet& droplet : droplets) {
+        looks.push_back(droplet.look);
+    }
+    return looks;
+}
+
 }  // namespace
 
 Format formatNamed(std::string_view name)
@@ -502,10 +511,12 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
+            return writeGltf(surface, out,
+                             {format == Format::Glb, options.material, closed, options.nodes, options.droplets});
         }
         case Format::Obj:
-            return writeObj(surface, out, {options.unit, options.material, options.material_file});
+            return writeObj(surface, out,
+                            {options.unit, options.material, options.material_file, looksOf(options.droplets)});
         case Format::Ply:
             return writePly(surface, out);
         case Format::Stl:
