@@ -384,9 +384,17 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
 Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
 {
     validateStages(options);
-    Droplet droplet;
+    Domain domain = split(outline);
+    Droplet droplet = makeDroplet(std::move(domain), options, progress);
     droplet.outline = std::move(outline);
-    droplet.domain = split(droplet.outline);
+    return droplet;
+}
+
+Droplet makeDroplet(Domain domain, const DropletOptions& options, const Progress& progress)
+{
+    validateStages(options);
+    Droplet droplet;
+    droplet.domain = std::move(domain);
     if (progress) {
         progress(Stage::Triangulate);
     }
