@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "droplet/error.h"
+#include "droplet/footprint/colour_regions.h"
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"
@@ -336,6 +337,24 @@ void declareFootprint(CommandLine& line)
     line.exclude({"--width", "--pixel-size"});
 }
 
+void declareByColour(CommandLine& line)
+{
+    constexpr const char* kGroup = "Footprint";
+    line.addFlag(
+        kGroup, "--by-colour",
+        "Make one droplet for each region of one colour, in that colour; neighbours share their boundary. Dry is "
+        "what is transparent, else the border's colour if 95 % of the border has it; --channel alpha: only what "
+        "is transparent; --channel luma: the border's most common colour");
+    line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]");
+    line.add(kGroup, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
+    for (const char* other :
+         {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep", "--mask-out"}) {
+        if (line.knows(other)) {
+            line.exclude({"--by-colour", other});
+        }
+    }
+}
+
 void declareMaskOut(CommandLine& line)
 {
     line.add("Footprint", "--mask-out", "FILE", "Write the mask that was used, as PNG; - is standard output");
@@ -457,6 +476,28 @@ FootprintOptions readFootprint(const CommandLine& line)
         trace.speck_size = *number;
     }
     return options;
+}
+
+std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings)
+{
+    ByColourOptions options;
+    const auto colours = line.value("--colours");
+    if (colours && colours->text != "auto") {
+        options.colours = count(*colours, droplet::kMaxColours, "64, or auto");
+    }
+    const auto gap = line.value("--gap");
+    if (gap) {
+        options.gap = quantity(*gap, kLength);
+    }
+    if (line.flag("--by-colour")) {
+        return options;
+    }
+    for (const auto& given : {colours, gap}) {
+        if (given) {
+            warnings.push_back(given->subject + " has no effect without --by-colour");
+        }
+    }
+    return std::nullopt;
 }
 
 DropletSettings readDroplet(const CommandLine& line)

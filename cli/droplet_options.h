@@ -28,8 +28,15 @@ inline constexpr const char* kUnitsText =
     "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
     "  acceleration m/s2 mm/s2 g\n";
 
+/// Options of droplets by colour.
+struct ByColourOptions {
+    std::optional<std::size_t> colours;  ///< number of colours; empty: as many as stand out
+    double gap = 0.0;                    ///< between neighbours [m]
+};
+
 /// Options from the picture to the outline.
 struct FootprintOptions {
+    std::optional<ByColourOptions> by_colour;  ///< replaces the decisions of `mask` but its channel and limits
     droplet::MaskOptions mask;
     droplet::TraceOptions trace;
     bool sized = false;                   ///< whether --width or --pixel-size is given
@@ -69,6 +76,8 @@ struct RunOptions {
 // Each command declares its groups of options in the order of its help, and reads them after parsing.
 
 void declareFootprint(CommandLine& line);
+/// Declares --by-colour, --colours and --gap.
+void declareByColour(CommandLine& line);
 /// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line);
@@ -82,6 +91,9 @@ void declareRun(CommandLine& line);
 bool isPreviewColour(const std::string& text);
 
 FootprintOptions readFootprint(const CommandLine& line);
+/// Reads the options of declareByColour; nothing without --by-colour.
+/// @param warnings  receives warnings about options without effect
+std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings);
 /// Reads the options of liquid, ground and surface.
 DropletSettings readDroplet(const CommandLine& line);
 RunOptions readRun(const CommandLine& line);

@@ -35,6 +35,7 @@ const CommandText& commandText()
             "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
             "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
             "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+            "  droplet-shape flag.svg flag.glb --by-colour --nodes each\n"
             "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
             "  droplet-shape - - --format stl < logo.png > logo.stl\n"
             "  droplet-shape logo.png logo.glb --watch\n"
@@ -171,6 +172,7 @@ void declareDroplets(CommandLine& line)
 void declareShapes(CommandLine& line)
 {
     declareFootprint(line);
+    declareByColour(line);
     declareDroplets(line);
 }
 
@@ -211,6 +213,7 @@ ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std
 {
     options = readDroplets(line, std::move(options), subject);
     options.footprint = readFootprint(line);
+    options.footprint.by_colour = readByColour(line, options.settings.warnings);
     return options;
 }
 

@@ -119,6 +119,23 @@ Json typeSection(const TypeReport& type)
             {"em_m", type.em}};
 }
 
+Json paletteSection(const std::vector<PaletteColour>& palette)
+{
+    if (palette.empty()) {
+        return nullptr;
+    }
+    Json list = Json::array();
+    for (const PaletteColour& entry : palette) {
+        list.push_back({{"colour", text(entry.colour)}, {"pixels", entry.pixels}});
+    }
+    return list;
+}
+
+Json colourOrNull(const std::optional<CssColour>& colour)
+{
+    return colour ? Json(text(*colour)) : Json();
+}
+
 /// Keys that describe a picture; all are null for a font.
 Json inputSection(const InputReport& input)
 {
@@ -139,6 +156,8 @@ Json inputSection(const InputReport& input)
                 {"anti_aliased", nullptr},
                 {"specks_dropped", input.specks_dropped},
                 {"largest_speck_px2", nullptr},
+                {"palette", nullptr},
+                {"background", nullptr},
                 {"type", typeSection(*input.type)}};
     }
     return {{"path", input.path},
@@ -157,6 +176,8 @@ Json inputSection(const InputReport& input)
             {"anti_aliased", input.anti_aliased},
             {"specks_dropped", input.specks_dropped},
             {"largest_speck_px2", input.largest_speck_px},
+            {"palette", paletteSection(input.palette)},
+            {"background", colourOrNull(input.background)},
             {"type", nullptr}};
 }
 
@@ -267,7 +288,8 @@ Json dropletRow(const DropletReport& droplet)
 {
     Json row{{"footprint_area_m2", droplet.figures.footprint_area},
              {"rim_length_m", droplet.figures.rim_length},
-             {"holes", droplet.holes}};
+             {"holes", droplet.holes},
+             {"colour", colourOrNull(droplet.colour)}};
     row.update(shapeSection(droplet.figures, droplet.pressure, droplet.retention,
                             droplet.retention && droplet.retention->wouldSlide()));
     return row;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
@@ -223,7 +224,28 @@ SheetMesh sheetOf(const PlanarMesh& mesh, const HeightField& field)
     return sheet;
 }
 
-/// First place where two droplets touch.
+/// Pairs of meshes with a common rim vertex.
+SharedRims sharedRims(const std::vector<PlanarMesh>& meshes)
+{
+    std::vector<std::pair<Vec2, std::size_t>> vertices;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        for (std::uint32_t v = 0; v < meshes[k].rimVertexCount(); ++v) {
+            vertices.emplace_back(meshes[k].vertices[v], k);
+        }
+    }
+    std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first.x, a.first.y, a.second) < std::tie(b.first.x, b.first.y, b.second);
+    });
+    SharedRims shared;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        for (std::size_t j = i + 1; j < vertices.size() && vertices[j].first == vertices[i].first; ++j) {
+            shared.emplace(vertices[i].second, vertices[j].second);
+        }
+    }
+    return shared;
+}
+
+/// First place where two droplets touch whose footprints do not.
 std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
 {
     std::vector<SheetMesh> sheets;
@@ -238,7 +260,7 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
     for (const SheetMesh& sheet : sheets) {
         all.push_back(&sheet);
     }
-    return firstContact(all);
+    return firstContact(all, sharedRims(meshes));
 }
 
 /// Takes up the result of droplets that are sheets.
