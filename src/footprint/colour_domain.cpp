@@ -344,7 +344,7 @@ private:
                 ends[*arcs_.arcs[k].to].push_back(endOf(faired_[k].slots, true));
             }
         }
-        constexpr double kPull = 0.02;    // toward the ends themselves, relative to the lines
+        constexpr double kPull = 1e-4;    // toward the ends themselves, relative to the lines
         constexpr double kMargin = 0.05;  // from the sides of the square [px]
         for (std::size_t j = 0; j < ends.size(); ++j) {
             // Normal equations of Σ (d × (p − a))² + kPull |p − a|²
@@ -384,45 +384,33 @@ struct Line {
     std::vector<std::uint8_t> corner;
 };
 
-double turning(Vec2 a, Vec2 b)
-{
-    return std::abs(std::atan2(cross(a, b), dot(a, b)));
-}
-
 /// Draws a line with fewer points between two of its own, both kept: as few as the length and the bend of their chords
 /// allow.
 /// @return  indices of the kept points, after `begin`, up to `end`
 std::vector<std::size_t> fewerPoints(const std::vector<Vec2>& points, std::size_t begin, std::size_t end, double edge)
 {
     constexpr double kMaxSagitta = 0.15;  // [px]; nearer boundaries are rare
-    constexpr double kMaxTurn = 0.35;     // of the line along an edge [rad], as of other rims
-    std::vector<std::size_t> kept;
-    double whole = 0.0;
+    constexpr double kMinSagitta = 0.05;  // error of traced places [px]
+    constexpr double kMaxBend = 0.044;  // sagitta of an arc that turns by 0.35, relative to its chord, as of other rims
+    std::vector<double> arc{0.0};
     for (std::size_t i = begin; i < end; ++i) {
-        whole += length(points[i + 1] - points[i]);
+        arc.push_back(arc.back() + length(points[i + 1] - points[i]));
     }
-    const double step = whole / std::max(1.0, std::round(whole / edge));
+    const auto is_flat = [&](std::size_t from, std::size_t to) {
+        const Vec2 chord = points[to] - points[from];
+        const double size = length(chord);
+        const double max = std::clamp(kMaxBend * size, kMinSagitta, kMaxSagitta);
+        return std::all_of(points.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                           points.begin() + static_cast<std::ptrdiff_t>(to),
+                           [&](Vec2 p) { return std::abs(cross(chord, p - points[from])) <= max * size; });
+    };
+    std::vector<std::size_t> kept;
     for (std::size_t from = begin; from < end;) {
+        const double rest = arc.back() - arc[from - begin];
+        const double target = arc[from - begin] + rest / std::max(1.0, std::round(rest / edge));
         std::size_t to = from + 1;
-        double way = length(points[to] - points[from]);
-        double turned = 0.0;
-        while (to < end) {
-            const Vec2 ahead = points[to + 1] - points[to];
-            const double next_way = way + length(ahead);
-            const double next_turned = turned + turning(points[to] - points[to - 1], ahead);
-            if (next_way - step > step - way || next_turned > kMaxTurn) {
-                break;
-            }
-            const Vec2 chord = points[to + 1] - points[from];
-            const bool is_flat = std::all_of(
-                points.begin() + static_cast<std::ptrdiff_t>(from) + 1,
-                points.begin() + static_cast<std::ptrdiff_t>(to) + 1,
-                [&](Vec2 p) { return std::abs(cross(chord, p - points[from])) <= kMaxSagitta * length(chord); });
-            if (!is_flat) {
-                break;
-            }
-            way = next_way;
-            turned = next_turned;
+        while (to < end && std::abs(arc[to + 1 - begin] - target) <= std::abs(arc[to - begin] - target) &&
+               is_flat(from, to + 1)) {
             ++to;
         }
         kept.push_back(to);
@@ -480,6 +468,8 @@ struct Boundaries {
         Line line{faired.arcs[k].points, faired.arcs[k].corner};
         const LabelArc& arc = arcs.arcs[k];
         if (arc.from) {
+            dropFolded(line, faired.junctions[*arc.to], line.points.size() - 1);
+            dropFolded(line, faired.junctions[*arc.from], 0);
             line.points.insert(line.points.begin(), faired.junctions[*arc.from]);
             line.points.push_back(faired.junctions[*arc.to]);
             line.corner.insert(line.corner.begin(), 1);
@@ -489,6 +479,24 @@ struct Boundaries {
     }
 
     [[nodiscard]] bool isShared(std::size_t k) const { return arcs.arcs[k].right != 0; }
+
+private:
+    /// Drops the point at an end of a line if it is so near to the junction that the line would fold there.
+    static void dropFolded(Line& line, Vec2 junction, std::size_t end)
+    {
+        constexpr double kNear = 0.4;  // [px]
+        if (line.points.size() < 3) {
+            return;
+        }
+        const Vec2 inner = line.points[end == 0 ? 1 : end - 1];
+        const Vec2 out = line.points[end] - inner;
+        const Vec2 on = junction - line.points[end];
+        const double half = 0.5 * length(out) * length(on);  // cosine of 60 degrees
+        if (length(on) < kNear && dot(out, on) < half) {
+            line.points.erase(line.points.begin() + static_cast<std::ptrdiff_t>(end));
+            line.corner.erase(line.corner.begin() + static_cast<std::ptrdiff_t>(end));
+        }
+    }
 };
 
 /// Loops of one label [px].
