@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -463,13 +463,16 @@ struct Boundaries {
     FairedArcs faired;
 
     /// Line of an arc with its junctions.
-    [[nodiscard]] Line lineOf(std::size_t k) const
+    /// @param with_folds  keep points so near to a junction that the line folds there
+    [[nodiscard]] Line lineOf(std::size_t k, bool with_folds = false) const
     {
         Line line{faired.arcs[k].points, faired.arcs[k].corner};
         const LabelArc& arc = arcs.arcs[k];
         if (arc.from) {
-            dropFolded(line, faired.junctions[*arc.to], line.points.size() - 1);
-            dropFolded(line, faired.junctions[*arc.from], 0);
+            if (!with_folds) {
+                dropFolded(line, faired.junctions[*arc.to], line.points.size() - 1);
+                dropFolded(line, faired.junctions[*arc.from], 0);
+            }
             line.points.insert(line.points.begin(), faired.junctions[*arc.from]);
             line.points.push_back(faired.junctions[*arc.to]);
             line.corner.insert(line.corner.begin(), 1);
@@ -499,30 +502,147 @@ private:
     }
 };
 
-/// Loops of one label [px].
-std::vector<Line> loopsOf(const Boundaries& boundaries, const std::vector<Line>& lines, std::uint8_t label)
+/// Line of a loop [px].
+Line joined(const Boundaries& boundaries, const std::vector<Line>& lines, const LabelLoop& loop)
 {
-    std::vector<Line> loops;
-    for (const LabelLoop& loop : boundaries.arcs.loops) {
-        if (loop.label != label) {
-            continue;
+    Line result;
+    for (const ArcUse& use : loop.arcs) {
+        Line line = lines[use.arc];
+        if (use.is_reversed) {
+            std::reverse(line.points.begin(), line.points.end());
+            std::reverse(line.corner.begin(), line.corner.end());
         }
-        Line& points = loops.emplace_back();
-        for (const ArcUse& use : loop.arcs) {
-            Line line = lines[use.arc];
-            if (use.is_reversed) {
-                std::reverse(line.points.begin(), line.points.end());
-                std::reverse(line.corner.begin(), line.corner.end());
+        if (boundaries.arcs.arcs[use.arc].from) {
+            line.points.pop_back();  // the next arc begins with it
+            line.corner.pop_back();
+        }
+        result.points.insert(result.points.end(), line.points.begin(), line.points.end());
+        result.corner.insert(result.corner.end(), line.corner.begin(), line.corner.end());
+    }
+    return result;
+}
+
+double areaOf(const Line& line)
+{
+    return signedArea(Loop{line.points, line.corner});
+}
+
+/// Lines that cross or touch one another, or themselves, between their ends.
+class Crossings {
+public:
+    explicit Crossings(const Boundaries& boundaries, const std::vector<Line>& lines)
+    {
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            const std::vector<Vec2>& points = lines[k].points;
+            const bool is_closed = !boundaries.arcs.arcs[k].from.has_value();
+            for (std::size_t i = is_closed ? 0 : 1; i < points.size(); ++i) {
+                segments_.push_back({points[(i > 0 ? i : points.size()) - 1], points[i], k});
             }
-            if (boundaries.arcs.arcs[use.arc].from) {
-                line.points.pop_back();  // the next arc begins with it
-                line.corner.pop_back();
+        }
+        for (std::size_t s = 0; s < segments_.size(); ++s) {
+            const Segment& segment = segments_[s];
+            const auto [left, right] = std::minmax(cellOf(segment.from.x), cellOf(segment.to.x));
+            const auto [top, bottom] = std::minmax(cellOf(segment.from.y), cellOf(segment.to.y));
+            for (std::int64_t y = top; y <= bottom; ++y) {
+                for (std::int64_t x = left; x <= right; ++x) {
+                    cells_.push_back({y * kRow + x, s});
+                }
             }
-            points.points.insert(points.points.end(), line.points.begin(), line.points.end());
-            points.corner.insert(points.corner.end(), line.corner.begin(), line.corner.end());
+        }
+        std::sort(cells_.begin(), cells_.end());
+    }
+
+    /// Indices of the lines, ascending.
+    [[nodiscard]] std::vector<std::size_t> lines() const
+    {
+        std::vector<std::size_t> found;
+        for (auto begin = cells_.begin(); begin != cells_.end();) {
+            const auto end = std::find_if(begin, cells_.end(), [&](const auto& c) { return c.first != begin->first; });
+            for (auto a = begin; a != end; ++a) {
+                for (auto b = a + 1; b != end; ++b) {
+                    if (meet(segments_[a->second], segments_[b->second])) {
+                        found.push_back(segments_[a->second].line);
+                        found.push_back(segments_[b->second].line);
+                    }
+                }
+            }
+            begin = end;
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return found;
+    }
+
+private:
+    struct Segment {
+        Vec2 from;
+        Vec2 to;
+        std::size_t line = 0;
+    };
+    static constexpr std::int64_t kRow = std::int64_t{1} << 32;
+    static constexpr double kCell = 4.0;  // [px]
+
+    static std::int64_t cellOf(double at) { return static_cast<std::int64_t>(std::floor(at / kCell)); }
+
+    static bool meet(const Segment& p, const Segment& q)
+    {
+        if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) {
+            return false;
+        }
+        const Vec2 u = p.to - p.from;
+        const Vec2 v = q.to - q.from;
+        return cross(u, q.from - p.from) * cross(u, q.to - p.from) <= 0.0 &&
+               cross(v, p.from - q.from) * cross(v, p.to - q.from) <= 0.0;
+    }
+
+    std::vector<Segment> segments_;
+    std::vector<std::pair<std::int64_t, std::size_t>> cells_;
+};
+
+/// Lines of all arcs; those between neighbours have only corners, at most about `edge` apart [px]. Where lines would
+/// cross, or a loop is hardly longer than an edge, all points are kept.
+std::vector<Line> linesOf(const Boundaries& boundaries, std::optional<double> edge)
+{
+    constexpr double kMaxChange = 0.1;  // of the area of a loop
+    std::vector<Line> whole(boundaries.arcs.arcs.size());
+    std::vector<Line> lines(whole.size());
+    const auto all_corners = [&](Line line, std::size_t k) {
+        if (boundaries.isShared(k)) {
+            std::fill(line.corner.begin(), line.corner.end(), std::uint8_t{1});
+        }
+        return line;
+    };
+    tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t k) {
+        lines[k] = boundaries.lineOf(k);
+        whole[k] = all_corners(lines[k], k);
+        lines[k] = edge && boundaries.isShared(k)
+                       ? coarser(std::move(lines[k]), *edge, !boundaries.arcs.arcs[k].from.has_value())
+                       : whole[k];
+    });
+    for (const LabelLoop& loop : boundaries.arcs.loops) {
+        const double area = areaOf(joined(boundaries, whole, loop));
+        if (std::abs(areaOf(joined(boundaries, lines, loop)) - area) > kMaxChange * std::abs(area)) {
+            for (const ArcUse& use : loop.arcs) {
+                lines[use.arc] = whole[use.arc];
+            }
         }
     }
-    return loops;
+    std::vector<std::uint8_t> is_whole(lines.size(), 0);
+    for (std::vector<std::size_t> crossing = Crossings(boundaries, lines).lines(); !crossing.empty();
+         crossing = Crossings(boundaries, lines).lines()) {
+        bool changed = false;
+        for (const std::size_t k : crossing) {
+            if (is_whole[k] < 2) {
+                lines[k] = is_whole[k] == 0 ? whole[k] : all_corners(boundaries.lineOf(k, true), k);
+                ++is_whole[k];
+                changed = true;
+            }
+        }
+        if (!changed) {
+            break;
+        }
+    }
+    return lines;
 }
 
 void addFootprints(const Outline& outline, std::size_t colour, ColourDomain& result)
@@ -537,24 +657,19 @@ void addFootprints(const Outline& outline, std::size_t colour, ColourDomain& res
 void addTouching(const ColourRegions& regions, const Boundaries& boundaries, const ColourTraceOptions& options,
                  ColourDomain& result)
 {
-    std::vector<Line> lines(boundaries.arcs.arcs.size());
-    tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t k) {
-        lines[k] = boundaries.lineOf(k);
-        if (boundaries.isShared(k)) {
-            std::fill(lines[k].corner.begin(), lines[k].corner.end(), std::uint8_t{1});
-            if (options.edge) {
-                const Line all = boundaries.lineOf(k);
-                lines[k] = coarser(all, *options.edge / result.pixel_size, !boundaries.arcs.arcs[k].from.has_value());
-            }
-        }
-    });
+    const std::vector<Line> lines =
+        linesOf(boundaries, options.edge ? std::optional(*options.edge / result.pixel_size) : std::nullopt);
     const auto place = [&](Vec2 p) {
         return Vec2{(p.x - 0.5 * regions.width) * result.pixel_size, (0.5 * regions.height - p.y) * result.pixel_size};
     };
     for (std::size_t k = 0; k < regions.palette.size(); ++k) {
         Outline outline;
         outline.extent = result.domain.extent;
-        for (Line& line : loopsOf(boundaries, lines, static_cast<std::uint8_t>(k + 1))) {
+        for (const LabelLoop& border : boundaries.arcs.loops) {
+            if (border.label != k + 1) {
+                continue;
+            }
+            Line line = joined(boundaries, lines, border);
             Loop loop{{}, std::move(line.corner)};
             for (const Vec2 p : line.points) {
                 loop.points.push_back(place(p));

@@ -420,6 +420,9 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
 
 void append(Surface& surface, const Surface& more)
 {
+    if (more.triangles.empty()) {
+        return;
+    }
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
     if ((surface.parts.empty() && first > 0) || more.parts.empty()) {
         surface.parts.clear();
