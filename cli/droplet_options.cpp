@@ -528,7 +528,12 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     if (settings.materials && !has_material && !is_shown) {
         warn({settings.materials->path, "--materials"}, "have no material");
     }
-    if (settings.nodes == droplet::Nodes::Each && format != droplet::Format::Glb && format != droplet::Format::Gltf) {
+    const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
+    if (settings.colour_map && !is_gltf) {
+        settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
+                                    " files have no texture");
+    }
+    if (settings.nodes == droplet::Nodes::Each && !is_gltf) {
         warn({"each", "--nodes"}, "have no nodes");
     }
 }

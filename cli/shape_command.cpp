@@ -220,6 +220,7 @@ struct Extras {
     std::vector<droplet::FileDroplet> droplets;
     std::optional<PreviewSubject> subject;
     std::optional<OutputFile> mask;
+    std::string texture;  ///< bytes of a PNG, or empty
 };
 
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
@@ -237,7 +238,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                                                    .closed = report.output.topology.closed,
                                                    .unit = options.settings.unit,
                                                    .nodes = options.settings.nodes,
-                                                   .droplets = extras.droplets}},
+                                                   .droplets = extras.droplets,
+                                                   .texture = extras.texture}},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -293,6 +295,7 @@ struct Source {
     droplet::InputReport input;
     std::vector<droplet::CssColour> colours = {};  ///< one per droplet, or none
     std::optional<OutputFile> mask = {};
+    std::string texture = {};  ///< as in Extras
 };
 
 /// Places a droplet on its object, writes its files, and returns the report.
@@ -304,7 +307,7 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
-    Extras extras{fileDroplets(droplet, settings, source.colours), {}, source.mask};
+    Extras extras{fileDroplets(droplet, settings, source.colours), {}, source.mask, source.texture};
     droplet::Report report = describe(droplet, settings);
     report.fill_range = options.settings.droplet.fill_range;
     report.input = source.input;
@@ -320,6 +323,13 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
     return report;
 }
 
+std::string pngOf(const droplet::Picture& picture)
+{
+    std::ostringstream png;
+    droplet::writePng(picture, png);
+    return std::move(png).str();
+}
+
 droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                              Stages& stages)
 {
@@ -331,6 +341,10 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
         mask_options.vector_long_side = *side;
         mask = forInput(options, decode);
         settings = completeSettings(mask, around, options);
+    }
+    std::string texture;
+    if (settings.colour_map) {
+        texture = forInput(options, [&] { return pngOf(droplet::decodePicture(picture)); });
     }
     picture = {};
     refuseTooShortEdge(coveredArea(mask, settings.droplet.trace), settings.droplet);
@@ -347,7 +361,7 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
         mask_file = {*options.footprint.mask_out,
                      [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
     }
-    return finish(std::move(droplet), settings, {input, {}, mask_file}, around, options, stages);
+    return finish(std::move(droplet), settings, {input, {}, mask_file, texture}, around, options, stages);
 }
 
 /// Mask of all liquid, without the places of its rims within pixels.

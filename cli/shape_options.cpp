@@ -174,6 +174,8 @@ void declareShapes(CommandLine& line)
     declareFootprint(line);
     declareByColour(line);
     declareDroplets(line);
+    line.addFlag("Surface", "--colour-map", "Lay the picture on the liquid, as a tint in glTF");
+    line.exclude({"--by-colour", "--colour-map"});
 }
 
 void declareHtml(CommandLine& line)
@@ -196,6 +198,7 @@ std::optional<std::string> readHtml(const CommandLine& line)
 ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject)
 {
     options.settings = readDroplet(line);
+    options.settings.colour_map = line.knows("--colour-map") && line.flag("--colour-map");
     options.run = readRun(line);
     if (const auto nodes = line.value("--nodes")) {
         options.settings.nodes =

@@ -62,13 +62,13 @@ bool wideIndices(const Surface& surface)
     return surface.positions.size() >= kVerticesBeyond16Bit;
 }
 
-/// @param pieces  upper bound of their number
-void checkFileSize(const Surface& surface, bool binary, std::size_t pieces)
+void checkFileSize(const Surface& surface, const GltfOptions& options)
 {
     const std::uint64_t index_bytes = wideIndices(surface) ? 4 : 2;
-    const std::uint64_t buffer =
-        vertexBytes(surface) * surface.positions.size() + 3 * index_bytes * surface.triangles.size();
-    const std::uint64_t file = pieces * kJsonBound + (binary ? buffer : (buffer + 2) / 3 * 4);
+    const std::uint64_t buffer = vertexBytes(surface) * surface.positions.size() +
+                                 3 * index_bytes * surface.triangles.size() + options.texture.size();
+    const std::uint64_t pieces = std::max<std::uint64_t>(1, options.droplets.size());
+    const std::uint64_t file = pieces * kJsonBound + (options.binary ? buffer : (buffer + 2) / 3 * 4);
     if (file >= kGltfFileLimit) {
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
                                                     " triangles would make a glTF file of " + std::to_string(file) +
@@ -221,6 +221,31 @@ void addNode(tinygltf::Model& model, std::vector<tinygltf::Primitive> primitives
     model.nodes.push_back(std::move(node));
 }
 
+/// Adds a picture at the end of the buffer, as the base colour of all materials.
+void addTexture(tinygltf::Model& model, std::size_t bytes)
+{
+    addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, bytes);
+    model.accessors.pop_back();  // pictures have a view, but no accessor
+    tinygltf::Image image;
+    image.name = "picture";
+    image.mimeType = "image/png";
+    image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    model.images.push_back(std::move(image));
+    tinygltf::Sampler sampler;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    model.samplers.push_back(sampler);
+    tinygltf::Texture texture;
+    texture.sampler = 0;
+    texture.source = 0;
+    model.textures.push_back(std::move(texture));
+    for (tinygltf::Material& material : model.materials) {
+        material.pbrMetallicRoughness.baseColorTexture.index = 0;
+    }
+}
+
 tinygltf::Model makeModel(const Surface& surface, const Pieces& pieces, const GltfOptions& options)
 {
     tinygltf::Model model = makeEmptyModel();
@@ -239,6 +264,9 @@ tinygltf::Model makeModel(const Surface& surface, const Pieces& pieces, const Gl
     }
     if (!primitives.empty()) {
         addNode(model, std::move(primitives), surface, {});
+    }
+    if (!options.texture.empty()) {
+        addTexture(model, options.texture.size());
     }
     return model;
 }
@@ -263,7 +291,7 @@ void writePiece(const Surface& surface, ByteStream& bytes)
     writeIndices(surface.triangles, surface.positions.size(), bytes);
 }
 
-void writeBuffer(const Pieces& pieces, ByteStream& bytes)
+void writeBuffer(const Pieces& pieces, const std::string& texture, ByteStream& bytes)
 {
     bool is_whole = true;  // the writer of the file fills the end of the buffer
     for (const Piece& piece : pieces.all) {
@@ -272,6 +300,12 @@ void writeBuffer(const Pieces& pieces, ByteStream& bytes)
         }
         is_whole = wideIndices(*piece.surface) || piece.surface->triangles.size() % 2 == 0;
         writePiece(*piece.surface, bytes);
+    }
+    if (!pieces.all.empty() && !texture.empty()) {
+        if (!is_whole) {
+            bytes.u16(0);
+        }
+        bytes.text(texture);
     }
 }
 
@@ -314,7 +348,7 @@ private:
     int filled_ = 0;
 };
 
-void writeText(const Pieces& pieces, const tinygltf::Model& model, ByteStream& bytes)
+void writeText(const Pieces& pieces, const tinygltf::Model& model, const std::string& texture, ByteStream& bytes)
 {
     nlohmann::json json = jsonOf(model);
     if (pieces.all.empty()) {
@@ -329,7 +363,7 @@ void writeText(const Pieces& pieces, const tinygltf::Model& model, ByteStream& b
     Base64Buffer base64(bytes);
     std::ostream encoded(&base64);
     ByteStream buffer(encoded);
-    writeBuffer(pieces, buffer);
+    writeBuffer(pieces, texture, buffer);
     buffer.finish();
     base64.finish();
     bytes.text(std::string_view(text).substr(buffer_begin));
@@ -340,16 +374,16 @@ void writeText(const Pieces& pieces, const tinygltf::Model& model, ByteStream& b
 
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
-    checkFileSize(surface, options.binary, std::max<std::size_t>(1, options.droplets.size()));
+    checkFileSize(surface, options);
     validateUnlessDry(surface);
     checkFloats(surface);
     const Pieces pieces = piecesOf(surface, options);
     const tinygltf::Model model = makeModel(surface, pieces, options);
     if (options.binary) {
-        return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(pieces, bytes); });
+        return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(pieces, options.texture, bytes); });
     }
     ByteStream bytes(out);
-    writeText(pieces, model, bytes);
+    writeText(pieces, model, options.texture, bytes);
     return bytes.finish();
 }
 

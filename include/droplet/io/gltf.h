@@ -35,6 +35,7 @@ struct GltfOptions {
     bool closed = true;        ///< false: no volume extension, since viewers would refract at the missing base
     Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
+    std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -50,6 +51,9 @@ struct GltfOptions {
 /// with Nodes::Each, every droplet has a node with its name, a mesh, a material for its own mean height, and extras
 /// `volume_m3`, `contact_angle_deg`, `height_max_m` and `pressure_pa`. Nodes follow each other as in `droplets`; a
 /// droplet without liquid has none.
+///
+/// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
+/// it, as KHR_materials_transmission says.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream

@@ -34,6 +34,7 @@ struct WriteOptions {
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
     Nodes nodes = Nodes::One;                       ///< glTF
     std::vector<FileDroplet> droplets = {};         ///< glTF as in GltfOptions; OBJ takes their looks
+    std::string texture = {};                       ///< glTF
 };
 
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
