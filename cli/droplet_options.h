@@ -30,8 +30,8 @@ inline constexpr const char* kUnitsText =
 
 /// Options of droplets by colour.
 struct ByColourOptions {
-    std::optional<std::size_t> colours;  ///< number of colours; empty: as many as stand out
-    double gap = 0.0;                    ///< between neighbours [m]
+    std::optional<std::size_t> colours = {};  ///< number of colours; empty: as many as stand out
+    double gap = 0.0;                         ///< between neighbours [m]
 };
 
 /// Options from the picture to the outline.

@@ -93,7 +93,6 @@ private:
                         continue;
                     }
                     if (u < 0 || v < 0 || u >= width_ || v >= height_) {
-                        neighbours[0] += is_beside ? 1 : 0;
                         continue;
                     }
                     const std::size_t there =
@@ -108,7 +107,7 @@ private:
             }
         }
         const auto area = static_cast<double>(region.size());
-        if (area >= speck_size || neighbours.empty() || (label == 0 && neighbours.count(0) > 0)) {
+        if (area >= speck_size || neighbours.empty()) {
             return false;
         }
         const auto longest = std::max_element(neighbours.begin(), neighbours.end(),
@@ -259,6 +258,9 @@ private:
             if (!corners) {
                 faired.corners.clear();
             }
+            if (is_open) {
+                keepAtBorder(faired);
+            }
         });
     }
 
@@ -294,6 +296,33 @@ private:
         return {at.x + 1.0, at.y + 1.0};
     }
 
+    [[nodiscard]] bool isAtBorder(const Slot& slot) const
+    {
+        const Vec2 outside = slot.liquid + slot.toward;
+        return outside.x < 0.0 || outside.y < 0.0 || outside.x > regions_.width || outside.y > regions_.height;
+    }
+
+    /// Puts an arc exactly on the image's border and its corners, where it is too short for fairing to do so.
+    void keepAtBorder(CorneredLoop& arc) const
+    {
+        for (Slot& slot : arc.slots) {
+            slot.t = isAtBorder(slot) ? 0.5 : slot.t;
+        }
+        for (std::size_t i = 0; i + 1 < arc.slots.size(); ++i) {
+            const Slot& slot = arc.slots[i];
+            const Slot& next = arc.slots[i + 1];
+            const bool turns = slot.liquid == next.liquid && dot(slot.toward, next.toward) == 0.0;
+            const bool is_known = std::any_of(arc.corners.begin(), arc.corners.end(), [&](const Corner& corner) {
+                return corner.turn.first <= i + 1 && corner.turn.last >= i;
+            });
+            if (turns && !is_known && isAtBorder(slot) && isAtBorder(next)) {
+                arc.corners.push_back({{i, i + 1}, slot.liquid + 0.5 * (slot.toward + next.toward), false, false});
+            }
+        }
+        std::sort(arc.corners.begin(), arc.corners.end(),
+                  [](const Corner& a, const Corner& b) { return a.turn.first < b.turn.first; });
+    }
+
     /// Pixels near a junction mix more than two colours.
     void loosenNearJunctions(const LabelArc& arc, SlotLoop& slots) const
     {
@@ -306,11 +335,8 @@ private:
         for (Slot& slot : slots) {
             const bool is_near =
                 std::min(length(slot.point() - middleOf(*arc.from)), length(slot.point() - middleOf(*arc.to))) < kNear;
-            const Vec2 outside = slot.liquid + slot.toward;
-            const bool at_border =
-                outside.x < 0.0 || outside.y < 0.0 || outside.x > regions_.width || outside.y > regions_.height;
             if (is_near && slot.measured) {
-                slot.spread = at_border ? kBorderSpread : std::max(slot.spread, kLooseSpread);
+                slot.spread = isAtBorder(slot) ? kBorderSpread : std::max(slot.spread, kLooseSpread);
             }
         }
     }
@@ -368,7 +394,14 @@ private:
             const auto within = [](double value, double centre) {
                 return std::clamp(value, centre - 0.5 + kMargin, centre + 0.5 - kMargin);
             };
-            result.junctions.push_back({within(place.x, middle.x), within(place.y, middle.y)});
+            const LabelJunction& cell = arcs_.junctions[j];
+            // Liquid that reaches the image's border ends there.
+            const auto at_border = [](int first, int size, double border) {
+                return first < 0 ? std::optional(0.0) : first + 1 == size ? std::optional(border) : std::nullopt;
+            };
+            result.junctions.push_back(
+                {at_border(cell.x, regions_.width, regions_.width).value_or(within(place.x, middle.x)),
+                 at_border(cell.y, regions_.height, regions_.height).value_or(within(place.y, middle.y))});
         }
     }
 

@@ -28,6 +28,7 @@ constexpr double kSameAsBorder = 12.0;  ///< likewise for the background
 constexpr double kFine = 4.0;           ///< likewise before colours are merged to a number
 constexpr std::size_t kMaxFound = 12;   ///< colours found without a number
 constexpr double kMinShare = 1e-3;      ///< of all even pixels; rarer colours are not found without a number
+constexpr double kMinThinShare = 3e-3;  ///< likewise for colours of lines that are too thin for an even part
 constexpr double kBorderShare = 0.95;
 constexpr int kEven = 8;  ///< range of a channel around a pixel of an even part
 
@@ -73,6 +74,7 @@ CssColour rounded(Vec3 rgb)
 /// Colours that are nearly the same.
 struct Bin {
     std::size_t count = 0;
+    bool is_thin = false;  ///< of lines, not of even parts
     std::array<std::uint64_t, 3> sum{};
 
     void add(const Rgb& colour)
@@ -118,6 +120,7 @@ struct Group {
     Vec3 rgb;               ///< mean
     Bin common;             ///< its most common bin
     bool is_fixed = false;  ///< background
+    bool is_thin = true;    ///< has no even part
 };
 
 /// Picture being sorted.
@@ -228,7 +231,7 @@ private:
         return high[0] - low[0] <= range && high[1] - low[1] <= range && high[2] - low[2] <= range;
     }
 
-    /// Colours of even parts; of rougher ones if a tenth of the picture is not even.
+    /// Colours of even parts, or of rougher ones if less than a tenth of the picture is even; then those of thin lines.
     [[nodiscard]] std::vector<Bin> evenColours() const
     {
         constexpr double kEnough = 0.1;
@@ -238,17 +241,28 @@ private:
         }
         for (const int range : {kEven, 3 * kEven, 255}) {
             std::vector<Bin> bins = emptyBins();
+            std::vector<Bin> thin = emptyBins();
             std::size_t count = 0;
             for (int y = 0; y < image_.height; ++y) {
                 for (int x = 0; x < image_.width; ++x) {
-                    if (isOpaque(at(x, y)) && (range == 255 || isEven(x, y, range))) {
-                        bins[binOf(image_.colour[at(x, y)])].add(image_.colour[at(x, y)]);
+                    const Rgb& colour = image_.colour[at(x, y)];
+                    if (!isOpaque(at(x, y))) {
+                        continue;
+                    }
+                    if (range == 255 || isEven(x, y, range)) {
+                        bins[binOf(colour)].add(colour);
                         ++count;
+                    } else if (!isBetween(x, y)) {
+                        thin[binOf(colour)].add(colour);
+                        thin[binOf(colour)].is_thin = true;
                     }
                 }
             }
             if (static_cast<double>(count) >= kEnough * static_cast<double>(opaque) && count > 0) {
-                return sortedBins(std::move(bins));
+                bins = sortedBins(std::move(bins));
+                const std::vector<Bin> lines = sortedBins(std::move(thin));
+                bins.insert(bins.end(), lines.begin(), lines.end());
+                return bins;
             }
         }
         return {};
@@ -276,11 +290,13 @@ private:
         for (Group& group : groups_) {
             group.weight = 0.0;
             group.common = {};
+            group.is_thin = true;
         }
         for (std::size_t i = 0; i < bins.size(); ++i) {
             const std::size_t k = nearestGroup(labs[i]);
             const auto weight = static_cast<double>(bins[i].count);
             groups_[k].weight += weight;
+            groups_[k].is_thin = groups_[k].is_thin && bins[i].is_thin;
             lab[k] = lab[k] + weight * labs[i];
             rgb[k] = rgb[k] + weight * bins[i].mean();
             if (bins[i].count > groups_[k].common.count) {
@@ -367,8 +383,9 @@ private:
         };
         settle();
         if (!options_.colours) {
-            std::erase_if(groups_,
-                          [&](const Group& group) { return !group.is_fixed && group.weight < kMinShare * total; });
+            std::erase_if(groups_, [&](const Group& group) {
+                return !group.is_fixed && group.weight < (group.is_thin ? kMinThinShare : kMinShare) * total;
+            });
             while (mergeOnce(kSame)) {
             }
         }

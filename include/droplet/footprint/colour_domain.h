@@ -13,10 +13,10 @@ namespace droplet {
 
 /// Options of traceColours().
 struct ColourTraceOptions {
-    TraceOptions trace;          ///< size, speck_size and corners; the rest only with a gap, and not clean
-    double gap = 0.0;            ///< dry width between neighbours [m], ≥ 0
-    std::optional<double> edge;  ///< longest edge of the boundary between neighbours [m], > 0, as of the triangles that
-                                 ///< will stand on it; empty: every traced point is kept
+    TraceOptions trace = {};          ///< size, speck_size and corners; the rest only with a gap, and not clean
+    double gap = 0.0;                 ///< dry width between neighbours [m], ≥ 0
+    std::optional<double> edge = {};  ///< longest edge of the boundary between neighbours [m], > 0, as of the triangles
+                                      ///< that will stand on it; empty: every traced point is kept
 
     /// @throws Error InvalidArgument if a value is out of its range
     void validate() const;

@@ -19,8 +19,8 @@ inline constexpr std::size_t kMaxColours = 64;
 
 /// Options of decodeColours().
 struct ColourOptions {
-    std::optional<std::size_t>
-        colours;  ///< number of colours of the liquid, 1 … kMaxColours; empty: as many as stand out
+    /// Number of colours of the liquid, 1 … kMaxColours; empty: as many as stand out.
+    std::optional<std::size_t> colours = {};
     /// What is dry: Alpha: what is less than half opaque, nothing in an opaque picture. Luma: the most common colour of
     /// the picture's border. Auto: as Alpha if the picture has transparent parts, else as Luma if that colour has at
     /// least 95 % of the border, else nothing.
