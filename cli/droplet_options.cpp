@@ -348,7 +348,7 @@ void declareByColour(CommandLine& line)
     line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]");
     line.add(kGroup, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
     for (const char* other :
-         {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep", "--mask-out"}) {
+         {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep"}) {
         if (line.knows(other)) {
             line.exclude({"--by-colour", other});
         }
@@ -357,6 +357,9 @@ void declareByColour(CommandLine& line)
 
 void declareMaskOut(CommandLine& line)
 {
+    if (line.knows("--by-colour")) {
+        line.exclude({"--by-colour", "--mask-out"});
+    }
     line.add("Footprint", "--mask-out", "FILE", "Write the mask that was used, as PNG; - is standard output");
 }
 

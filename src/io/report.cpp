@@ -288,8 +288,7 @@ Json dropletRow(const DropletReport& droplet)
 {
     Json row{{"footprint_area_m2", droplet.figures.footprint_area},
              {"rim_length_m", droplet.figures.rim_length},
-             {"holes", droplet.holes},
-             {"colour", colourOrNull(droplet.colour)}};
+             {"holes", droplet.holes}};
     row.update(shapeSection(droplet.figures, droplet.pressure, droplet.retention,
                             droplet.retention && droplet.retention->wouldSlide()));
     return row;
@@ -340,6 +339,7 @@ Json sections(const Report& report)
     json["droplets"] = Json::array();
     for (const DropletReport& droplet : report.droplets) {
         json["droplets"].push_back(dropletRow(droplet));
+        json["droplets"].back()["colour"] = colourOrNull(droplet.colour);
     }
     json["warnings"] = report.warnings;
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {

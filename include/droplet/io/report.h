@@ -57,8 +57,8 @@ struct InputReport {
     double largest_speck_px = 0.0;    ///< area of the largest speck dropped [px²]
     Segmentation segment = Segmentation::Threshold;  ///< as in Mask
     double segment_confidence = 1.0;                 ///< as in Mask
-    std::vector<PaletteColour> palette;              ///< as in ColourRegions; empty unless droplets are made by colour
-    std::optional<CssColour> background;             ///< as in ColourRegions
+    std::vector<PaletteColour> palette = {};         ///< as in ColourRegions; empty unless droplets are made by colour
+    std::optional<CssColour> background = {};        ///< as in ColourRegions
 };
 
 /// Output file.
