@@ -237,7 +237,7 @@ private:
             borders.push_back(arcs_.arcs[k].crossings);
         }
         const Mask mask = maskOf(left, right, borders);
-        const Field field(mask, 0.5);
+        const CoverageField field(mask, 0.5);
         const bool anti_aliased = looksAntiAliased(field, borders);
         result.anti_aliased = result.anti_aliased || anti_aliased;
         Coverage coverage;

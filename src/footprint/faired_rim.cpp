@@ -57,7 +57,7 @@ constexpr double kCornerGainHard = 4.0;
 
 /// Sum of |coverage − end| over the pixels after a pixel, in steps of `out`, until the coverage reaches `end` (0 or 1);
 /// none if it does not get there monotonically.
-std::optional<double> tail(const Field& field, int x, int y, Step out, double end)
+std::optional<double> tail(const CoverageField& field, int x, int y, Step out, double end)
 {
     // Nearly full pixels count, too, down to half a step of 8 bits.
     constexpr double kExact = 0.002;
@@ -76,7 +76,7 @@ std::optional<double> tail(const Field& field, int x, int y, Step out, double en
 
 /// Place of the rim along a line of pixels through (x, y), from the centre of that pixel in the direction of `out`, by
 /// the height function; none if the line does not run from full liquid to full dry.
-std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
+std::optional<double> heightAlong(const CoverageField& field, int x, int y, Step out)
 {
     const std::optional<double> missing = tail(field, x, y, {-out.x, -out.y}, 1.0);
     const std::optional<double> ahead = tail(field, x, y, out, 0.0);
@@ -87,7 +87,7 @@ std::optional<double> heightAlong(const Field& field, int x, int y, Step out)
 }
 
 /// Step across the slot toward the drier side, if the rim runs more along the slot than across it.
-std::optional<Step> sidestep(const Field& field, const Crossing& at)
+std::optional<Step> sidestep(const CoverageField& field, const Crossing& at)
 {
     const Step d = at.toward();
     const Step f{-d.y, d.x};
@@ -116,7 +116,7 @@ struct Reading {
 
 /// Place where a rim that runs across a slot crosses it. It is the mean place of a line of pixels, minus a
 /// twenty-fourth of the second difference between lines (the mean of a parabola over a pixel).
-std::optional<Reading> readAcross(const Field& field, const Crossing& at)
+std::optional<Reading> readAcross(const CoverageField& field, const Crossing& at)
 {
     const Step d = at.toward();
     const std::optional<double> here = heightAlong(field, at.x, at.y, d);
@@ -134,7 +134,7 @@ std::optional<Reading> readAcross(const Field& field, const Crossing& at)
 /// Place where a rim that runs along a slot crosses it: where the parabola through the heights of the lines beside it
 /// reaches the level of the slot.
 /// @param side  step toward dry
-std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step side)
+std::optional<Reading> readAlong(const CoverageField& field, const Crossing& at, Step side)
 {
     const Step d = at.toward();
     const std::optional<double> here = heightAlong(field, at.x, at.y, side);
@@ -159,7 +159,7 @@ std::optional<Reading> readAlong(const Field& field, const Crossing& at, Step si
 }
 
 /// Measures the place of a crossing from the grey levels around it.
-void measure(const Field& field, const Crossing& at, Slot& slot)
+void measure(const CoverageField& field, const Crossing& at, Slot& slot)
 {
     const Step d = at.toward();
     const double liquid = field.coverage(at.x, at.y);
@@ -179,7 +179,7 @@ void measure(const Field& field, const Crossing& at, Slot& slot)
     slot.t = std::clamp(*slot.measured, 2.0 * kSlotMargin, 1.0 - 2.0 * kSlotMargin);
 }
 
-bool isGrey(const Field& field, int x, int y)
+bool isGrey(const CoverageField& field, int x, int y)
 {
     const double c = field.coverage(x, y);
     return c > kSaturated && c < 1.0 - kSaturated;
@@ -187,7 +187,7 @@ bool isGrey(const Field& field, int x, int y)
 
 }  // namespace
 
-bool looksAntiAliased(const Field& field, const std::vector<Border>& borders)
+bool looksAntiAliased(const CoverageField& field, const std::vector<Border>& borders)
 {
     std::size_t grey = 0;
     std::size_t all = 0;
@@ -201,7 +201,7 @@ bool looksAntiAliased(const Field& field, const std::vector<Border>& borders)
     return static_cast<double>(grey) > kAntiAliasedShare * static_cast<double>(all);
 }
 
-SlotLoop placeSlots(const Field& field, const Border& border, bool anti_aliased)
+SlotLoop placeSlots(const CoverageField& field, const Border& border, bool anti_aliased)
 {
     SlotLoop loop;
     loop.reserve(border.size());

@@ -12,9 +12,9 @@
 namespace droplet {
 
 /// The mask with a dry frame around it.
-class Field {
+class CoverageField {
 public:
-    Field(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold) {}
+    CoverageField(const Mask& mask, double threshold) : mask_(mask), threshold_(threshold) {}
 
     [[nodiscard]] bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < mask_.width && y < mask_.height; }
     [[nodiscard]] double coverage(int x, int y) const { return inside(x, y) ? mask_.at(x, y) / 65535.0 : 0.0; }
@@ -26,10 +26,10 @@ private:
 };
 
 /// Whether the levels beside the borders' crossings carry their sub-pixel places.
-bool looksAntiAliased(const Field& field, const std::vector<Border>& borders);
+bool looksAntiAliased(const CoverageField& field, const std::vector<Border>& borders);
 
 /// Slots of a border or a part of one, with their places measured from the levels if those carry them.
-SlotLoop placeSlots(const Field& field, const Border& border, bool anti_aliased);
+SlotLoop placeSlots(const CoverageField& field, const Border& border, bool anti_aliased);
 
 /// Fairs a loop without corners.
 CorneredLoop fairWhole(SlotLoop slots);

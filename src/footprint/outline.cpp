@@ -69,7 +69,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         without_cleaning.clean = {};
         return trace(clean(mask, options.clean, pixelSize(mask, options), options.threshold), without_cleaning);
     }
-    const Field field(mask, options.threshold);
+    const CoverageField field(mask, options.threshold);
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * 65535.0));
     const std::vector<Border> borders = followBorders(mask, level);
     if (borders.empty() && !options.allow_dry) {

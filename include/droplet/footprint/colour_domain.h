@@ -43,6 +43,7 @@ double pixelSize(const ColourRegions& regions, const TraceOptions& options);
 /// are corners, so that triangulate() keeps them in place. With a gap, footprints end at half of it from the boundary.
 /// Pixels of a colour that touch at a corner are connected; of two such pairs the rarer colour's is.
 /// @param regions  as from decodeColours
+/// @param options  size, gap, length of edges
 /// @throws Error   InvalidArgument for options; InvalidInput if only specks are in the picture, all regions are too
 /// small
 ///                 for the gap, or all borders together are longer than 3·2²⁰ sides of pixels

@@ -36,7 +36,7 @@ struct ColourOptions {
 
 /// Colour of a picture's palette.
 struct PaletteColour {
-    CssColour colour;
+    CssColour colour;        ///< mean of its pixels, or the most common one
     std::size_t pixels = 0;  ///< number of its pixels
 };
 
@@ -63,6 +63,7 @@ struct ColourRegions {
 /// it is a blend; it goes to the one with the larger share, and does not become a colour of its own. The result does
 /// not depend on the number of threads.
 /// @param encoded  the file's bytes, in any format of decodeMask
+/// @param options  number of colours, channel, limits
 /// @throws Error   InvalidArgument; InvalidInput as decodeMask, or if nothing but background is in the picture
 ColourRegions decodeColours(std::span<const std::byte> encoded, const ColourOptions& options = {});
 
