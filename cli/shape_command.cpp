@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -171,15 +172,6 @@ std::vector<droplet::FileDroplet> fileDroplets(const Droplet& droplet, DropletSe
     return all;
 }
 
-std::vector<droplet::Look> looksOf(const std::vector<droplet::FileDroplet>& droplets)
-{
-    std::vector<droplet::Look> looks;
-    for (const droplet::FileDroplet& droplet : droplets) {
-        looks.push_back(droplet.look);
-    }
-    return looks;
-}
-
 /// Writes the page with the droplet as a GLB.
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
                const std::vector<droplet::FileDroplet>& droplets, const droplet::Report& report)
@@ -204,9 +196,10 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, std::vector<droplet::Look> looks,
                          const Surroundings& around)
 {
-    PreviewSubject subject{
-        droplet.surface, droplet::lookOf(settings.material), looks, droplet.domain.extent, around.below, around.light,
-        around.object};
+    PreviewSubject subject{droplet.surface,  droplet::lookOf(settings.material),
+                           std::move(looks), droplet.domain.extent,
+                           around.below,     around.light,
+                           around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
     subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
@@ -317,7 +310,7 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.onto = onto;
     if (options.preview) {
-        extras.subject.emplace(subjectOf(droplet, settings, looksOf(extras.droplets), around));
+        extras.subject.emplace(subjectOf(droplet, settings, droplet::looksOf(extras.droplets), around));
     }
     save(droplet, options, extras, stages.clock, report);
     return report;

@@ -26,10 +26,7 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
                          bytes = droplet::writeSurface(surface, out, target.format, target.options);
                      }});
     if (material_file) {
-        std::vector<droplet::Look> looks;
-        for (const droplet::FileDroplet& droplet : target.options.droplets) {
-            looks.push_back(droplet.look);
-        }
+        std::vector<droplet::Look> looks = droplet::looksOf(target.options.droplets);
         if (looks.empty()) {
             looks.push_back(droplet::lookOf(target.options.material));
         }

@@ -233,6 +233,7 @@ private:
                   FairedArcs& result)
     {
         std::vector<Border> borders;
+        borders.reserve(members.size());
         for (const std::size_t k : members) {
             borders.push_back(arcs_.arcs[k].crossings);
         }

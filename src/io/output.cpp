@@ -469,16 +469,17 @@ std::uint64_t replaceWhole(const fs::path& path, const Target& target, const std
     return bytes;
 }
 
+}  // namespace
+
 std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets)
 {
     std::vector<Look> looks;
+    looks.reserve(droplets.size());
     for (const FileDroplet& droplet : droplets) {
         looks.push_back(droplet.look);
     }
     return looks;
 }
-
-}  // namespace
 
 Format formatNamed(std::string_view name)
 {

@@ -37,6 +37,9 @@ struct WriteOptions {
     std::string texture = {};                       ///< glTF
 };
 
+/// Looks of droplets, in their order.
+std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets);
+
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
 /// without triangles.
 /// @return       bytes handed to the stream, which is left failed if it did not take everything
