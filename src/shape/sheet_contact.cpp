@@ -31,7 +31,8 @@ bool isGraph(const SheetMesh& sheet)
 
 }  // namespace
 
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets, const SharedRims& shared)
+std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+                                         const std::vector<std::size_t>& clusters)
 {
     if (sheets.size() == 1 && isGraph(*sheets.front())) {
         return std::nullopt;
@@ -55,9 +56,11 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
         const auto after = std::upper_bound(first_face.begin(), first_face.end(), static_cast<std::size_t>(face));
         return static_cast<std::size_t>(after - first_face.begin()) - 1;
     };
-    if (!shared.empty()) {
+    if (!clusters.empty()) {
         std::erase_if(pairs, [&](const auto& pair) {
-            return shared.count(std::minmax(sheet_of(pair.first), sheet_of(pair.second))) > 0;
+            const std::size_t a = sheet_of(pair.first);
+            const std::size_t b = sheet_of(pair.second);
+            return a != b && clusters[a] == clusters[b];
         });
     }
     if (pairs.empty()) {

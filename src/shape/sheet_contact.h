@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "shape/sheet_mesh.h"
@@ -18,13 +16,11 @@ struct SheetContact {
     Vec3 place;              ///< [m]
 };
 
-/// Pairs of sheets that have a part of their rims in common, and so always touch; the smaller index first.
-using SharedRims = std::set<std::pair<std::size_t, std::size_t>>;
-
 /// First place where triangles cross or touch that do not share a vertex: of one sheet, or of two.
 ///
 /// Guarantees: exact; the same input gives the same result at any number of threads.
-/// @param shared  pairs that may touch
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets, const SharedRims& shared = {});
+/// @param clusters  number of every sheet's cluster; different sheets of one cluster may touch. Empty: none may
+std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+                                         const std::vector<std::size_t>& clusters = {});
 
 }  // namespace droplet
