@@ -149,6 +149,9 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
     for (const auto& path : {options.settings.ground.path, options.settings.onto}) {
         parts.push_back(hashOfFile(path));
     }
+    if (const auto& materials = options.settings.materials) {
+        parts.push_back(hashOfFile(materials->path));
+    }
     return fingerprintOf(parts);
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "droplet/error.h"
+#include "droplet/footprint/colour_regions.h"
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"
@@ -336,8 +337,29 @@ void declareFootprint(CommandLine& line)
     line.exclude({"--width", "--pixel-size"});
 }
 
+void declareByColour(CommandLine& line)
+{
+    constexpr const char* kGroup = "Footprint";
+    line.addFlag(
+        kGroup, "--by-colour",
+        "Make one droplet for each region of one colour, in that colour; neighbours share their boundary. Dry is "
+        "what is transparent, else the border's colour if 95 % of the border has it; --channel alpha: only what "
+        "is transparent; --channel luma: the border's most common colour");
+    line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]");
+    line.add(kGroup, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
+    for (const char* other :
+         {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep"}) {
+        if (line.knows(other)) {
+            line.exclude({"--by-colour", other});
+        }
+    }
+}
+
 void declareMaskOut(CommandLine& line)
 {
+    if (line.knows("--by-colour")) {
+        line.exclude({"--by-colour", "--mask-out"});
+    }
     line.add("Footprint", "--mask-out", "FILE", "Write the mask that was used, as PNG; - is standard output");
 }
 
@@ -459,6 +481,28 @@ FootprintOptions readFootprint(const CommandLine& line)
     return options;
 }
 
+std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings)
+{
+    ByColourOptions options;
+    const auto colours = line.value("--colours");
+    if (colours && colours->text != "auto") {
+        options.colours = count(*colours, droplet::kMaxColours, "64, or auto");
+    }
+    const auto gap = line.value("--gap");
+    if (gap) {
+        options.gap = quantity(*gap, kLength);
+    }
+    if (line.flag("--by-colour")) {
+        return options;
+    }
+    for (const auto& given : {colours, gap}) {
+        if (given) {
+            warnings.push_back(given->subject + " has no effect without --by-colour");
+        }
+    }
+    return std::nullopt;
+}
+
 DropletSettings readDroplet(const CommandLine& line)
 {
     DropletSettings settings;
@@ -483,6 +527,17 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     }
     if (const auto unit = line.value("--unit"); unit && !has_unit) {
         warn(*unit, "are in metres");
+    }
+    if (settings.materials && !has_material && !is_shown) {
+        warn({settings.materials->path, "--materials"}, "have no material");
+    }
+    const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
+    if (settings.colour_map && !is_gltf) {
+        settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
+                                    " files have no texture");
+    }
+    if (settings.nodes == droplet::Nodes::Each && !is_gltf) {
+        warn({"each", "--nodes"}, "have no nodes");
     }
 }
 

@@ -13,6 +13,7 @@
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
 #include "droplet/shape/figures.h"
+#include "materials_file.h"
 
 namespace cli {
 
@@ -27,8 +28,15 @@ inline constexpr const char* kUnitsText =
     "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
     "  acceleration m/s2 mm/s2 g\n";
 
+/// Options of droplets by colour.
+struct ByColourOptions {
+    std::optional<std::size_t> colours = {};  ///< number of colours; empty: as many as stand out
+    double gap = 0.0;                         ///< between neighbours [m]
+};
+
 /// Options from the picture to the outline.
 struct FootprintOptions {
+    std::optional<ByColourOptions> by_colour;  ///< replaces the decisions of `mask` but its channel and limits
     droplet::MaskOptions mask;
     droplet::TraceOptions trace;
     bool sized = false;                   ///< whether --width or --pixel-size is given
@@ -42,6 +50,9 @@ struct DropletSettings {
     std::optional<std::string> onto;  ///< path of the wetted object
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
+    std::optional<Materials> materials;  ///< of single droplets, over `material`
+    droplet::Nodes nodes = droplet::Nodes::One;
+    bool colour_map = false;                                     ///< the picture tints the liquid
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< unit in OBJ and STL
     std::vector<std::string> warnings;                           ///< options without effect
 };
@@ -66,6 +77,8 @@ struct RunOptions {
 // Each command declares its groups of options in the order of its help, and reads them after parsing.
 
 void declareFootprint(CommandLine& line);
+/// Declares --by-colour, --colours and --gap.
+void declareByColour(CommandLine& line);
 /// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line);
@@ -79,6 +92,9 @@ void declareRun(CommandLine& line);
 bool isPreviewColour(const std::string& text);
 
 FootprintOptions readFootprint(const CommandLine& line);
+/// Reads the options of declareByColour; nothing without --by-colour.
+/// @param warnings  receives warnings about options without effect
+std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings);
 /// Reads the options of liquid, ground and surface.
 DropletSettings readDroplet(const CommandLine& line);
 RunOptions readRun(const CommandLine& line);

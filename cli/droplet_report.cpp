@@ -65,7 +65,8 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
     report.total = droplet.total;
     for (std::size_t i = 0; i < droplet.meshes.size(); ++i) {
         report.droplets.push_back({droplet.figures[i], droplet.meshes[i].loopCount() - 1,
-                                   droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], settings)});
+                                   droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], settings),
+                                   std::nullopt});
     }
     report.retention = retentionOf(droplet.total, settings);
     const bool one_pressure =

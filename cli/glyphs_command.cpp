@@ -197,6 +197,9 @@ std::string settingsFingerprint(const GlyphsOptions& options)
     }
     const auto& ground = options.shape.settings.ground.path;
     parts.push_back(hashOfFile(ground));
+    if (const auto& materials = options.shape.settings.materials) {
+        parts.push_back(hashOfFile(materials->path));
+    }
     return fingerprintOf(parts);
 }
 

@@ -12,25 +12,9 @@
 #include "droplet/units.h"
 
 namespace cli {
-namespace {
 
 using droplet::Error;
 using droplet::ErrorCode;
-
-/// Area that a mask covers [m²].
-double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
-{
-    const double pixel = droplet::pixelSize(mask, options);
-    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
-}
-
-/// Whether the picture's size is the one that its file states.
-bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint)
-{
-    return mask.physical_width && !footprint.sized && !settings.onto;
-}
-
-}  // namespace
 
 void refuseTooShortEdge(double area, const droplet::DropletOptions& options)
 {
@@ -53,6 +37,17 @@ double coveredArea(const droplet::Outline& outline)
 {
     return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
                            [](double sum, const droplet::Loop& loop) { return sum + droplet::signedArea(loop); });
+}
+
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    const double pixel = droplet::pixelSize(mask, options);
+    return std::accumulate(mask.coverage.begin(), mask.coverage.end(), 0.0) / 65535.0 * pixel * pixel;
+}
+
+bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint)
+{
+    return mask.physical_width && !footprint.sized && !settings.onto;
 }
 
 DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)

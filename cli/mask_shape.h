@@ -21,6 +21,11 @@ void refuseTooShortEdge(double area, const droplet::DropletOptions& options);
 
 /// Area of all footprints [m²].
 double coveredArea(const droplet::Outline& outline);
+/// Area that a mask covers [m²].
+double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& options);
+
+/// Whether the picture's size is the one that its file states.
+bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint);
 
 /// Settings completed by the picture's size, which may depend on an object or on the picture, and by the ground.
 /// @throws droplet::Error  InvalidInput: the picture states a size out of range; InvalidArgument

@@ -86,7 +86,8 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
         render.azimuth = turnOf(options, index);
         render.fit_all_azimuths = true;
     }
-    render.look = droplet::lookOf(subject.material);
+    render.look = subject.look;
+    render.looks = subject.looks;
     render.extent = subject.extent;
     render.ground = subject.ground;
     render.environment = subject.light;

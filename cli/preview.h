@@ -39,7 +39,8 @@ struct PreviewOptions {
 /// Droplet to be shown.
 struct PreviewSubject {
     const droplet::Surface& surface;
-    droplet::Material material;
+    droplet::Look look;
+    std::vector<droplet::Look> looks;            ///< one per droplet; empty: `look` for all
     droplet::Vec2 extent;                        ///< extent of its picture [m]
     std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
     std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read

@@ -4,10 +4,13 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -17,6 +20,8 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/colour_domain.h"
+#include "droplet/footprint/colour_regions.h"
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/page.h"
@@ -97,9 +102,39 @@ void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options
     }
 }
 
+/// Names, looks and figures of the droplets in files. Empty if all are alike and need no names.
+/// @param settings  receives warnings about the file of materials
+/// @param colours   one per droplet, or none
+std::vector<droplet::FileDroplet> fileDroplets(const Droplet& droplet, DropletSettings& settings,
+                                               const std::vector<droplet::CssColour>& colours)
+{
+    std::vector<droplet::FileDroplet> all;
+    if (settings.nodes == droplet::Nodes::One && !settings.materials && colours.empty()) {
+        return all;
+    }
+    std::vector<droplet::Look> looks(droplet.figures.size(), droplet::lookOf(settings.material));
+    for (std::size_t k = 0; k < colours.size(); ++k) {
+        looks[k] = inColour(std::move(looks[k]), colours[k]);
+        looks[k].name = droplet::fileName(colours[k]);
+    }
+    if (settings.materials) {
+        for (std::string& warning : applyMaterials(*settings.materials, looks)) {
+            settings.warnings.push_back(std::move(warning));
+        }
+    }
+    std::map<std::string, std::size_t> counts;
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+        const droplet::ShapeFigures& figures = droplet.figures[k];
+        const std::string kind = colours.empty() ? "droplet" : droplet::fileName(colours[k]);
+        all.push_back({fmt::format("{}_{}", kind, ++counts[kind]), looks[k], figures.volume, figures.contact_angle.mean,
+                       figures.height_max, droplet.solution.droplets[k].pressure});
+    }
+    return all;
+}
+
 /// Writes the page with the droplet as a GLB.
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
-               const droplet::Report& report)
+               const std::vector<droplet::FileDroplet>& droplets, const droplet::Report& report)
 {
     droplet::PageContent page;
     if (report.input.type && report.input.type->text) {
@@ -108,7 +143,8 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
         page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
     }
     std::ostringstream glb;
-    droplet::writeGltf(surface, glb, {true, options.settings.material, report.output.topology.closed});
+    droplet::writeGltf(surface, glb,
+                       {true, options.settings.material, report.output.topology.closed, droplet::Nodes::One, droplets});
     page.glb = std::move(glb).str();
     std::ostringstream json;
     droplet::writeReport(json, report);
@@ -117,10 +153,13 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 }
 
 /// Subject of the preview.
-PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, const Surroundings& around)
+PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, std::vector<droplet::Look> looks,
+                         const Surroundings& around)
 {
-    PreviewSubject subject{droplet.surface, settings.material, droplet.domain.extent,
-                           around.below,    around.light,      around.object};
+    PreviewSubject subject{droplet.surface,  droplet::lookOf(settings.material),
+                           std::move(looks), droplet.domain.extent,
+                           around.below,     around.light,
+                           around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
     subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
@@ -129,9 +168,17 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     return subject;
 }
 
+/// What is written beside the surface.
+struct Extras {
+    std::vector<droplet::FileDroplet> droplets;
+    std::optional<PreviewSubject> subject;
+    std::optional<OutputFile> mask;
+    std::string texture;  ///< bytes of a PNG, or empty
+};
+
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
-void save(Droplet& droplet, const ShapeOptions& options, const std::optional<PreviewSubject>& subject,
-          const std::optional<OutputFile>& mask, StageClock& clock, droplet::Report& report)
+void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
+          droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!hasSliderInPageOnly(options)) {
@@ -142,10 +189,13 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                                                   options.format,
                                                   {.material = options.settings.material,
                                                    .closed = report.output.topology.closed,
-                                                   .unit = options.settings.unit}},
+                                                   .unit = options.settings.unit,
+                                                   .nodes = options.settings.nodes,
+                                                   .droplets = extras.droplets,
+                                                   .texture = extras.texture}},
                                                  report.output.bytes);
-    if (mask) {
-        files.push_back(*mask);
+    if (extras.mask) {
+        files.push_back(*extras.mask);
     }
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
@@ -158,11 +208,11 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                              if (refill) {
                                  droplet.surface.refill.swap(refill);
                              }
-                             writeHtml(out, droplet.surface, options, report);
+                             writeHtml(out, droplet.surface, options, extras.droplets, report);
                          }});
     }
-    if (subject) {
-        for (OutputFile& file : previewFiles(*options.preview, *subject)) {
+    if (extras.subject) {
+        for (OutputFile& file : previewFiles(*options.preview, *extras.subject)) {
             files.push_back(std::move(file));
         }
     }
@@ -193,31 +243,48 @@ struct Stages {
     }
 };
 
+/// What is known of the picture after the droplets are made.
+struct Source {
+    droplet::InputReport input;
+    std::vector<droplet::CssColour> colours = {};  ///< one per droplet, or none
+    std::optional<OutputFile> mask = {};
+    std::string texture = {};  ///< as in Extras
+};
+
 /// Places a droplet on its object, writes its files, and returns the report.
-droplet::Report finish(Droplet droplet, const DropletSettings& settings, const droplet::InputReport& input,
-                       const Surroundings& around, const ShapeOptions& options, Stages& stages,
-                       const std::optional<OutputFile>& mask = std::nullopt)
+droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& source, const Surroundings& around,
+                       const ShapeOptions& options, Stages& stages)
 {
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
+    Extras extras{fileDroplets(droplet, settings, source.colours), {}, source.mask, source.texture};
     droplet::Report report = describe(droplet, settings);
     report.fill_range = options.settings.droplet.fill_range;
-    report.input = input;
+    report.input = source.input;
+    for (std::size_t k = 0; k < source.colours.size(); ++k) {
+        report.droplets[k].colour = source.colours[k];
+    }
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.onto = onto;
-    std::optional<PreviewSubject> subject;
     if (options.preview) {
-        subject.emplace(subjectOf(droplet, settings, around));
+        extras.subject.emplace(subjectOf(droplet, settings, droplet::looksOf(extras.droplets), around));
     }
-    save(droplet, options, subject, mask, stages.clock, report);
+    save(droplet, options, extras, stages.clock, report);
     return report;
 }
 
-droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
-                     Stages& stages)
+std::string pngOf(const droplet::Picture& picture)
+{
+    std::ostringstream png;
+    droplet::writePng(picture, png);
+    return std::move(png).str();
+}
+
+droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
+                             Stages& stages)
 {
     droplet::MaskOptions mask_options = options.footprint.mask;
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
@@ -227,6 +294,10 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
         mask_options.vector_long_side = *side;
         mask = forInput(options, decode);
         settings = completeSettings(mask, around, options);
+    }
+    std::string texture;
+    if (settings.colour_map) {
+        texture = forInput(options, [&] { return pngOf(droplet::decodePicture(picture)); });
     }
     picture = {};
     addPageSlider(settings.droplet, options);
@@ -240,7 +311,116 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
         mask_file = {*options.footprint.mask_out,
                      [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
     }
-    return finish(std::move(made.droplet), settings, made.input, around, options, stages, mask_file);
+    return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, texture}, around, options, stages);
+}
+
+/// Mask of all liquid, without the places of its rims within pixels.
+droplet::Mask maskOf(const droplet::ColourRegions& regions)
+{
+    droplet::Mask mask;
+    mask.width = regions.width;
+    mask.height = regions.height;
+    mask.raster_scale = regions.raster_scale;
+    mask.physical_width = regions.physical_width;
+    for (const std::uint8_t label : regions.label) {
+        mask.coverage.push_back(label == 0 ? 0 : std::numeric_limits<std::uint16_t>::max());
+    }
+    return mask;
+}
+
+/// Edge of the triangles on a footprint [m].
+double triangleEdge(double area, const droplet::TriangulateOptions& mesh)
+{
+    return mesh.edge.value_or(std::sqrt(4.0 / std::sqrt(3.0) * area / static_cast<double>(mesh.triangles)));
+}
+
+/// Warnings of droplets by colour.
+std::vector<std::string> colourWarnings(const droplet::ColourRegions& regions, const droplet::ColourDomain& traced,
+                                        const ByColourOptions& options)
+{
+    std::vector<std::string> warnings;
+    if (options.colours && regions.palette.size() < *options.colours) {
+        warnings.push_back(fmt::format("--colours: the picture has only {} that stand out", regions.palette.size()));
+    }
+    for (const std::size_t lost : traced.lost) {
+        warnings.push_back(fmt::format("the colour {} has no droplet: its regions are too small",
+                                       droplet::text(regions.palette[lost].colour)));
+    }
+    return warnings;
+}
+
+/// Describes a picture that was divided by colour.
+droplet::InputReport describeInput(const droplet::ColourRegions& regions, const droplet::ColourDomain& traced,
+                                   const ShapeOptions& options)
+{
+    droplet::InputReport input;
+    input.path = options.input;
+    input.width_px = regions.width;
+    input.height_px = regions.height;
+    input.drawn = regions.raster_scale.has_value();
+    input.pixel_size = traced.pixel_size;
+    input.channel = regions.alpha.empty() ? droplet::Channel::Luma : droplet::Channel::Alpha;
+    input.segment = droplet::Segmentation::Colour;
+    input.anti_aliased = traced.anti_aliased;
+    input.specks_dropped = traced.specks_dropped;
+    input.largest_speck_px = traced.largest_speck_px;
+    input.palette = regions.palette;
+    input.background = regions.background;
+    return input;
+}
+
+/// Makes droplets from the regions of one colour.
+droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
+                             Stages& stages)
+{
+    const ByColourOptions& by_colour = *options.footprint.by_colour;
+    droplet::ColourOptions colour_options;
+    colour_options.colours = by_colour.colours;
+    colour_options.channel = options.footprint.mask.channel;
+    const auto decode = [&] { return droplet::decodeColours(picture, colour_options); };
+    droplet::ColourRegions regions = forInput(options, decode);
+    droplet::Mask mask = maskOf(regions);
+    DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
+    if (const auto side = finerSide(mask, settings.droplet)) {
+        colour_options.vector_long_side = *side;
+        regions = forInput(options, decode);
+        mask = maskOf(regions);
+        settings = completeSettings(mask, around, options);
+    }
+    picture = {};
+    const double area = coveredArea(mask, settings.droplet.trace);
+    refuseTooShortEdge(area, settings.droplet);
+    addPageSlider(settings.droplet, options);
+    stages.begin(Stage::Trace);
+    droplet::ColourDomain traced = forInput(options, [&] {
+        return droplet::traceColours(
+            regions, {settings.droplet.trace, by_colour.gap, triangleEdge(area, settings.droplet.mesh)});
+    });
+    Source source{describeInput(regions, traced, options)};
+    source.input.own_size = takesOwnSize(mask, settings, options.footprint);
+    for (const std::size_t colour : traced.colour) {
+        source.colours.push_back(regions.palette[colour].colour);
+    }
+    Droplet droplet = forInput(options, [&] {
+        return droplet::makeDroplet(std::move(traced.domain), settings.droplet,
+                                    [&](Stage stage) { stages.begin(stage); });
+    });
+    std::vector<std::string> warnings = colourWarnings(regions, traced, by_colour);
+    const bool leans = std::any_of(droplet.figures.begin(), droplet.figures.end(),
+                                   [](const droplet::ShapeFigures& figures) { return figures.overhang > 0.0; });
+    if (leans && by_colour.gap == 0.0 && droplet.figures.size() > 1) {
+        warnings.emplace_back(
+            "droplets hang over their rims, and may overlap their neighbours; use --gap, or ask for less liquid");
+    }
+    settings.warnings.insert(settings.warnings.begin(), warnings.begin(), warnings.end());
+    return finish(std::move(droplet), settings, source, around, options, stages);
+}
+
+droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
+                     Stages& stages)
+{
+    return options.footprint.by_colour ? makeByColour(options, around, std::move(picture), stages)
+                                       : makeFromMask(options, around, std::move(picture), stages);
 }
 
 void printSummary(const droplet::Report& report, const RunOptions& run)
@@ -312,7 +492,7 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     footprint.input.specks_dropped = footprint.outline.specks_dropped;
     Droplet droplet =
         droplet::makeDroplet(std::move(footprint.outline), settings.droplet, [&](Stage stage) { stages.begin(stage); });
-    return finish(std::move(droplet), settings, footprint.input, around, options, stages);
+    return finish(std::move(droplet), settings, {footprint.input}, around, options, stages);
 }
 
 void checkShape(const ShapeOptions& options, const std::string& input_name)
@@ -347,6 +527,9 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
     }
     if (options.settings.onto) {
         inputs.push_back({"--onto", *options.settings.onto});
+    }
+    if (options.settings.materials) {
+        inputs.push_back({"--materials", options.settings.materials->path});
     }
     if (const auto picture = groundPicture(options)) {
         inputs.push_back({"--ground", *picture});

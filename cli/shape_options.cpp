@@ -36,6 +36,7 @@ const CommandText& commandText()
             "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
             "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
             "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+            "  droplet-shape flag.svg flag.glb --by-colour --nodes each\n"
             "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
             "  droplet-shape - - --format stl < logo.png > logo.stl\n"
             "  droplet-shape logo.png logo.glb --watch\n"
@@ -160,6 +161,11 @@ void declareDroplets(CommandLine& line)
     declareSurface(line);
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
+    line.add("Surface", "--nodes", "one|each",
+             "Nodes in glTF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its figures "
+             "[one]");
+    line.add("Surface", "--materials", "FILE",
+             "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
              "takes the linear model unless --model exact is given");
@@ -168,7 +174,10 @@ void declareDroplets(CommandLine& line)
 void declareShapes(CommandLine& line)
 {
     declareFootprint(line);
+    declareByColour(line);
     declareDroplets(line);
+    line.addFlag("Surface", "--colour-map", "Lay the picture on the liquid, as a tint in glTF");
+    line.exclude({"--by-colour", "--colour-map"});
 }
 
 void declareHtml(CommandLine& line)
@@ -191,7 +200,15 @@ std::optional<std::string> readHtml(const CommandLine& line)
 ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject)
 {
     options.settings = readDroplet(line);
+    options.settings.colour_map = line.knows("--colour-map") && line.flag("--colour-map");
     options.run = readRun(line);
+    if (const auto nodes = line.value("--nodes")) {
+        options.settings.nodes =
+            choice<droplet::Nodes>(*nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}});
+    }
+    if (const auto materials = line.value("--materials")) {
+        options.settings.materials = readMaterials(materials->text);
+    }
     readFormat(line, subject, options);
     readFillRange(line, options);
     return options;
@@ -201,6 +218,7 @@ ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std
 {
     options = readDroplets(line, std::move(options), subject);
     options.footprint = readFootprint(line);
+    options.footprint.by_colour = readByColour(line, options.settings.warnings);
     return options;
 }
 

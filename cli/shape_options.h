@@ -11,7 +11,8 @@
 
 namespace cli {
 
-/// Options for making one droplet. All values are in range; no file but the configuration file has been read.
+/// Options for making one droplet. All values are in range; no file but those of --config and --materials has been
+/// read.
 struct ShapeOptions {
     std::string input;                   ///< path or kStandardStream
     std::string output;                  ///< path or kStandardStream
@@ -33,7 +34,8 @@ void declareHtml(CommandLine& line);
 /// @throws droplet::Error InvalidArgument if the program was built without the page
 std::optional<std::string> readHtml(const CommandLine& line);
 
-/// Declares the options of every command that makes droplets: liquid, ground and surface, --format and --fill-range.
+/// Declares the options of every command that makes droplets: liquid, ground and surface, --format, --nodes,
+/// --materials and --fill-range.
 void declareDroplets(CommandLine& line);
 
 /// Reads the options of declareDroplets and of the run.

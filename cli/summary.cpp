@@ -67,17 +67,20 @@ std::string line(const std::string& label, const std::string& text)
 std::string picture(const droplet::InputReport& input)
 {
     const bool alpha = input.channel == droplet::Channel::Alpha;
-    const std::string liquid = input.segment == droplet::Segmentation::Colour ? "one colour"
+    const std::string liquid = !input.palette.empty() ? counted(input.palette.size(), "colour")
+                               : input.segment == droplet::Segmentation::Colour ? "one colour"
                                : alpha ? (input.inverted ? "transparent" : "opaque")
                                        : (input.inverted ? "dark" : "bright");
     const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +
                              (input.own_size ? " as it states" : "") + ", drawn with ";
-    std::string text = fmt::format("{}{} × {} pixels of {}; {} is liquid ({}), {} edges", input.drawn ? page : "",
-                                   input.width_px, input.height_px, millimetres(input.pixel_size), liquid,
-                                   input.segment == droplet::Segmentation::Colour ? "--colour"
-                                   : alpha                                        ? "alpha"
-                                                                                  : "luma",
-                                   input.anti_aliased ? "anti-aliased" : "hard");
+    std::string text =
+        fmt::format("{}{} × {} pixels of {}; {} {} liquid ({}), {} edges", input.drawn ? page : "", input.width_px,
+                    input.height_px, millimetres(input.pixel_size), liquid, input.palette.size() > 1 ? "are" : "is",
+                    !input.palette.empty()                           ? "--by-colour"
+                    : input.segment == droplet::Segmentation::Colour ? "--colour"
+                    : alpha                                          ? "alpha"
+                                                                     : "luma",
+                    input.anti_aliased ? "anti-aliased" : "hard");
     if (input.specks_dropped > 0) {
         text += "; " + counted(input.specks_dropped, "speck") + " dropped, the largest of " +
                 digits(input.largest_speck_px, 3) + " pixels";

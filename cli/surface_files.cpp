@@ -26,9 +26,11 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
                          bytes = droplet::writeSurface(surface, out, target.format, target.options);
                      }});
     if (material_file) {
-        files.push_back({*material_file, [material = target.options.material](std::ostream& out) {
-                             droplet::writeMtl(material, out);
-                         }});
+        std::vector<droplet::Look> looks = droplet::looksOf(target.options.droplets);
+        if (looks.empty()) {
+            looks.push_back(droplet::lookOf(target.options.material));
+        }
+        files.push_back({*material_file, [looks](std::ostream& out) { droplet::writeMtl(looks, out); }});
     }
     return files;
 }

@@ -157,6 +157,7 @@ Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const Loft
     if (shapes.sheets.empty()) {
         return loft(droplet.meshes, shapes.solution.droplets, options);
     }
+    std::vector<std::size_t> flat;  // numbers of the droplets that are height fields
     LoftOptions some = options;
     some.bases.clear();
     std::vector<PlanarMesh> meshes;
@@ -169,8 +170,14 @@ Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const Loft
             if (!options.bases.empty() && sameRim(options.bases[k], shapes.sheets[k]->footprint)) {
                 own.bases.push_back(options.bases[k]);
             }
-            append(sheets, loft(*shapes.sheets[k], own));
+            Surface sheet = loft(*shapes.sheets[k], own);
+            SurfacePart& part = sheet.parts.front();
+            part.droplet = k;
+            part.volume = droplet.figures[k].volume;
+            part.area = droplet.figures[k].footprint_area - droplet.figures[k].dry_area;
+            append(sheets, sheet);
         } else {
+            flat.push_back(k);
             meshes.push_back(droplet.meshes[k]);
             fields.push_back(shapes.solution.droplets[k]);
             if (!options.bases.empty()) {
@@ -179,6 +186,9 @@ Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const Loft
         }
     }
     Surface surface = meshes.empty() ? Surface{} : loft(meshes, fields, some);
+    for (SurfacePart& part : surface.parts) {
+        part.droplet = flat[part.droplet];
+    }
     append(surface, sheets);
     surface.mean_height = droplet.total.volume / (droplet.total.footprint_area - droplet.total.dry_area);
     return surface;
@@ -374,9 +384,17 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
 Droplet makeDroplet(Outline outline, const DropletOptions& options, const Progress& progress)
 {
     validateStages(options);
-    Droplet droplet;
+    Domain domain = split(outline);
+    Droplet droplet = makeDroplet(std::move(domain), options, progress);
     droplet.outline = std::move(outline);
-    droplet.domain = split(droplet.outline);
+    return droplet;
+}
+
+Droplet makeDroplet(Domain domain, const DropletOptions& options, const Progress& progress)
+{
+    validateStages(options);
+    Droplet droplet;
+    droplet.domain = std::move(domain);
     if (progress) {
         progress(Stage::Triangulate);
     }

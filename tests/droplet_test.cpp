@@ -10,15 +10,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/colour_domain.h"
 #include "droplet/io/output.h"
 #include "droplet/units.h"
+#include "support/colour_pictures.h"
 #include "support/masks.h"
 #include "support/sound.h"
 
@@ -859,6 +863,48 @@ TEST(Droplet, IsTheSameEveryTimeAtAnyNumberOfThreads)
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         EXPECT_TRUE(bytes == glb(makeDroplet(mask, plain()))) << threads;
     }
+}
+
+// The rims of neighbours have the points of their common boundary, bit for bit; so their meshes meet without a gap.
+TEST(DropletsByColour, MeetAtCommonVertices)
+{
+    const std::string picture = testing::pie(120, 50.0);
+    ColourTraceOptions tracing;
+    tracing.edge = 0.3e-3;
+    const ColourDomain traced = traceColours(decodeColours(std::as_bytes(std::span(picture))), tracing);
+    DropletOptions options;
+    options.mesh.edge = tracing.edge;
+    const Droplet droplet = makeDroplet(traced.domain, options);
+    ASSERT_EQ(droplet.meshes.size(), 3U);
+    std::map<std::pair<double, double>, std::size_t> points;
+    for (const Footprint& footprint : traced.domain.droplets) {
+        for (const Vec2 p : footprint.rim.points) {
+            ++points[{p.x, p.y}];
+        }
+    }
+    std::map<std::pair<double, double>, std::size_t> vertices;
+    for (const PlanarMesh& mesh : droplet.meshes) {
+        for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
+            ++vertices[{mesh.vertices[v].x, mesh.vertices[v].y}];
+        }
+    }
+    std::size_t shared = 0;
+    for (const auto& [point, count] : points) {
+        if (count > 1) {
+            EXPECT_EQ(vertices[point], count);
+            ++shared;
+        }
+    }
+    EXPECT_GT(shared, 60U) << "three radii of 8 mm";
+    double meshed = 0.0;
+    double wanted = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        meshed += area(droplet.meshes[k]);
+        wanted += area(traced.domain.droplets[k]);
+    }
+    EXPECT_NEAR(meshed, wanted, 1e-5 * wanted);
+    EXPECT_TRUE(isClosed(droplet.surface));
+    EXPECT_EQ(topology(droplet.surface).components, 3U);
 }
 
 }  // namespace

@@ -14,17 +14,18 @@ _droplet_shape()
     local options choices= files=
     case $command in
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
-        batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --colour-map --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
         flow) options='--preset --scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --streaks --maps --map-width --droplets --json --preview --view --camera --preview-size --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
-        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --width --look --line-width --masks --codec --quality --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         morph) options='--text --font --frames --particle-count --rounding --mask-width --look --quality --volume-mode --fps --contact-sheet --preview --view --camera --preview-size --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --html --json --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        studio) options='--no-clobber --help' ;;
         wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
         windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --droplets --moving-only --model --model-animation --json --resume --no-clobber --threads --quiet --config --help --version' ;;
-        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --fill-range --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --colour-map --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
-    [[ ' animate batch compare flow glyphs liquid2d morph wind-tunnel windshield ' == *" $command "* ]] || command=
+    [[ ' animate batch compare flow glyphs liquid2d morph studio wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
         *:--width) return ;;
         *:--pixel-size) return ;;
@@ -37,6 +38,8 @@ _droplet_shape()
         *:--fill-holes) return ;;
         *:--keep) return ;;
         *:--speck-size) return ;;
+        *:--colours) choices='auto' ;;
+        *:--gap) return ;;
         *:--mask-out) files=1 ;;
         *:--contact-angle) return ;;
         *:--on) choices='glass ptfe wax lotus' ;;
@@ -64,6 +67,8 @@ _droplet_shape()
         *:--material) choices='water ink mercury honey plain' ;;
         *:--unit) choices='m cm mm' ;;
         *:--format) choices='glb gltf obj ply stl' ;;
+        *:--nodes) choices='one each' ;;
+        *:--materials) files=1 ;;
         *:--fill-range) return ;;
         *:--preview) files=1 ;;
         *:--view) choices='three-quarter top side' ;;
@@ -213,7 +218,7 @@ _droplet_shape()
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         if ((COMP_CWORD == 1)); then
-            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs liquid2d morph wind-tunnel windshield' -- "$word")
+            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs liquid2d morph studio wind-tunnel windshield' -- "$word")
         fi
     fi
 }

@@ -36,7 +36,7 @@ struct DropletOptions {
 
 /// Results of all stages.
 struct Droplet {
-    Outline outline;                 ///< rims of the mask
+    Outline outline;                 ///< rims of the mask; empty if the droplets were made from a domain
     Domain domain;                   ///< footprints
     std::vector<PlanarMesh> meshes;  ///< one per droplet
     Solution solution;               ///< height fields
@@ -64,5 +64,12 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options = {}, const 
 /// @throws Error    InvalidInput: no loop encloses liquid; InvalidArgument: options, crossing loops; NoSuchDroplet: the
 ///                  solver failed
 Droplet makeDroplet(Outline outline, const DropletOptions& options = {}, const Progress& progress = {});
+
+/// Runs the stages after splitting: triangulate, solve, measure, loft.
+/// @param domain    footprints; those of different droplets may have a boundary in common, as from traceColours
+/// @param options   options of all stages; trace is not used
+/// @param progress  called at the start of every stage but Trace; may be empty
+/// @throws Error    InvalidArgument: options, crossing loops; NoSuchDroplet: the solver failed
+Droplet makeDroplet(Domain domain, const DropletOptions& options = {}, const Progress& progress = {});
 
 }  // namespace droplet

@@ -45,6 +45,14 @@ def _member(type_name: str, value: Any) -> Any:
 
 
 @dataclass(frozen=True)
+class ReportPalette(_Report):
+    """ReportPalette of a report."""
+
+    colour: str  # sRGB, as #rrggbb
+    pixels: int  # Number of its pixels
+
+
+@dataclass(frozen=True)
 class ReportType(_Report):
     """ReportType of a report."""
 
@@ -80,6 +88,8 @@ class ReportInput(_Report):
     anti_aliased: bool | None  # Whether rims have fractional coverage
     specks_dropped: int  # Number of spots and holes that were dropped
     largest_speck_px2: float | None  # Area of the largest of them
+    palette: tuple[ReportPalette, ...] | None
+    background: str | None
     type: ReportType | None
 
 
@@ -240,6 +250,7 @@ class ReportDroplet(_Report):
     would_slide: bool | None  # Whether it would slide
     driving_force_n: float | None  # Weight along the slope
     retention_force_n: float | None  # Largest force that the rim holds
+    colour: str | None  # Colour of its region, as #rrggbb; null unless droplets are made by colour
 
 
 @dataclass(frozen=True)

@@ -499,11 +499,21 @@ private:
                 replaced[k] = 1;
             }
         }
+        const auto slot = [&](std::size_t k) { return End{loop.slots[k].point(), id, k, false}; };
+        std::vector<Piece> pieces;
         for (std::size_t k = 0; k < n; ++k) {
-            const std::size_t next = (k + 1) % n;
-            const Piece piece{{loop.slots[k].point(), id, k, false}, {loop.slots[next].point(), id, next, false}};
+            if (k + 1 < n || !loop.ends) {
+                pieces.push_back({slot(k), slot((k + 1) % n)});
+            }
+        }
+        if (loop.ends) {
+            pieces.push_back({slot(n - 1), {(*loop.ends)[1], id, n, false}});
+            pieces.push_back({{(*loop.ends)[0], id, n + 1, false}, slot(0)});
+        }
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const Piece& piece = pieces[k];
             const auto there = pieces_.find(cellOf(0.5 * (piece.from.at + piece.to.at)));
-            if (replaced[k] == 0 && there != pieces_.end()) {
+            if ((k >= n || replaced[k] == 0) && there != pieces_.end()) {
                 there->second.push_back(piece);
             }
         }

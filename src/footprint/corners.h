@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -63,6 +64,8 @@ std::optional<Corner> findCorner(const SlotLoop& loop, const std::vector<std::ui
 struct CorneredLoop {
     SlotLoop slots;
     std::vector<Corner> corners;
+    std::optional<std::array<Vec2, 2>> ends = {};  ///< of a loop that is open: the points before its first and after
+                                                   ///< its last slot
 };
 
 /// Removes every corner that touches another piece of rim, of its own loop or of another one. Without corners, no two

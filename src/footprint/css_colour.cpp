@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Names and values: CSS Color Module Level 4, section 6.1.
+// Names and values: CSS Color Module Level 4, section 6.1. Linear light: IEC 61966-2-1.
 #include "droplet/footprint/css_colour.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "droplet/error.h"
@@ -93,6 +94,22 @@ CssColour parseCssColour(std::string_view text)
 std::string text(const CssColour& colour)
 {
     return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue);
+}
+
+std::string fileName(const CssColour& colour)
+{
+    const auto* const found =
+        std::find_if(kNames.begin(), kNames.end(), [&](const auto& entry) { return colourOf(entry.second) == colour; });
+    return found == kNames.end() ? text(colour).substr(1) : std::string(found->first);
+}
+
+Vec3 linearLight(const CssColour& colour)
+{
+    const auto light = [](std::uint8_t level) {
+        const double share = level / 255.0;
+        return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+    };
+    return {light(colour.red), light(colour.green), light(colour.blue)};
 }
 
 }  // namespace droplet

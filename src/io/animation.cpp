@@ -336,7 +336,7 @@ void AnimationOptions::validate() const
 Animation::Animation(const AnimationOptions& options) : content_(std::make_unique<Content>())
 {
     options.validate();
-    makeMaterial(options.material, 0.0, options.closed);
+    lookOf(options.material);  // throws if there is no such material
     content_->options = options;
 }
 

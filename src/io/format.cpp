@@ -4,6 +4,7 @@
 #include <ostream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "droplet/error.h"
 #include "droplet/io/gltf.h"
@@ -28,6 +29,16 @@ constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
 }
 
 }  // namespace
+
+std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets)
+{
+    std::vector<Look> looks;
+    looks.reserve(droplets.size());
+    for (const FileDroplet& droplet : droplets) {
+        looks.push_back(droplet.look);
+    }
+    return looks;
+}
 
 Format formatNamed(std::string_view name)
 {
@@ -60,10 +71,13 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
+            return writeGltf(
+                surface, out,
+                {format == Format::Glb, options.material, closed, options.nodes, options.droplets, options.texture});
         }
         case Format::Obj:
-            return writeObj(surface, out, {options.unit, options.material, options.material_file});
+            return writeObj(surface, out,
+                            {options.unit, options.material, options.material_file, looksOf(options.droplets)});
         case Format::Ply:
             return writePly(surface, out);
         case Format::Stl:

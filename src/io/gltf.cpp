@@ -5,9 +5,12 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -24,8 +27,22 @@
 namespace droplet {
 namespace {
 
-// Upper bound of the JSON's length without the buffer: fewer than 60 numbers and names of fewer than 60 characters.
+// Upper bound of the JSON's length without the buffer, for each piece of the surface: fewer than 60 numbers and names
+// of fewer than 60 characters.
 constexpr std::uint64_t kJsonBound = 4096;
+
+/// Part of a surface that becomes a primitive.
+struct Piece {
+    const Surface* surface = nullptr;
+    Look look;
+    std::optional<FileDroplet> droplet = {};  ///< with Nodes::Each
+};
+
+/// Pieces of a surface; copies are made only where there are several.
+struct Pieces {
+    std::vector<Surface> copies;
+    std::vector<Piece> all;
+};
 
 const std::vector<RefillState>& statesOf(const Surface& surface)
 {
@@ -45,12 +62,13 @@ bool wideIndices(const Surface& surface)
     return surface.positions.size() >= kVerticesBeyond16Bit;
 }
 
-void checkFileSize(const Surface& surface, bool binary)
+void checkFileSize(const Surface& surface, const GltfOptions& options)
 {
     const std::uint64_t index_bytes = wideIndices(surface) ? 4 : 2;
-    const std::uint64_t buffer =
-        vertexBytes(surface) * surface.positions.size() + 3 * index_bytes * surface.triangles.size();
-    const std::uint64_t file = kJsonBound + (binary ? buffer : (buffer + 2) / 3 * 4);
+    const std::uint64_t buffer = vertexBytes(surface) * surface.positions.size() +
+                                 3 * index_bytes * surface.triangles.size() + options.texture.size();
+    const std::uint64_t pieces = std::max<std::uint64_t>(1, options.droplets.size());
+    const std::uint64_t file = pieces * kJsonBound + (options.binary ? buffer : (buffer + 2) / 3 * 4);
     if (file >= kGltfFileLimit) {
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
                                                     " triangles would make a glTF file of " + std::to_string(file) +
@@ -92,19 +110,67 @@ tinygltf::Value refillExtras(const Refill& refill)
     return Value(Value::Object{{"targetNames", Value(names)}, {"fills", Value(fills)}, {"fill_range", range}});
 }
 
-tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
+/// Indices of the surface's parts by the number of their droplet.
+std::vector<std::size_t> partsInOrder(const Surface& surface, std::size_t droplets)
 {
-    if (isDry(surface)) {
-        tinygltf::Model model;
-        model.asset = makeBareModel(options.material, 0.0, options.closed).asset;
-        model.scenes.emplace_back().name = "nothing";
-        model.defaultScene = 0;
-        return model;
+    std::vector<std::size_t> order(surface.parts.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return surface.parts[a].droplet < surface.parts[b].droplet; });
+    if (order.empty() || surface.parts[order.back()].droplet >= droplets) {
+        throw Error(ErrorCode::InvalidArgument, "options.droplets has " + std::to_string(droplets) +
+                                                    " entries; the surface must have parts, for these droplets alone");
     }
-    tinygltf::Model model = makeBareModel(options.material, surface.mean_height, options.closed);
+    return order;
+}
+
+Pieces piecesOf(const Surface& surface, const GltfOptions& options)
+{
+    if (options.nodes == Nodes::Each && options.droplets.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "options.droplets is empty; Nodes::Each needs one for every droplet");
+    }
+    if (isDry(surface)) {
+        return {};
+    }
+    if (options.droplets.empty()) {
+        return {{}, {{&surface, lookOf(options.material)}}};
+    }
+    std::vector<std::vector<std::size_t>> groups;
+    Pieces pieces;
+    for (const std::size_t k : partsInOrder(surface, options.droplets.size())) {
+        const FileDroplet& droplet = options.droplets[surface.parts[k].droplet];
+        const auto same = options.nodes == Nodes::Each
+                              ? pieces.all.end()
+                              : std::find_if(pieces.all.begin(), pieces.all.end(),
+                                             [&](const Piece& piece) { return piece.look == droplet.look; });
+        if (same != pieces.all.end()) {
+            groups[static_cast<std::size_t>(same - pieces.all.begin())].push_back(k);
+            continue;
+        }
+        groups.push_back({k});
+        Piece& piece = pieces.all.emplace_back();
+        piece.look = droplet.look;
+        if (options.nodes == Nodes::Each) {
+            piece.droplet = droplet;
+        }
+    }
+    if (groups.size() == 1) {
+        pieces.all.front().surface = &surface;
+        return pieces;
+    }
+    pieces.copies.reserve(groups.size());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        pieces.all[i].surface = &pieces.copies.emplace_back(extract(surface, groups[i]));
+    }
+    return pieces;
+}
+
+tinygltf::Primitive addPrimitive(tinygltf::Model& model, const Piece& piece, bool closed)
+{
+    const Surface& surface = *piece.surface;
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
+    primitive.material = addMaterial(model, piece.look, surface.mean_height, closed);
     const std::size_t vertices = surface.positions.size();
     primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
     addBounds(model.accessors.back(), surface.positions);
@@ -120,30 +186,95 @@ tinygltf::Model makeModel(const Surface& surface, const GltfOptions& options)
         target["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, vertices);
     }
     primitive.indices = addIndices(model, surface.triangles.size(), vertices);
+    return primitive;
+}
 
+tinygltf::Value figuresOf(const FileDroplet& droplet)
+{
+    using tinygltf::Value;
+    return Value(Value::Object{{"volume_m3", Value(droplet.volume)},
+                               {"contact_angle_deg", Value(droplet.contact_angle / kDegree)},
+                               {"height_max_m", Value(droplet.height_max)},
+                               {"pressure_pa", Value(droplet.pressure)}});
+}
+
+/// Adds a mesh of primitives, and its node, to a model and its scene.
+/// @param droplet  name and figures of the node; empty: of all droplets
+void addNode(tinygltf::Model& model, std::vector<tinygltf::Primitive> primitives, const Surface& surface,
+             const std::optional<FileDroplet>& droplet)
+{
     tinygltf::Mesh mesh;
-    mesh.name = "droplet";
-    mesh.primitives.push_back(std::move(primitive));
+    mesh.name = droplet ? droplet->name : "droplet";
+    mesh.primitives = std::move(primitives);
     if (surface.refill) {
         mesh.weights.assign(surface.refill->states.size(), 0.0);
         mesh.extras = refillExtras(*surface.refill);
     }
-    model.meshes.push_back(std::move(mesh));
     tinygltf::Node node;
-    node.name = "droplet";
-    node.mesh = 0;
+    node.name = mesh.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    if (droplet) {
+        node.extras = figuresOf(*droplet);
+    }
+    model.meshes.push_back(std::move(mesh));
+    model.scenes.front().nodes.push_back(static_cast<int>(model.nodes.size()));
     model.nodes.push_back(std::move(node));
-    tinygltf::Scene scene;
-    scene.nodes.push_back(0);
-    model.scenes.push_back(std::move(scene));
+}
+
+/// Adds a picture at the end of the buffer, as the base colour of all materials.
+void addTexture(tinygltf::Model& model, std::size_t bytes)
+{
+    addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, bytes);
+    model.accessors.pop_back();  // pictures have a view, but no accessor
+    tinygltf::Image image;
+    image.name = "picture";
+    image.mimeType = "image/png";
+    image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    model.images.push_back(std::move(image));
+    tinygltf::Sampler sampler;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    model.samplers.push_back(sampler);
+    tinygltf::Texture texture;
+    texture.sampler = 0;
+    texture.source = 0;
+    model.textures.push_back(std::move(texture));
+    for (tinygltf::Material& material : model.materials) {
+        material.pbrMetallicRoughness.baseColorTexture.index = 0;
+    }
+}
+
+tinygltf::Model makeModel(const Surface& surface, const Pieces& pieces, const GltfOptions& options)
+{
+    tinygltf::Model model = makeEmptyModel();
+    tinygltf::Scene& scene = model.scenes.emplace_back();
     model.defaultScene = 0;
+    if (pieces.all.empty()) {
+        scene.name = "nothing";
+        return model;
+    }
+    std::vector<tinygltf::Primitive> primitives;
+    for (const Piece& piece : pieces.all) {
+        primitives.push_back(addPrimitive(model, piece, options.closed));
+        if (piece.droplet) {
+            addNode(model, std::exchange(primitives, {}), *piece.surface, piece.droplet);
+        }
+    }
+    if (!primitives.empty()) {
+        addNode(model, std::move(primitives), surface, {});
+    }
+    if (!options.texture.empty()) {
+        addTexture(model, options.texture.size());
+    }
     return model;
 }
 
 // Positions are rounded to half an ulp of float: for a 20 mm droplet 0.5 nm, a ten-thousandth of an edge of the finest
 // mesh that fits into a file. If rounding merges vertices the mesh stays closed, since faces use indices and welded
 // copies round alike. Normals are stored, so degenerate triangles need none.
-void writeBuffer(const Surface& surface, ByteStream& bytes)
+void writePiece(const Surface& surface, ByteStream& bytes)
 {
     writeVectors(surface.positions, bytes);
     writeVectors(surface.normals, bytes);
@@ -158,6 +289,24 @@ void writeBuffer(const Surface& surface, ByteStream& bytes)
         writeVectors(state.normals, bytes);
     }
     writeIndices(surface.triangles, surface.positions.size(), bytes);
+}
+
+void writeBuffer(const Pieces& pieces, const std::string& texture, ByteStream& bytes)
+{
+    bool is_whole = true;  // the writer of the file fills the end of the buffer
+    for (const Piece& piece : pieces.all) {
+        if (!is_whole) {
+            bytes.u16(0);
+        }
+        is_whole = wideIndices(*piece.surface) || piece.surface->triangles.size() % 2 == 0;
+        writePiece(*piece.surface, bytes);
+    }
+    if (!pieces.all.empty() && !texture.empty()) {
+        if (!is_whole) {
+            bytes.u16(0);
+        }
+        bytes.text(texture);
+    }
 }
 
 // Base64 encoder: S. Josefsson, RFC 4648 (2006), section 4.
@@ -199,10 +348,10 @@ private:
     int filled_ = 0;
 };
 
-void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream& bytes)
+void writeText(const Pieces& pieces, const tinygltf::Model& model, const std::string& texture, ByteStream& bytes)
 {
     nlohmann::json json = jsonOf(model);
-    if (isDry(surface)) {
+    if (pieces.all.empty()) {
         bytes.text(json.dump(2) + "\n");
         return;
     }
@@ -214,7 +363,7 @@ void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream&
     Base64Buffer base64(bytes);
     std::ostream encoded(&base64);
     ByteStream buffer(encoded);
-    writeBuffer(surface, buffer);
+    writeBuffer(pieces, texture, buffer);
     buffer.finish();
     base64.finish();
     bytes.text(std::string_view(text).substr(buffer_begin));
@@ -225,15 +374,16 @@ void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream&
 
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
-    checkFileSize(surface, options.binary);
+    checkFileSize(surface, options);
     validateUnlessDry(surface);
     checkFloats(surface);
-    const tinygltf::Model model = makeModel(surface, options);
+    const Pieces pieces = piecesOf(surface, options);
+    const tinygltf::Model model = makeModel(surface, pieces, options);
     if (options.binary) {
-        return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(surface, bytes); });
+        return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(pieces, options.texture, bytes); });
     }
     ByteStream bytes(out);
-    writeText(surface, model, bytes);
+    writeText(pieces, model, options.texture, bytes);
     return bytes.finish();
 }
 

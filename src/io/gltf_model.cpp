@@ -28,9 +28,8 @@ constexpr std::size_t padding(std::size_t bytes)
 
 }  // namespace
 
-tinygltf::Material makeMaterial(Material wanted, double thickness, bool closed)
+tinygltf::Material makeMaterial(const Look& look, double thickness, bool closed)
 {
-    const Look look = lookOf(wanted);
     tinygltf::Material material;
     material.name = look.name;
     material.pbrMetallicRoughness.metallicFactor = look.metallic;
@@ -57,15 +56,30 @@ tinygltf::Material makeMaterial(Material wanted, double thickness, bool closed)
     return material;
 }
 
-tinygltf::Model makeBareModel(Material material, double thickness, bool closed)
+int addMaterial(tinygltf::Model& model, const Look& look, double thickness, bool closed)
+{
+    model.materials.push_back(makeMaterial(look, thickness, closed));
+    for (const auto& [extension, value] : model.materials.back().extensions) {
+        std::vector<std::string>& used = model.extensionsUsed;
+        if (std::find(used.begin(), used.end(), extension) == used.end()) {
+            used.push_back(extension);
+        }
+    }
+    return static_cast<int>(model.materials.size()) - 1;
+}
+
+tinygltf::Model makeEmptyModel()
 {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = std::string("droplet-shape ") + kVersion;
-    model.materials.push_back(makeMaterial(material, thickness, closed));
-    for (const auto& [extension, value] : model.materials.front().extensions) {
-        model.extensionsUsed.push_back(extension);
-    }
+    return model;
+}
+
+tinygltf::Model makeBareModel(Material material, double thickness, bool closed)
+{
+    tinygltf::Model model = makeEmptyModel();
+    addMaterial(model, lookOf(material), thickness, closed);
     return model;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "droplet/io/gltf.h"
+#include "droplet/surface/material.h"
 #include "droplet/vector.h"
 #include "io/byte_stream.h"
 
@@ -24,10 +25,16 @@ inline constexpr std::uint64_t kGltfFileLimit = std::uint64_t{1} << 31;
 inline constexpr std::size_t kVerticesBeyond16Bit = 65535;
 
 /// @param thickness  of the liquid under a closed surface, for viewers that do not measure it [m]
-/// @throws Error     InvalidArgument if there is no such material
-tinygltf::Material makeMaterial(Material material, double thickness, bool closed);
+tinygltf::Material makeMaterial(const Look& look, double thickness, bool closed);
+
+/// Adds a material and the extensions it uses to a model; returns its index.
+int addMaterial(tinygltf::Model& model, const Look& look, double thickness, bool closed);
+
+/// Model without content.
+tinygltf::Model makeEmptyModel();
 
 /// Model with one material and the extensions it uses.
+/// @throws Error  InvalidArgument if there is no such material
 tinygltf::Model makeBareModel(Material material, double thickness, bool closed);
 
 std::size_t bufferBytes(const tinygltf::Model& model);

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -92,12 +93,22 @@ std::string signature()
 std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptions& options)
 {
     validateUnlessDry(surface);
+    const std::vector<Look> looks = options.material_file ? options.looks : std::vector<Look>{};
+    if (!looks.empty() && !isDry(surface) &&
+        (surface.parts.empty() || std::any_of(surface.parts.begin(), surface.parts.end(),
+                                              [&](const SurfacePart& part) { return part.droplet >= looks.size(); }))) {
+        throw Error(ErrorCode::InvalidArgument, "options.looks has " + std::to_string(looks.size()) +
+                                                    " entries; the surface must have parts, for these droplets alone");
+    }
     const NamedUnit& unit = namedUnit(options.unit);
     const Welded welded = weldVertices(surface);
     ByteStream bytes(out);
     bytes.text("# " + signature() + "\n# unit: " + std::string(unit.name) + ", up: +Y, front: +Z\n");
     if (options.material_file) {
-        bytes.text("mtllib " + *options.material_file + "\nusemtl " + lookOf(options.material).name + "\n");
+        bytes.text("mtllib " + *options.material_file + "\n");
+        if (looks.empty()) {
+            bytes.text("usemtl " + lookOf(options.material).name + "\n");
+        }
     }
     bytes.text("o droplet\n");
     for (const std::uint32_t i : welded.first) {
@@ -112,9 +123,14 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
         const Vec3 up = yUp(normal);
         writeLine(bytes, "vn", up.x, up.y, up.z);
     }
-    for (const Triangle& triangle : surface.triangles) {
+    auto part = surface.parts.begin();
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (!looks.empty() && part != surface.parts.end() && part->first_triangle == t) {
+            bytes.text("usemtl " + looks[part->droplet].name + "\n");
+            ++part;
+        }
         bytes.u8('f');
-        for (const std::uint32_t vertex : triangle) {
+        for (const std::uint32_t vertex : surface.triangles[t]) {
             const std::uint64_t own = vertex + std::uint64_t{1};
             bytes.u8(' ');
             bytes.digits(welded.number[vertex] + std::uint64_t{1});
@@ -128,19 +144,18 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
     return bytes.finish();
 }
 
-std::uint64_t writeMtl(Material material, std::ostream& out)
+namespace {
+
+void writeLook(const Look& look, ByteStream& bytes)
 {
     // Programs without refraction show the liquid's transparency by its opacity.
     constexpr double kOpacity = 0.35;
     constexpr double kGloss = 1000.0;
-    const Look look = lookOf(material);
     const bool clear = look.transmission > 0.0;
     const double mirror = (look.ior - 1.0) * (look.ior - 1.0) / ((look.ior + 1.0) * (look.ior + 1.0));
     const auto colour = [](const char* key, Vec3 c) { return fmt::format("{} {:g} {:g} {:g}\n", key, c.x, c.y, c.z); };
     const Vec3 specular = look.metallic > 0.0 ? look.colour : mirror * Vec3{1.0, 1.0, 1.0};
-    ByteStream bytes(out);
-    bytes.text("# " + signature() + "\nnewmtl " + look.name + "\n" + colour("Ka", {}) + colour("Kd", look.colour) +
-               colour("Ks", specular));
+    bytes.text("newmtl " + look.name + "\n" + colour("Ka", {}) + colour("Kd", look.colour) + colour("Ks", specular));
     if (clear) {
         bytes.text(colour("Tf", look.colour));
     }
@@ -150,6 +165,24 @@ std::uint64_t writeMtl(Material material, std::ostream& out)
                            : look.metallic > 0.0 ? 3
                                                  : 2,
                            look.roughness, look.metallic));
+}
+
+}  // namespace
+
+std::uint64_t writeMtl(Material material, std::ostream& out)
+{
+    return writeMtl({lookOf(material)}, out);
+}
+
+std::uint64_t writeMtl(const std::vector<Look>& looks, std::ostream& out)
+{
+    ByteStream bytes(out);
+    bytes.text("# " + signature() + "\n");
+    for (auto look = looks.begin(); look != looks.end(); ++look) {
+        if (std::none_of(looks.begin(), look, [&](const Look& earlier) { return earlier.name == look->name; })) {
+            writeLook(*look, bytes);
+        }
+    }
     return bytes.finish();
 }
 

@@ -119,6 +119,23 @@ Json typeSection(const TypeReport& type)
             {"em_m", type.em}};
 }
 
+Json paletteSection(const std::vector<PaletteColour>& palette)
+{
+    if (palette.empty()) {
+        return nullptr;
+    }
+    Json list = Json::array();
+    for (const PaletteColour& entry : palette) {
+        list.push_back({{"colour", text(entry.colour)}, {"pixels", entry.pixels}});
+    }
+    return list;
+}
+
+Json colourOrNull(const std::optional<CssColour>& colour)
+{
+    return colour ? Json(text(*colour)) : Json();
+}
+
 /// Keys that describe a picture; all are null for a font.
 Json inputSection(const InputReport& input)
 {
@@ -139,6 +156,8 @@ Json inputSection(const InputReport& input)
                 {"anti_aliased", nullptr},
                 {"specks_dropped", input.specks_dropped},
                 {"largest_speck_px2", nullptr},
+                {"palette", nullptr},
+                {"background", nullptr},
                 {"type", typeSection(*input.type)}};
     }
     return {{"path", input.path},
@@ -157,6 +176,8 @@ Json inputSection(const InputReport& input)
             {"anti_aliased", input.anti_aliased},
             {"specks_dropped", input.specks_dropped},
             {"largest_speck_px2", input.largest_speck_px},
+            {"palette", paletteSection(input.palette)},
+            {"background", colourOrNull(input.background)},
             {"type", nullptr}};
 }
 
@@ -318,6 +339,7 @@ Json sections(const Report& report)
     json["droplets"] = Json::array();
     for (const DropletReport& droplet : report.droplets) {
         json["droplets"].push_back(dropletRow(droplet));
+        json["droplets"].back()["colour"] = colourOrNull(droplet.colour);
     }
     json["warnings"] = report.warnings;
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {

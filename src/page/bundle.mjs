@@ -1,59 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Bundles the sources beside this file and three.js into one page, as C++: node bundle.mjs SOURCES OUTPUT.cpp
-// Run it in the folder of `npm ci`.
-import { createHash } from 'node:crypto';
+// Bundles the sources beside this file and three.js into one page, as C++: node bundle.mjs SOURCES OUTPUT.cpp [WASM]
+// With the solver as WebAssembly, the page holds Studio, too. Run it in the folder of `npm ci`.
 import { readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { bundleScript, bundleStyle, fill, policyOf, solverElement, threeLicence, withWorker } from './bundling.mjs';
 
-const [sources, output] = process.argv.slice(2);
-const here = process.cwd();
-const esbuild = createRequire(join(here, 'package.json'))('esbuild');
-
-const target = ['es2022'];
-const bundle = await esbuild.build({
-    entryPoints: [join(sources, 'page.js')],
-    absWorkingDir: here,
-    nodePaths: [join(here, 'node_modules')],
-    bundle: true,
-    minify: true,
-    format: 'iife',
-    charset: 'ascii',
-    legalComments: 'none',  // the page's top has three's whole licence
-    logLevel: 'warning',
-    target,
-    write: false,
+const [sources, output, wasm] = process.argv.slice(2);
+const studio = join(sources, '../studio');
+const script = await bundleScript(join(sources, 'page.js'), {
+    ...wasm ? await withWorker(studio) : {},
+    alias: { studio: wasm ? join(studio, 'from_page.js') : join(sources, 'no_studio.js') },
 });
-const script = bundle.outputFiles[0].text.trim();
-const style = (await esbuild.transform(readFileSync(join(sources, 'page.css'), 'utf8'), { loader: 'css', minify: true, target }))
-    .code.trim();
-for (const [name, text] of Object.entries({ script, style })) {
-    if (/<\/(script|style)|<!--|[^\x09\x0a\x20-\x7e]/i.test(text)) {
-        throw new Error(`the page's ${name} must be ASCII without HTML end tags or comments`);
-    }
-}
-
-// The policy allows only exactly these bytes to run, and no network requests.
-const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
-const policy = [
-    "default-src 'none'",
-    `script-src ${hash(script)}`,
-    `style-src ${hash(style)}`,
-    'img-src data: blob:',
-    "base-uri 'none'",
-    "form-action 'none'",
-].join('; ');
-
+const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? [join(studio, 'studio.css')] : []]);
 const filled = {
     style,
     script,
-    policy,
-    three_licence: readFileSync(join(here, 'node_modules/three/LICENSE'), 'utf8').trim(),
+    policy: policyOf(script, style, wasm !== undefined),
+    solver: wasm ? solverElement(wasm) : '',
+    three_licence: threeLicence(),
 };
 // Fills every {{slot}} except those of the single page, which follow in this order.
 const slots = ['title', 'content', 'model'];
-const html = readFileSync(join(sources, 'page.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (slot, name) =>
-    slots.includes(name) ? slot : filled[name] ?? (() => { throw new Error(`nothing for ${slot}`); })());
+const html = fill(readFileSync(join(sources, 'page.html'), 'utf8'), filled, slots);
 const parts = [];
 let rest = html;
 for (const slot of slots) {

@@ -3,7 +3,9 @@ import { complain, download, drawScale, fileStem, find, offerGrounds, tabulate }
 import { extent, length, refilled, rows, sides, volume } from './figures.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { Stage } from './stage.js';
+import { openInStudio } from 'studio';  // bundle.mjs says which file this is
 
+const kStudio = '#studio';
 const root = document.documentElement;
 
 const { title, report } = JSON.parse(find('content').textContent);
@@ -112,7 +114,21 @@ function offerFilm(stage, droplet, still) {
     play(!still);
 }
 
+/** Offers Studio for droplets of a mask: not for films, nor for droplets laid on an object. Back returns to the page. */
+function offerStudio(droplet) {
+    if (openInStudio && report.shape && !report.onto && !droplet.duration && report.ground?.kind !== 'height map') {
+        find('edit').hidden = false;
+        find('edit').addEventListener('click', () => { location.hash = kStudio; });
+        addEventListener('hashchange', () => location.reload());
+    }
+}
+
 async function main() {
+    if (openInStudio && location.hash === kStudio) {
+        addEventListener('hashchange', () => location.reload());
+        await openInStudio(bytes, report, title);
+        return;
+    }
     showReport();
     offerDownload();
     try {
@@ -133,6 +149,7 @@ async function main() {
         offerGrounds(stage);
         offerRefill(stage, droplet, flat);
         offerFilm(stage, droplet, still);
+        offerStudio(droplet);
         find('reset').addEventListener('click', () => stage.reset());
         const panel = find('panel');
         const measure = () => {

@@ -133,7 +133,7 @@ void BaseLight::makeTextures(const Look& look, double mean_height, const std::ve
     }
     const Surface droplet = cap(std::clamp(aspect, 0.1, 1.5));
     const Scene scene(droplet, {});
-    const Medium medium = mediumOf(look, mean_height, radius * scene.scale());
+    const Media media{mediumOf(look, mean_height, radius * scene.scale())};
     // Places in radii instead of the scene's units.
     const auto in_radii = [&](LightMap map) {
         const auto scale = static_cast<float>(scene.scale());
@@ -142,9 +142,9 @@ void BaseLight::makeTextures(const Look& look, double mean_height, const std::ve
         return map;
     };
     for (int k = 0; k < kAngles; ++k) {
-        by_angle_.push_back(in_radii(lightGain(scene, medium, lampAt(k * kStep), kCells, kGrain)));
+        by_angle_.push_back(in_radii(lightGain(scene, media, lampAt(k * kStep), kCells, kGrain)));
     }
-    soft_ = in_radii(lightGain(scene, medium, everywhere(), kCells / 2, kGrain));
+    soft_ = in_radii(lightGain(scene, media, everywhere(), kCells / 2, kGrain));
     margin_ = -soft_.low.x;
 }
 

@@ -17,8 +17,8 @@ constexpr float kOne =
 
 class Gatherer {
 public:
-    Gatherer(const Scene& scene, const Medium& medium, LightMap& map)
-        : scene_(scene), medium_(medium), map_(map), sums_(3 * map.values.size())
+    Gatherer(const Scene& scene, const Media& media, LightMap& map)
+        : scene_(scene), media_(media), map_(map), sums_(3 * map.values.size())
     {
     }
 
@@ -38,9 +38,7 @@ public:
     // Follows a ray that meets liquid.
     void bend(const RayF& ray, const Meeting& meeting, float light)
     {
-        if (medium_.clear) {
-            meetLiquid(ray, meeting, {grey(light), kMin * light, false, 0});
-        }
+        meetLiquid(ray, meeting, {grey(light), kMin * light, false, 0, 0});
     }
 
     // Position in the map of a place on the ground.
@@ -95,6 +93,7 @@ private:
         float min;  // a ray with less light is not followed
         bool inside;
         int meetings;
+        std::uint32_t droplet;  // that the ray is inside of
     };
 
     void follow(const RayF& ray, Way way)
@@ -109,7 +108,7 @@ private:
             return;
         }
         if (way.inside) {
-            way.light = way.light * passed(medium_, meeting.distance);
+            way.light = way.light * passed(media_.of(way.droplet), meeting.distance);
         }
         if (meeting.what == Meeting::What::Ground) {
             add(spot(meeting), way.light);
@@ -120,10 +119,15 @@ private:
 
     void meetLiquid(const RayF& ray, const Meeting& meeting, const Way& way)
     {
+        const std::uint32_t droplet = media_.dropletAt(scene_, meeting);
+        const Medium& medium = media_.of(droplet);
+        if (!medium.clear) {
+            return;
+        }
         const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
-        const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
+        const Interface there = atInterface(ray.direction, normal, way.inside ? medium.ior : 1.0F / medium.ior);
         const auto onward = [&](float share, bool inside) {
-            return Way{share * way.light, way.min, inside, way.meetings + 1};
+            return Way{share * way.light, way.min, inside, way.meetings + 1, droplet};
         };
         follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
         if (there.reflected < 1.0F) {
@@ -137,7 +141,7 @@ private:
     }
 
     const Scene& scene_;
-    const Medium& medium_;
+    const Media& media_;
     LightMap& map_;
     std::vector<std::int64_t> sums_;
 };
@@ -204,6 +208,22 @@ Medium mediumOf(const Look& look, double mean_height, double scale)
     return medium;
 }
 
+Media mediaOf(const Surface& surface, const RenderOptions& options, double scale)
+{
+    Media media{mediumOf(options.look, surface.mean_height, scale)};
+    if (options.looks.empty()) {
+        return media;
+    }
+    for (const Look& look : options.looks) {
+        media.several.push_back(mediumOf(look, surface.mean_height, scale));
+    }
+    for (const SurfacePart& part : surface.parts) {
+        media.several[part.droplet] = mediumOf(options.looks[part.droplet], part.volume / part.area, scale);
+        media.droplet.insert(media.droplet.end(), part.vertices, static_cast<std::uint32_t>(part.droplet));
+    }
+    return media;
+}
+
 Vec3f LightMap::at(Vec3f place) const
 {
     const float x = (place.x - low.x) / cell - 0.5F;
@@ -222,7 +242,7 @@ Vec3f LightMap::at(Vec3f place) const
     return mix(mix(corner[0], corner[1], fx), mix(corner[width], corner[width + 1], fx), fy);
 }
 
-LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur)
+LightMap lightGain(const Scene& scene, const Media& media, const Light& light, int cells, float blur)
 {
     const Vec3f size = scene.high() - scene.low();
     const float span = std::max(size.x, size.y);
@@ -234,7 +254,7 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
     map.rows = static_cast<int>(std::ceil((size.y + 2.0F * margin) / map.cell));
     map.values.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
 
-    Gatherer gatherer(scene, medium, map);
+    Gatherer gatherer(scene, media, map);
     for (std::size_t b = 0; b < light.beams.size(); ++b) {
         const Beam& beam = light.beams[b];
         // The box around the liquid, projected along the beam onto the plane, holds all rays that can meet it.
@@ -265,14 +285,14 @@ LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light,
     return map;
 }
 
-LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells)
+LightMap lightOnPlane(const Scene& scene, const Media& media, const std::vector<Light>& lights, int cells)
 {
     constexpr int kCoarser = 4;
     constexpr float kGrain = 1.3F;    // [cells]
     constexpr float kMargin = 0.08F;  // share of the map in which it blends into open light
     LightMap sum;
     for (const Light& light : lights) {
-        const LightMap gain = lightGain(scene, medium, light, light.soft ? cells / kCoarser : cells, kGrain);
+        const LightMap gain = lightGain(scene, media, light, light.soft ? cells / kCoarser : cells, kGrain);
         const Vec3f radiance = std::numbers::inv_pi_v<float> * light.irradiance;
         if (sum.values.empty()) {
             sum = gain;
@@ -303,7 +323,7 @@ LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vecto
     return sum;
 }
 
-LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells)
+LightMap lightGainOnStand(const Scene& scene, const Media& media, const Light& light, int cells)
 {
     constexpr float kGrain = 2.0F;         // [cells]
     constexpr float kRaysForACell = 0.7F;  // rays per cell along a side
@@ -312,8 +332,8 @@ LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light&
     map.cell = 1.0F / static_cast<float>(cells);
     map.values.resize(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
     LightMap dry = map;
-    Gatherer change(scene, medium, map);
-    Gatherer straight(scene, medium, dry);
+    Gatherer change(scene, media, map);
+    Gatherer straight(scene, media, dry);
     const Vec3f middle = 0.5F * (scene.low() + scene.high());
     const Vec3f size = scene.high() - scene.low();
     const float reach = 0.52F * std::sqrt(dot(size, size));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "droplet/surface/material.h"
@@ -22,6 +23,23 @@ struct Medium {
 /// @param mean_height  path that the look's colour belongs to [m]
 /// @param scale        unit of length [m]
 Medium mediumOf(const Look& look, double mean_height, double scale);
+
+/// Media of all droplets.
+struct Media {
+    Medium only;                              ///< of all, unless there are several
+    std::vector<Medium> several = {};         ///< by droplet
+    std::vector<std::uint32_t> droplet = {};  ///< of every vertex of the surface
+
+    /// Number of the droplet that a ray meets.
+    [[nodiscard]] std::uint32_t dropletAt(const Scene& scene, const Meeting& meeting) const
+    {
+        return droplet.empty() ? 0 : droplet[scene.triangle(meeting)[0]];
+    }
+    [[nodiscard]] const Medium& of(std::uint32_t number) const { return several.empty() ? only : several[number]; }
+};
+
+/// Media of a surface, with `looks` or `look` of the options.
+Media mediaOf(const Surface& surface, const RenderOptions& options, double scale);
 
 /// Share of light left after a path through the liquid (Beer and Lambert).
 inline Vec3f passed(const Medium& medium, float distance)
@@ -48,17 +66,17 @@ struct LightMap {
 ///
 /// Guarantees: the same result with any number of threads.
 /// @param scene   liquid on the plane
-/// @param medium  liquid
+/// @param media   liquid
 /// @param light   beams
 /// @param cells   number along the map's longer side; ≥ 8
 /// @param blur    standard deviation of a Gaussian that removes grain [cells]; 0 for none
-LightMap lightGain(const Scene& scene, const Medium& medium, const Light& light, int cells, float blur);
+LightMap lightGain(const Scene& scene, const Media& media, const Light& light, int cells, float blur);
 
 /// Irradiance of all lights on the plane, divided by π: soft lights on a coarse map, others on a map of `cells` cells.
-LightMap lightOnPlane(const Scene& scene, const Medium& medium, const std::vector<Light>& lights, int cells);
+LightMap lightOnPlane(const Scene& scene, const Media& media, const std::vector<Light>& lights, int cells);
 
 /// Share of a light's direct rays that reach a stand around and below droplets, over uv from (0,0) to (1,1): rays
 /// through the liquid divided by rays without it.
-LightMap lightGainOnStand(const Scene& scene, const Medium& medium, const Light& light, int cells);
+LightMap lightGainOnStand(const Scene& scene, const Media& media, const Light& light, int cells);
 
 }  // namespace droplet

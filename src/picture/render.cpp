@@ -72,12 +72,15 @@ public:
           scene_(surface, options),
           studio_(options.lighting, options.stand && options.shows_whole_stand, turn_,
                   options.environment ? &*options.environment : nullptr),
-          medium_(mediumOf(options.look, surface.mean_height, scene_.scale())),
+          media_(mediaOf(surface, options, scene_.scale())),
           camera_(framedPoints(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
-            medium_.clear = false;
+            media_.only.clear = false;
+            for (Medium& medium : media_.several) {
+                medium.clear = false;
+            }
         }
         if (options.ground) {
             picture_.emplace(*options.ground);
@@ -86,7 +89,7 @@ public:
         table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}));
         span_ = std::max(size.x, size.y);
         if (scene_.onPlane() && !studio_.uniform()) {
-            light_ = lightOnPlane(scene_, medium_, studio_.lights(),
+            light_ = lightOnPlane(scene_, media_, studio_.lights(),
                                   std::clamp(static_cast<int>(kLightCells * std::max(options.width, options.height)),
                                              kMinLightCells, kMaxLightCells));
         }
@@ -98,7 +101,7 @@ public:
                                 studio_.lights());
         } else if (!scene_.onPlane() && options.stand && !studio_.uniform()) {
             key_gain_ =
-                lightGainOnStand(scene_, medium_, studio_.lights().front(),
+                lightGainOnStand(scene_, media_, studio_.lights().front(),
                                  std::clamp(static_cast<int>(kStandCells * std::max(options.width, options.height)),
                                             kMinLightCells, kMaxLightCells));
             for (const Beam& beam : studio_.lights().front().beams) {
@@ -108,16 +111,19 @@ public:
         }
         level_ = studio_.level();
         exposure_ = kWhite * kPi / std::max(level_.y, 1e-3F);
-        const double n = medium_.clear ? options.look.ior : 1.0;
-        returned_ = static_cast<float>(1.0 - (1.0 - diffuseReflectance(n)) / (n * n));
-        squeezed_ = static_cast<float>(1.0 / (n * n));
+        const std::size_t count = std::max<std::size_t>(1, media_.several.size());
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const double n = media_.of(k).clear ? lookAt(k).ior : 1.0;
+            returned_.push_back(static_cast<float>(1.0 - (1.0 - diffuseReflectance(n)) / (n * n)));
+            squeezed_.push_back(static_cast<float>(1.0 / (n * n)));
+        }
     }
 
     // Linear light 0 … 1 for a screen at a point of the picture.
     [[nodiscard]] Vec3f shown(float x, float y, Part part) const
     {
         const RayF ray = camera_.ray(x, y);
-        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F, part});
+        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F, part, 0});
         if (part == Part::Through) {
             return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
         }
@@ -142,7 +148,13 @@ private:
         int meetings;    // number of surfaces met so far
         float distance;  // length of the path so far
         Part part;
+        std::uint32_t droplet;  // that the ray is inside of
     };
+
+    [[nodiscard]] const Look& lookAt(std::uint32_t droplet) const
+    {
+        return options_.looks.empty() ? options_.look : options_.looks[droplet];
+    }
 
     [[nodiscard]] Vec3f trace(const RayF& ray, const Way& way) const
     {
@@ -154,7 +166,7 @@ private:
             return way.meetings == 0 ? studio_.backdrop(ray.direction) : roomLight(ray.direction, way.part);
         }
         Vec3f light = meeting.what == Meeting::What::Ground ? onGround(ray, meeting, way) : onLiquid(ray, meeting, way);
-        return way.inside ? passed(medium_, meeting.distance) * light : light;
+        return way.inside ? passed(media_.of(way.droplet), meeting.distance) * light : light;
     }
 
     [[nodiscard]] Vec3f roomLight(Vec3f direction, Part part) const
@@ -165,16 +177,18 @@ private:
     [[nodiscard]] Vec3f onLiquid(const RayF& ray, const Meeting& meeting, const Way& way) const
     {
         const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
-        if (way.part == Part::Through && (options_.paint || !medium_.clear)) {
+        const std::uint32_t droplet = media_.dropletAt(scene_, meeting);
+        const Medium& medium = media_.of(droplet);
+        if (way.part == Part::Through && (options_.paint || !medium.clear)) {
             return {};
         }
         if (options_.paint) {
             return painted(ray, meeting, normal, way);
         }
-        if (!medium_.clear) {
+        if (!medium.clear) {
             return opaque(ray, meeting, normal, way);
         }
-        const Interface there = atInterface(ray.direction, normal, way.inside ? medium_.ior : 1.0F / medium_.ior);
+        const Interface there = atInterface(ray.direction, normal, way.inside ? medium.ior : 1.0F / medium.ior);
         const Vec3f mirror = mirrored(ray.direction, normal);
         Vec3f light = there.reflected * onward(meeting, mirror, way, there.reflected, way.inside);
         if (there.reflected < 1.0F) {
@@ -184,9 +198,17 @@ private:
         return light;
     }
 
+    // Droplet that a ray is in beyond a place where it met liquid or, inside, the ground.
+    [[nodiscard]] std::uint32_t entered(const Meeting& meeting, const Way& way) const
+    {
+        return meeting.what == Meeting::What::Liquid ? media_.dropletAt(scene_, meeting) : way.droplet;
+    }
+
     [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
     {
-        const Way next{share * way.weight, inside, way.meetings + 1, way.distance + meeting.distance, way.part};
+        const Way next{share * way.weight, inside,
+                       way.meetings + 1,   way.distance + meeting.distance,
+                       way.part,           inside ? entered(meeting, way) : 0};
         // A direction from a smooth normal may point through the facet; it is bent to graze the facet.
         const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
         if (side < 1e-3F) {
@@ -200,7 +222,7 @@ private:
 
     [[nodiscard]] Vec3f opaque(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
     {
-        const Look& look = options_.look;
+        const Look& look = lookAt(media_.dropletAt(scene_, meeting));
         const Vec3f colour = toFloats(look.colour);
         const auto metal = static_cast<float>(look.metallic);
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
@@ -263,7 +285,7 @@ private:
         const Vec3f matter = albedo(meeting, width);
         const bool wet = way.inside;
         if (studio_.uniform()) {
-            return wet ? matter * wetness(matter, (1.0F - returned_)) : matter;
+            return wet ? matter * wetness(matter, 1.0F - returned_[way.droplet], way.droplet) : matter;
         }
         const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting);
         Vec3f seen = matter * light;
@@ -272,12 +294,12 @@ private:
             seen = mix(seen, grey(0.82F), 0.35F);
         }
         if (wet) {
-            seen = seen * wetness(matter, squeezed_);
+            seen = seen * wetness(matter, squeezed_[way.droplet], way.droplet);
         }
         if (scene_.onPlane() && !options_.paint) {
             seen = faded(seen, meeting.place);
         }
-        return film_ && !wet && medium_.clear ? underFilm(ray, meeting, way, seen, matter) : seen;
+        return film_ && !wet && media_.of(0).clear ? underFilm(ray, meeting, way, seen, matter) : seen;
     }
 
     // Ground below a film of water, which darkens and mirrors.
@@ -292,8 +314,8 @@ private:
         // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
         const float covered = std::min(film.wetness / kCovering, 1.0F);
         const Vec3f normal = facing(ray.direction, film.normal);
-        const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / medium_.ior).reflected;
-        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_), covered);
+        const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / media_.of(0).ior).reflected;
+        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_[way.droplet], way.droplet), covered);
         return (1.0F - mirrors) * wet + mirrors * onward(meeting, mirrored(ray.direction, normal), way, mirrors, false);
     }
 
@@ -313,7 +335,7 @@ private:
         constexpr float kDark = 1e-6F;
         const Vec3f share{light.x / std::max(open.x, kDark), light.y / std::max(open.y, kDark),
                           light.z / std::max(open.z, kDark)};
-        return way.inside ? share * wetness(grey(kGrey), squeezed_) : share;
+        return way.inside ? share * wetness(grey(kGrey), squeezed_[way.droplet], way.droplet) : share;
     }
 
     [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
@@ -333,10 +355,11 @@ private:
     }
 
     // A part of the light scattered below the liquid is reflected back to the ground, repeatedly.
-    [[nodiscard]] Vec3f wetness(Vec3f matter, float first) const
+    [[nodiscard]] Vec3f wetness(Vec3f matter, float first, std::uint32_t droplet) const
     {
-        return {first / (1.0F - returned_ * matter.x), first / (1.0F - returned_ * matter.y),
-                first / (1.0F - returned_ * matter.z)};
+        const float returned = returned_[droplet];
+        return {first / (1.0F - returned * matter.x), first / (1.0F - returned * matter.y),
+                first / (1.0F - returned * matter.z)};
     }
 
     // The table is bright near the droplet and dark far away.
@@ -366,7 +389,7 @@ private:
     CameraTurn turn_;
     Scene scene_;
     Studio studio_;
-    Medium medium_;
+    Media media_;
     Camera camera_;
     std::optional<GroundPicture> picture_;
     std::optional<Table> table_;
@@ -378,8 +401,9 @@ private:
     Vec3f level_;
     float exposure_ = 1.0F;
     float span_ = 1.0F;
-    float returned_ = 0.0F;  // share of the light scattered below that the surface reflects back
-    float squeezed_ = 1.0F;  // radiance outside over radiance inside
+    // By droplet:
+    std::vector<float> returned_;  // share of the light scattered below that the surface reflects back
+    std::vector<float> squeezed_;  // radiance outside over radiance inside
 };
 
 /// Places of samples in a pixel: the first 4, 16, 64 … lie one in every cell of a grid.
@@ -513,6 +537,9 @@ void RenderOptions::validate() const
                 camera->elevation, "from 0 to pi/2");
     }
     require(look.ior >= 1.0 && look.ior <= 4.0, "options.look.ior", look.ior, "from 1 to 4");
+    for (const Look& one : looks) {
+        require(one.ior >= 1.0 && one.ior <= 4.0, "options.looks.ior", one.ior, "from 1 to 4");
+    }
     const auto within = [](double a) { return a >= 0.0 && std::isfinite(a); };
     if (!within(extent.x) || !within(extent.y)) {
         refuse("extent must be finite and not negative");
@@ -552,6 +579,13 @@ void requireDrawable(const Surface& surface, const RenderOptions& options)
     const bool dry = (options.framed || options.stand_water) && surface.triangles.empty();
     if (!dry) {
         surface.validate();
+        if (!options.looks.empty() &&
+            (surface.parts.empty() ||
+             std::any_of(surface.parts.begin(), surface.parts.end(),
+                         [&](const SurfacePart& part) { return part.droplet >= options.looks.size(); }))) {
+            refuse("looks has " + std::to_string(options.looks.size()) +
+                   " entries; the surface must have parts, for these droplets alone");
+        }
     }
     if (!dry && std::all_of(surface.positions.begin(), surface.positions.end(),
                             [&first = surface.positions.front()](const Vec3& p) {

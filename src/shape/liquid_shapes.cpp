@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "droplet/error.h"
@@ -19,6 +20,7 @@
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/sheet_mesh.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -223,7 +225,32 @@ SheetMesh sheetOf(const PlanarMesh& mesh, const HeightField& field)
     return sheet;
 }
 
-/// First place where two droplets touch.
+/// Number of every mesh's cluster. Meshes with a common rim vertex are in one cluster.
+std::vector<std::size_t> clustersOf(const std::vector<PlanarMesh>& meshes)
+{
+    std::vector<std::pair<Vec2, std::uint32_t>> vertices;
+    for (std::uint32_t k = 0; k < meshes.size(); ++k) {
+        for (std::uint32_t v = 0; v < meshes[k].rimVertexCount(); ++v) {
+            vertices.emplace_back(meshes[k].vertices[v], k);
+        }
+    }
+    std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first.x, a.first.y, a.second) < std::tie(b.first.x, b.first.y, b.second);
+    });
+    UnionFind sets(meshes.size());
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+        if (vertices[i].first == vertices[i - 1].first) {
+            sets.join(vertices[i].second, vertices[i - 1].second);
+        }
+    }
+    std::vector<std::size_t> clusters;
+    for (std::uint32_t k = 0; k < meshes.size(); ++k) {
+        clusters.push_back(sets.find(k));
+    }
+    return clusters;
+}
+
+/// First place where two droplets touch whose footprints are apart. Droplets that share boundaries may lean over them.
 std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
 {
     std::vector<SheetMesh> sheets;
@@ -238,7 +265,7 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
     for (const SheetMesh& sheet : sheets) {
         all.push_back(&sheet);
     }
-    return firstContact(all);
+    return firstContact(all, clustersOf(meshes));
 }
 
 /// Takes up the result of droplets that are sheets.

@@ -31,7 +31,8 @@ bool isGraph(const SheetMesh& sheet)
 
 }  // namespace
 
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets)
+std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+                                         const std::vector<std::size_t>& clusters)
 {
     if (sheets.size() == 1 && isGraph(*sheets.front())) {
         return std::nullopt;
@@ -51,6 +52,17 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
     }
     std::vector<std::pair<Face, Face>> pairs;
     CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+    const auto sheet_of = [&](Face face) {
+        const auto after = std::upper_bound(first_face.begin(), first_face.end(), static_cast<std::size_t>(face));
+        return static_cast<std::size_t>(after - first_face.begin()) - 1;
+    };
+    if (!clusters.empty()) {
+        std::erase_if(pairs, [&](const auto& pair) {
+            const std::size_t a = sheet_of(pair.first);
+            const std::size_t b = sheet_of(pair.second);
+            return a != b && clusters[a] == clusters[b];
+        });
+    }
     if (pairs.empty()) {
         return std::nullopt;
     }
@@ -60,10 +72,6 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
         }
     }
     const auto [one, other] = *std::min_element(pairs.begin(), pairs.end());
-    const auto sheet_of = [&](Face face) {
-        const auto after = std::upper_bound(first_face.begin(), first_face.end(), static_cast<std::size_t>(face));
-        return static_cast<std::size_t>(after - first_face.begin()) - 1;
-    };
     Vec3 centre;
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(one))) {
         const auto& p = mesh.point(v);

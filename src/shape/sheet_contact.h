@@ -19,6 +19,8 @@ struct SheetContact {
 /// First place where triangles cross or touch that do not share a vertex: of one sheet, or of two.
 ///
 /// Guarantees: exact; the same input gives the same result at any number of threads.
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets);
+/// @param clusters  number of every sheet's cluster; different sheets of one cluster may touch. Empty: none may
+std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+                                         const std::vector<std::size_t>& clusters = {});
 
 }  // namespace droplet

@@ -1,50 +1,92 @@
 // SPDX-License-Identifier: MIT
-// The page's droplet as a project: "Edit in Studio".
-import { blank, drawShape } from './coverage.js';
-import { newProject, withLayer } from './project.js';
+// The page's droplet as a project.
+import { Vector3 } from 'three';
+import { blank, drawShape, whole } from './coverage.js';
 import { kLayerFields, kSceneFields, settingsOf } from './physics.js';
+import { newProject, withLayer } from './project.js';
 
-const kSide = 1024;  // longer side of a sheet for a droplet that came from no picture [pixels]
+const kSide = 1024;        // longer side of a sheet for a droplet that came from no picture [pixels]
+const kLargestSide = 4096;
+// Field and unit of what sets the amount.
 const kAmounts = { contact_angle_deg: ['contactAngle', 1], volume_m3: ['volume', 1e9], height_m: ['height', 1e3] };
+// Surface tension [mN/m] and density [kg/m³], as in src/liquid.cpp.
+const kLiquids = {
+    water: [72.8, 998.2], ethanol: [22.39, 789.3], glycerol: [63.4, 1261], mercury: [486.5, 13545.9], honey: [55, 1417],
+};
 
 /** Digits enough for the eye, and none of the noise of a change of units. */
 const plain = (value) => Number(value.toPrecision(9));
 
-/** The mask's sides: those of the picture, else a square around the droplet. */
-function sheetOf(report, box) {
-    const { width_px, height_px, pixel_size_m } = report.input ?? {};
-    if (width_px && height_px && pixel_size_m && Math.max(width_px, height_px) <= 4096) {
-        return { width: width_px, height: height_px, pixel: pixel_size_m };
+/** The mask's sides and its pixel [m]: those of the picture, else of a rectangle around the droplet. */
+function sheetOf({ input = {} }, box) {
+    const { width_px: width, height_px: height, pixel_size_m: pixel } = input;
+    if (width && height && pixel && Math.max(width, height) <= kLargestSide) {
+        return { width, height, pixel };
     }
-    const [width, depth] = [2.2 * Math.max(-box.min.x, box.max.x), 2.2 * Math.max(-box.min.z, box.max.z)];
-    const pixel = Math.max(width, depth) / kSide;
-    return { width: Math.ceil(width / pixel), height: Math.ceil(depth / pixel), pixel };
+    const sides = [2.2 * Math.max(-box.min.x, box.max.x), 2.2 * Math.max(-box.min.z, box.max.z)];
+    const unit = Math.max(...sides) / kSide;
+    return { width: Math.ceil(sides[0] / unit), height: Math.ceil(sides[1] / unit), pixel: unit };
 }
 
-/** Draws the base of the mesh: triangles that face down, seen from above. */
-function footprintOf(meshes, places, { width, height, pixel }) {
-    const mask = blank(width, height);
-    drawShape(mask, { left: 0, top: 0, right: width, bottom: height }, (canvas) => {
-        canvas.beginPath();
-        meshes.forEach(({ geometry: { index, attributes: { position } } }, which) => {
-            const [m0, , m8] = [places[which].elements[0], 0, places[which].elements[10]];
-            const at = (k) => [position.getX(index.getX(k)) * m0, position.getY(index.getX(k)), position.getZ(index.getX(k)) * m8];
-            for (let i = 0; i < index.count; i += 3) {
-                const [a, b, c] = [at(i), at(i + 1), at(i + 2)];
-                const up = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
-                if (up < 0 && Math.max(a[1], b[1], c[1]) <= 1e-9) {
-                    [a, b, c].forEach(([x, , z], k) =>
-                        canvas[k === 0 ? 'moveTo' : 'lineTo'](width / 2 + x / pixel, height / 2 + z / pixel));
-                    canvas.closePath();
-                }
+/** Draws the bases of the meshes, whose triangles face down; of an open mesh, what it covers. */
+function footprintOf({ meshes, places }, { width, height, pixel }, flat) {
+    const [down, up] = [[], []];
+    meshes.forEach(({ geometry: { index, attributes: { position } } }, which) => {
+        for (let i = 0; i < index.count; i += 3) {
+            const corners = [0, 1, 2].map((k) => new Vector3().fromBufferAttribute(position, index.getX(i + k)).applyMatrix4(places[which]));
+            const [a, b, c] = corners;
+            const faces_up = (b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z) > 0;
+            if (faces_up) {
+                up.push(corners);
+            } else if (!flat || Math.max(a.y, b.y, c.y) <= 1e-9) {
+                down.push(corners);
             }
-        });
+        }
+    });
+    const mask = blank(width, height);
+    drawShape(mask, whole(mask), (canvas) => {
+        // One path, since triangles that are filled one by one leave seams.
+        for (const corners of down.length > 0 ? down : up) {
+            corners.forEach(({ x, z }, k) => canvas[k === 0 ? 'moveTo' : 'lineTo'](width / 2 + x / pixel, height / 2 + z / pixel));
+            canvas.closePath();
+        }
         canvas.fill();
-        // The seams of neighbouring triangles, each of which is half covered by either.
-        canvas.lineWidth = 0.5;
-        canvas.globalCompositeOperation = 'source-over';
     }, false);
     return mask;
+}
+
+function liquidOf({ liquid = {}, fill = {}, model }, look) {
+    const settings = { liquid: liquid.name, fill: fill.sharing, model: model === 'linear' ? 'linear' : 'auto' };
+    const [by, unit] = kAmounts[fill.by] ?? [];
+    if (by && fill.amount) {
+        Object.assign(settings, { by, [by]: plain(fill.amount * unit) });
+    }
+    const { liquid: name } = settingsOf(kLayerFields, settings);
+    const own = { surfaceTension: plain(liquid.surface_tension_n_per_m * 1e3), density: plain(liquid.density_kg_per_m3) };
+    ['surfaceTension', 'density'].forEach((field, k) => {
+        if (own[field] !== kLiquids[name][k]) {
+            settings[field] = own[field];
+        }
+    });
+    for (const [field, angle] of [['advancing', liquid.advancing_deg], ['receding', liquid.receding_deg]]) {
+        settings[field] = angle ?? '';
+    }
+    const usual = name === 'mercury' || name === 'honey' ? name : 'water';
+    settings.material = look === usual ? 'own' : look;
+    return settingsOf(kLayerFields, settings);
+}
+
+function sceneOf({ liquid = {}, ground = {} }, { width, pixel }) {
+    const scene = {
+        width: plain(width * pixel * 1e3), gravity: liquid.gravity_m_per_s2, tilt: liquid.tilt_deg, tiltDirection: liquid.tilt_direction_deg,
+    };
+    if (ground.radius_m) {
+        const hollow = { sphere: 'bowl', cylinder: 'gutter' };
+        scene.ground = ground.radius_m > 0 ? ground.kind : hollow[ground.kind];
+        scene.radius = plain(Math.abs(ground.radius_m) * 1e3);
+        scene.axis = ground.axis_deg ?? 90;
+    }
+    return settingsOf(kSceneFields, scene);
 }
 
 /**
@@ -54,23 +96,9 @@ function footprintOf(meshes, places, { width, height, pixel }) {
  */
 export function projectFromDroplet(droplet, report, name) {
     const sheet = sheetOf(report, droplet.box([1]));
+    const flat = (report.ground?.kind ?? 'flat') === 'flat';
     const project = newProject({ width: sheet.width, height: sheet.height, name });
-    const { liquid = {}, fill = {}, ground = {} } = report;
-    const settings = { liquid: liquid.name, fill: fill.sharing, model: { linear: 'linear', exact: 'auto', parametric: 'auto' }[report.model] };
-    const [by, factor] = kAmounts[fill.by] ?? [];
-    if (by && fill.amount) {
-        Object.assign(settings, { by, [by]: plain(fill.amount * factor) });
-    }
-    const material = droplet.meshes[0]?.material.name;
-    settings.material = material === liquid.name ? 'own' : material;
-    const known = settingsOf(kLayerFields, settings);
-    const scene = settingsOf(kSceneFields, {
-        width: plain(sheet.width * sheet.pixel * 1e3), gravity: liquid.gravity_m_per_s2, tilt: liquid.tilt_deg,
-        tiltDirection: liquid.tilt_direction_deg,
-        ...(['sphere', 'cylinder'].includes(ground.kind) && ground.radius_m ? {
-            ground: ground.radius_m > 0 ? ground.kind : { sphere: 'bowl', cylinder: 'gutter' }[ground.kind],
-            radius: plain(Math.abs(ground.radius_m) * 1e3), axis: ground.axis_deg === 0 ? 'x' : 'y',
-        } : {}),
+    return withLayer({ ...project, scene: sceneOf(report, sheet) }, {
+        mask: footprintOf(droplet, sheet, flat), liquid: liquidOf(report, droplet.meshes[0]?.material.name),
     });
-    return withLayer({ ...project, scene }, { mask: footprintOf(droplet.meshes, droplet.places, sheet), liquid: known });
 }

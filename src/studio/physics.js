@@ -51,7 +51,7 @@ export const kSceneFields = [
     },
     { name: 'radius', label: 'Radius', value: 40, unit: 'mm', range: [0.01, 1e6, 'any'], when: curved },
     {
-        name: 'axis', label: 'Axis', value: 'y', choices: { x: 'Left to right', y: 'Top to bottom' },
+        name: 'axis', label: 'Axis', value: 90, unit: '°', range: [-180, 180, 5], slider: true,
         when: ({ ground }) => ['cylinder', 'gutter'].includes(ground),
     },
 ];
@@ -109,7 +109,7 @@ export function optionsOf({ liquid }, scene) {
     if (scene.ground !== 'flat') {
         const round = ['cylinder', 'gutter'].includes(scene.ground);
         const sign = ['bowl', 'gutter'].includes(scene.ground) ? '-' : '';
-        options.surface = `${round ? 'cylinder' : 'sphere'}:R=${sign}${scene.radius}mm${round ? `,axis=${scene.axis}` : ''}`;
+        options.surface = `${round ? 'cylinder' : 'sphere'}:R=${sign}${scene.radius}mm${round ? `,axis=${scene.axis}deg` : ''}`;
     }
     return options;
 }

@@ -77,6 +77,7 @@ void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first,
 
 /// Droplet, or a part of one, with the place of its vertices and triangles in the surface.
 struct Piece {
+    std::size_t droplet = 0;
     const PlanarMesh* mesh = nullptr;
     const HeightField* field = nullptr;
     bool mirrored = false;  ///< whether its base has the triangles of the liquid
@@ -220,10 +221,11 @@ std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::ve
     std::vector<Piece> pieces;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         for (const WetPart& part : wet[k]) {
-            pieces.push_back({&part.mesh, &part.field, true, {}, {}, {}});
+            pieces.push_back({k, &part.mesh, &part.field, true, {}, {}, {}});
         }
         if (!hasDry(fields[k])) {
             Piece& piece = pieces.emplace_back();
+            piece.droplet = k;
             piece.mesh = &meshes[k];
             piece.field = &fields[k];
             piece.mirrored = !options.ground.flat();
@@ -256,6 +258,29 @@ Counts assignPlaces(std::vector<Piece>& pieces, bool open)
         }
     }
     return total;
+}
+
+/// Droplets of a surface; pieces of one droplet follow each other.
+std::vector<SurfacePart> partsOf(const std::vector<Piece>& pieces, const std::vector<Extent>& extents,
+                                 const Counts& total)
+{
+    std::vector<SurfacePart> parts;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Counts& begin = pieces[k].liquid;
+        const Counts end = k + 1 < pieces.size() ? pieces[k + 1].liquid : total;
+        if (parts.empty() || parts.back().droplet != pieces[k].droplet) {
+            SurfacePart& part = parts.emplace_back();
+            part.droplet = pieces[k].droplet;
+            part.first_vertex = begin.vertices;
+            part.first_triangle = begin.triangles;
+        }
+        SurfacePart& part = parts.back();
+        part.vertices += end.vertices - begin.vertices;
+        part.triangles += end.triangles - begin.triangles;
+        part.volume += std::max(0.0, extents[k].volume);
+        part.area += extents[k].area;
+    }
+    return parts;
 }
 
 }  // namespace
@@ -329,6 +354,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
         whole.area += extent.area;
     }
     surface.mean_height = whole.volume / whole.area;
+    surface.parts = partsOf(pieces, extents, total);
     return surface;
 }
 
@@ -343,7 +369,7 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     if (!options.ground.flat()) {
         ground.ground = heightsUnder(footprint, options.ground);
     }
-    Piece piece{&footprint, &ground, !options.ground.flat(), {}, {}, {sheet.places.size(), sheet.triangles.size()}};
+    Piece piece{0, &footprint, &ground, !options.ground.flat(), {}, {}, {sheet.places.size(), sheet.triangles.size()}};
     Counts total = piece.base;
     if (!options.open) {
         if (!piece.mirrored) {
@@ -388,12 +414,25 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     if (!options.open) {
         fillBase(piece, options, surface);
     }
+    surface.parts = {{.vertices = total.vertices, .triangles = total.triangles, .area = area(footprint)}};
     return surface;
 }
 
 void append(Surface& surface, const Surface& more)
 {
+    if (more.triangles.empty()) {
+        return;
+    }
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    if ((surface.parts.empty() && first > 0) || more.parts.empty()) {
+        surface.parts.clear();
+    } else {
+        for (SurfacePart part : more.parts) {
+            part.first_vertex += first;
+            part.first_triangle += surface.triangles.size();
+            surface.parts.push_back(part);
+        }
+    }
     const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     add(surface.positions, more.positions);
     add(surface.normals, more.normals);

@@ -16,25 +16,29 @@ struct Entry {
 
 // Water: index of refraction at 589 nm, 20 °C; ink is water with dye. Honey: Wedmore's table for 18 % water. Mercury:
 // reflectance of about 0.78 in visible light. The other colours are chosen by eye.
-constexpr std::array<Entry, 5> kEntries = {{
-    {Material::Water, {"water", {1.0, 1.0, 1.0}, 0.0, 0.0, 1.0, 1.333, false}},
-    {Material::Ink, {"ink", {0.03, 0.06, 0.35}, 0.0, 0.0, 1.0, 1.333, true}},
-    {Material::Mercury, {"mercury", {0.78, 0.78, 0.78}, 1.0, 0.02, 0.0, 1.5, false}},
-    {Material::Honey, {"honey", {0.9, 0.5, 0.1}, 0.0, 0.0, 1.0, 1.489, true}},
-    {Material::Plain, {"plain", {0.8, 0.8, 0.8}, 0.0, 0.5, 0.0, 1.5, false}},
-}};
+const std::array<Entry, 5>& entries()
+{
+    static const std::array<Entry, 5> all{{
+        {Material::Water, {"water", {1.0, 1.0, 1.0}, 0.0, 0.0, 1.0, 1.333, false}},
+        {Material::Ink, {"ink", {0.03, 0.06, 0.35}, 0.0, 0.0, 1.0, 1.333, true}},
+        {Material::Mercury, {"mercury", {0.78, 0.78, 0.78}, 1.0, 0.02, 0.0, 1.5, false}},
+        {Material::Honey, {"honey", {0.9, 0.5, 0.1}, 0.0, 0.0, 1.0, 1.489, true}},
+        {Material::Plain, {"plain", {0.8, 0.8, 0.8}, 0.0, 0.5, 0.0, 1.5, false}},
+    }};
+    return all;
+}
 
 }  // namespace
 
 Look lookOf(Material material)
 {
-    for (const Entry& entry : kEntries) {
+    for (const Entry& entry : entries()) {
         if (entry.material == material) {
             return entry.look;
         }
     }
     throw Error(ErrorCode::InvalidArgument, "options.material = " + std::to_string(static_cast<int>(material)) +
-                                                " must be one of the " + std::to_string(kEntries.size()) +
+                                                " must be one of the " + std::to_string(entries().size()) +
                                                 " materials");
 }
 
@@ -51,11 +55,11 @@ Material materialOf(const Liquid& liquid)
 Material materialNamed(std::string_view name)
 {
     std::string known;
-    for (const Entry& entry : kEntries) {
+    for (const Entry& entry : entries()) {
         if (name == entry.look.name) {
             return entry.material;
         }
-        known += std::string(" ") + entry.look.name;
+        known += " " + entry.look.name;
     }
     throw Error(ErrorCode::InvalidArgument, "material \"" + std::string(name) + "\" is unknown; known are" + known);
 }

@@ -99,12 +99,22 @@ void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& dro
     report.flipped_charts = static_cast<std::size_t>(std::count(flipped.begin(), flipped.end(), true));
 }
 
-/// Volume divided by footprint, both on the object.
-double meanHeight(const Surface& droplets, const std::vector<PlacedVertex>& placed, const std::vector<bool>& kept)
+/// Volume of liquid and wet area, both on the object.
+struct Extent {
+    double volume = 0.0;
+    double area = 0.0;
+
+    [[nodiscard]] double meanHeight() const { return area > 0.0 ? std::max(0.0, volume / area) : 0.0; }
+};
+
+/// Extent of the triangles from `first` to before `end`.
+Extent extentOf(const Surface& droplets, const std::vector<PlacedVertex>& placed, const std::vector<bool>& kept,
+                std::size_t first, std::size_t end)
 {
     double volume = 0.0;
     double area = 0.0;
-    for (const auto& [a, b, c] : droplets.triangles) {
+    for (std::size_t i = first; i < end; ++i) {
+        const auto& [a, b, c] = droplets.triangles[i];
         const Vec3 p = droplets.positions[a];
         const Vec3 q = droplets.positions[b] - p;
         const Vec3 r = droplets.positions[c] - p;
@@ -117,7 +127,36 @@ double meanHeight(const Surface& droplets, const std::vector<PlacedVertex>& plac
             area += flat * s * s;
         }
     }
-    return area > 0.0 ? std::max(0.0, volume / area) : 0.0;
+    return {volume, area};
+}
+
+/// Droplets with a part on the object.
+std::vector<SurfacePart> partsOf(const Surface& droplets, const std::vector<PlacedVertex>& placed,
+                                 const std::vector<bool>& kept)
+{
+    std::vector<SurfacePart> parts;
+    SurfacePart next;
+    for (const SurfacePart& part : droplets.parts) {
+        next.droplet = part.droplet;
+        next.vertices = 0;
+        next.triangles = 0;
+        for (std::size_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+            next.vertices += kept[v] ? 1 : 0;
+        }
+        const std::size_t end = part.first_triangle + part.triangles;
+        for (std::size_t t = part.first_triangle; t < end; ++t) {
+            next.triangles += kept[droplets.triangles[t][0]] ? 1 : 0;
+        }
+        if (next.triangles > 0) {
+            const Extent extent = extentOf(droplets, placed, kept, part.first_triangle, end);
+            next.volume = std::max(0.0, extent.volume);
+            next.area = extent.area;
+            parts.push_back(next);
+        }
+        next.first_vertex += next.vertices;
+        next.first_triangle += next.triangles;
+    }
+    return parts;
 }
 
 }  // namespace
@@ -200,7 +239,8 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
         }
     }
     surface.texture_map = droplets.texture_map;
-    surface.mean_height = meanHeight(droplets, placed, kept);
+    surface.mean_height = extentOf(droplets, placed, kept, 0, droplets.triangles.size()).meanHeight();
+    surface.parts = partsOf(droplets, placed, kept);
     addWarnings(report);
     return result;
 }

@@ -289,6 +289,37 @@ void checkRefill(const Surface& surface)
     }
 }
 
+void checkParts(const Surface& surface)
+{
+    std::size_t vertex = 0;
+    std::size_t triangle = 0;
+    for (std::size_t k = 0; k < surface.parts.size(); ++k) {
+        const SurfacePart& part = surface.parts[k];
+        if (part.first_vertex != vertex || part.first_triangle != triangle || part.triangles == 0 ||
+            part.vertices > surface.positions.size() - vertex || part.triangles > surface.triangles.size() - triangle) {
+            refuse("parts", k, "must follow the part before it, with at least one triangle, within the surface");
+        }
+        if (!(part.volume >= 0.0 && part.area > 0.0 && std::isfinite(part.volume) && std::isfinite(part.area))) {
+            refuse("parts", k, "must have a finite volume that is not negative, and a positive area");
+        }
+        vertex += part.vertices;
+        triangle += part.triangles;
+        const auto outside = [&](std::uint32_t v) { return v < part.first_vertex || v >= vertex; };
+        const std::size_t t = firstOf(part.triangles, [&](std::size_t i) {
+            const auto& [a, b, c] = surface.triangles[part.first_triangle + i];
+            return outside(a) || outside(b) || outside(c);
+        });
+        const std::size_t v =
+            firstOf(part.vertices, [&](std::size_t i) { return outside(surface.weld[part.first_vertex + i]); });
+        if (t < part.triangles || v < part.vertices) {
+            refuse("parts", k, "must not share vertices with another part");
+        }
+    }
+    if (!surface.parts.empty() && (vertex != surface.positions.size() || triangle != surface.triangles.size())) {
+        refuse("parts", surface.parts.size() - 1, "must end at the last vertex and triangle");
+    }
+}
+
 }  // namespace
 
 void Surface::validate() const
@@ -344,6 +375,62 @@ void Surface::validate() const
     if (t < triangles.size()) {
         refuse("triangles", t, "names vertex " + std::to_string(last(t)) + " of " + std::to_string(count));
     }
+    checkParts(*this);
+}
+
+Surface extract(const Surface& surface, const std::vector<std::size_t>& which)
+{
+    if (which.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "which is empty; there must be at least one part");
+    }
+    Surface result;
+    result.texture_map = surface.texture_map;
+    if (surface.refill) {
+        result.refill = Refill{surface.refill->min, surface.refill->max, {}};
+        for (const RefillState& state : surface.refill->states) {
+            result.refill->states.push_back({state.fill, {}, {}});
+        }
+    }
+    double volume = 0.0;
+    double area = 0.0;
+    for (const std::size_t k : which) {
+        if (k >= surface.parts.size()) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "which names part " + std::to_string(k) + " of " + std::to_string(surface.parts.size()));
+        }
+        SurfacePart part = surface.parts[k];
+        const auto copy = [&part](auto& to, const auto& from) {
+            const auto begin = from.begin() + static_cast<std::ptrdiff_t>(part.first_vertex);
+            to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(part.vertices));
+        };
+        const std::size_t first = result.positions.size();
+        const auto renamed = [&](std::uint32_t v) { return static_cast<std::uint32_t>(v - part.first_vertex + first); };
+        copy(result.positions, surface.positions);
+        copy(result.normals, surface.normals);
+        copy(result.uvs, surface.uvs);
+        if (!surface.contact_angle.empty()) {
+            copy(result.contact_angle, surface.contact_angle);
+        }
+        for (std::size_t i = 0; surface.refill && i < surface.refill->states.size(); ++i) {
+            copy(result.refill->states[i].positions, surface.refill->states[i].positions);
+            copy(result.refill->states[i].normals, surface.refill->states[i].normals);
+        }
+        for (std::size_t v = 0; v < part.vertices; ++v) {
+            result.weld.push_back(renamed(surface.weld[part.first_vertex + v]));
+        }
+        const std::size_t first_triangle = result.triangles.size();
+        for (std::size_t t = 0; t < part.triangles; ++t) {
+            const auto& [a, b, c] = surface.triangles[part.first_triangle + t];
+            result.triangles.push_back({renamed(a), renamed(b), renamed(c)});
+        }
+        part.first_vertex = first;
+        part.first_triangle = first_triangle;
+        result.parts.push_back(part);
+        volume += part.volume;
+        area += part.area;
+    }
+    result.mean_height = volume / area;
+    return result;
 }
 
 std::vector<double> stateWeights(const Refill& refill, double fill)
@@ -381,6 +468,9 @@ Surface refilled(const Surface& surface, double fill)
     result.refill.reset();
     result.contact_angle.clear();
     result.mean_height *= fill;
+    for (SurfacePart& part : result.parts) {
+        part.volume *= fill;
+    }
     for (std::size_t v = 0; v < result.positions.size(); ++v) {
         Vec3 normal = result.normals[v];
         for (std::size_t k = 0; k < weights.size(); ++k) {

@@ -18,6 +18,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
+#include "droplet/units.h"
 #include "droplet/version.h"
 #include "support/pieces.h"
 #include "support/surfaces.h"
@@ -540,6 +541,98 @@ TEST(MaterialNamed, KnowsFiveAndNoOther)
             EXPECT_THAT(error.what(), HasSubstr("water ink mercury honey plain"));
         }
     }
+}
+
+std::vector<FileDroplet> redAndWater()
+{
+    Look red = lookOf(Material::Water);
+    red.name = "red";
+    red.colour = {1.0, 0.0, 0.0};
+    red.tinted = true;
+    return {{"red_1", red, 4e-9, 0.5, 2e-3, 70.0}, {"droplet_2", lookOf(Material::Water), 1e-9, 0.25, 1e-3, 40.0}};
+}
+
+TEST(Gltf, EveryDropletHasItsNode)
+{
+    const Surface surface = testing::pairOfDroplets();
+    GltfOptions options;
+    options.nodes = Nodes::Each;
+    options.droplets = redAndWater();
+    for (const bool binary : {true, false}) {
+        options.binary = binary;
+        const tinygltf::Model model = parsed(written(surface, options), binary);
+        ASSERT_EQ(model.nodes.size(), 2U);
+        EXPECT_EQ(model.scenes.at(0).nodes, (std::vector<int>{0, 1}));
+        std::size_t vertices = 0;
+        std::size_t indices = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const tinygltf::Node& node = model.nodes[k];
+            const FileDroplet& droplet = options.droplets[k];
+            EXPECT_EQ(node.name, droplet.name);
+            EXPECT_DOUBLE_EQ(node.extras.Get("volume_m3").GetNumberAsDouble(), droplet.volume);
+            EXPECT_DOUBLE_EQ(node.extras.Get("contact_angle_deg").GetNumberAsDouble(), droplet.contact_angle / kDegree);
+            EXPECT_DOUBLE_EQ(node.extras.Get("height_max_m").GetNumberAsDouble(), droplet.height_max);
+            EXPECT_DOUBLE_EQ(node.extras.Get("pressure_pa").GetNumberAsDouble(), droplet.pressure);
+            const tinygltf::Primitive& primitive =
+                model.meshes.at(static_cast<std::size_t>(node.mesh)).primitives.at(0);
+            const auto& place = model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("POSITION")));
+            EXPECT_EQ(place.minValues[0] > 0.0, k == 0) << "the first droplet is on the right";
+            vertices += place.count;
+            indices += model.accessors.at(static_cast<std::size_t>(primitive.indices)).count;
+            const tinygltf::Material& material = model.materials.at(static_cast<std::size_t>(primitive.material));
+            EXPECT_EQ(material.name, droplet.look.name);
+            const tinygltf::Value& volume = material.extensions.at("KHR_materials_volume");
+            EXPECT_DOUBLE_EQ(volume.Get("thicknessFactor").GetNumberAsDouble(), k == 0 ? 2e-3 : 1e-3);
+        }
+        EXPECT_EQ(vertices, surface.positions.size());
+        EXPECT_EQ(indices, 3 * surface.triangles.size());
+    }
+}
+
+TEST(Gltf, LooksArePrimitivesOfOneMesh)
+{
+    const Surface surface = testing::pairOfDroplets();
+    GltfOptions options;
+    options.droplets = redAndWater();
+    const tinygltf::Model model = parsed(written(surface, options), true);
+    ASSERT_EQ(model.meshes.size(), 1U);
+    ASSERT_EQ(model.meshes[0].primitives.size(), 2U);
+    EXPECT_EQ(model.materials[0].name, "red");
+    const tinygltf::Value& volume = model.materials[0].extensions.at("KHR_materials_volume");
+    EXPECT_DOUBLE_EQ(volume.Get("attenuationDistance").GetNumberAsDouble(), 2e-3);
+    // Droplets that look alike are written as without looks.
+    options.droplets[0].look = options.droplets[1].look;
+    EXPECT_EQ(written(surface, options), written(surface));
+}
+
+TEST(Gltf, TextureIsTheBaseColourOfAllMaterials)
+{
+    GltfOptions options;
+    options.droplets = redAndWater();
+    options.texture = "any bytes of a picture";
+    const std::string bytes = written(testing::pairOfDroplets(), options);
+    EXPECT_NE(bytes.find(options.texture), std::string::npos);
+    const std::string text = bytes.substr(0, bytes.find("BIN"));
+    EXPECT_THAT(text, HasSubstr("image/png"));
+    std::size_t count = 0;
+    for (std::size_t at = text.find("baseColorTexture"); at != std::string::npos;
+         at = text.find("baseColorTexture", at + 1)) {
+        ++count;
+    }
+    EXPECT_EQ(count, 2U);
+}
+
+TEST(Gltf, DropletsMustFitTheSurface)
+{
+    std::ostringstream out;
+    GltfOptions options;
+    options.nodes = Nodes::Each;
+    EXPECT_THROW(writeGltf(testing::pairOfDroplets(), out, options), Error);
+    options.droplets = redAndWater();
+    options.droplets.pop_back();
+    EXPECT_THROW(writeGltf(testing::pairOfDroplets(), out, options), Error);
+    options.droplets = redAndWater();
+    EXPECT_THROW(writeGltf(roundDroplet(), out, options), Error) << "it has no parts";
 }
 
 }  // namespace

@@ -93,6 +93,18 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
     add("flat", testing::roundDroplet({.height = 1e-12}), Material::Honey, true);
     add("nanometres", testing::roundDroplet({.outer = 1e-9, .height = 1e-10}), Material::Water, true);
     add("kilometres", testing::roundDroplet({.outer = 1e3, .height = 1.0}), Material::Water, true);
+    GltfOptions by_droplet;
+    by_droplet.droplets = {{"red_1", lookOf(Material::Ink), 1e-9, 0.5, 1e-3, 40.0},
+                           {"droplet_2", lookOf(Material::Mercury), 1e-9, 0.5, 1e-3, 40.0}};
+    for (const Nodes nodes : {Nodes::One, Nodes::Each}) {
+        by_droplet.nodes = nodes;
+        for (const bool binary : {true, false}) {
+            by_droplet.binary = binary;
+            const std::string name = nodes == Nodes::One ? "looks" : "nodes";
+            files.push_back(stored(name + (binary ? ".glb" : ".gltf"),
+                                   written(testing::withRefill(testing::pairOfDroplets()), by_droplet)));
+        }
+    }
     const auto animate = [&](const std::string& name, const std::vector<Surface>& frames, std::size_t run,
                              bool closed) {
         Animation animation({.frames_per_second = 25.0, .material = Material::Ink, .closed = closed});

@@ -341,6 +341,30 @@ TEST(MeshFiles, ObjMaterialsHaveTheirProperties)
     EXPECT_THAT(out.str().substr(0, 200), HasSubstr("\nmtllib drop.mtl\nusemtl ink\n"));
 }
 
+TEST(MeshFiles, ObjDropletsHaveTheirMaterials)
+{
+    ObjOptions options;
+    options.material_file = "drop.mtl";
+    options.looks = {lookOf(Material::Ink), lookOf(Material::Honey)};
+    std::ostringstream out;
+    const Surface surface = testing::pairOfDroplets();
+    writeObj(surface, out, options);
+    const std::string text = out.str();
+    const std::size_t honey = text.find("usemtl honey\nf ");
+    const std::size_t ink = text.find("usemtl ink\nf ");
+    ASSERT_NE(ink, std::string::npos);
+    ASSERT_LT(honey, ink) << "the first part of the surface is the second droplet";
+    const std::string first = text.substr(honey, ink - honey);
+    EXPECT_EQ(std::count(first.begin(), first.end(), '\n'),
+              static_cast<std::ptrdiff_t>(surface.parts[0].triangles) + 1);
+    std::ostringstream mtl;
+    writeMtl({options.looks[0], options.looks[1], options.looks[0]}, mtl);
+    EXPECT_THAT(mtl.str(), ::testing::AllOf(HasSubstr("newmtl ink\n"), HasSubstr("newmtl honey\n")));
+    EXPECT_EQ(mtl.str().find("newmtl ink"), mtl.str().rfind("newmtl ink"));
+    options.looks.pop_back();
+    EXPECT_THROW(writeObj(surface, out, options), Error);
+}
+
 struct Named {
     const char* name;
     Writer writer;

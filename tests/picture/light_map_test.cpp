@@ -51,7 +51,7 @@ TEST(LightMap, LiquidOfAirsIndexChangesNothing)
     const Surface surface = roundDroplet({.height = 2e-3, .rings = 8, .segments = 48});
     const Scene scene(surface, RenderOptions{});
     for (const Light& light : {straightDown(), slanted()}) {
-        for (const Vec3f& value : lightGain(scene, {true, 1.0F, {}}, light, kCells, 0.0F).values) {
+        for (const Vec3f& value : lightGain(scene, {{true, 1.0F, {}}}, light, kCells, 0.0F).values) {
             ASSERT_NEAR(value.x, 1.0, 2e-4);
             ASSERT_NEAR(value.z, 1.0, 2e-4);
         }
@@ -63,10 +63,11 @@ TEST(LightMap, OpaqueDropletTakesTheLightItIntercepts)
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 8, .segments = 48});
     const Scene scene(surface, RenderOptions{});
     const double area = testing::polygonArea(4e-3, 48);
-    const LightMap down = lightGain(scene, {false, 1.0F, {}}, straightDown(), kCells, 0.0F);
+    const LightMap down = lightGain(scene, {{false, 1.0F, {}}}, straightDown(), kCells, 0.0F);
     EXPECT_NEAR(missing(down, scene), area, 0.005 * area);
     // Blurring moves light but loses none.
-    EXPECT_NEAR(missing(lightGain(scene, {false, 1.0F, {}}, straightDown(), kCells, 2.0F), scene), area, 0.005 * area);
+    EXPECT_NEAR(missing(lightGain(scene, {{false, 1.0F, {}}}, straightDown(), kCells, 2.0F), scene), area,
+                0.005 * area);
 }
 
 // The light that arrives, anywhere, is the intercepted light minus the reflected light (Fresnel).
@@ -84,7 +85,7 @@ TEST(LightMap, ClearDropletLosesWhatItReflects)
             reflected +=
                 2.0 * std::numbers::pi * r * kRadius / kRings * reflectance(1.0 / std::hypot(1.0, slope), 1.333);
         }
-        const LightMap map = lightGain(scene, {true, 1.333F, {}}, straightDown(), 400, 0.0F);
+        const LightMap map = lightGain(scene, {{true, 1.333F, {}}}, straightDown(), 400, 0.0F);
         EXPECT_NEAR(missing(map, scene), reflected, 0.03 * reflected) << height;
     }
 }
@@ -97,7 +98,7 @@ TEST(LightMap, MiddleOfADropletGathersLightLikeALens)
     constexpr double kIndex = 1.5;
     const Surface surface = roundDroplet({.outer = kRadius, .height = kHeight, .rings = 60, .segments = 160});
     const Scene scene(surface, RenderOptions{});
-    const LightMap map = lightGain(scene, {true, static_cast<float>(kIndex), {}}, straightDown(), 400, 4.0F);
+    const LightMap map = lightGain(scene, {{true, static_cast<float>(kIndex), {}}}, straightDown(), 400, 4.0F);
     const double curvature = 2.0 * kHeight / (kRadius * kRadius);
     const double narrowed = 1.0 - kHeight * curvature * (1.0 - 1.0 / kIndex);
     EXPECT_NEAR(map.at({}).y, (1.0 - 0.04) / (narrowed * narrowed), 0.02);
@@ -109,7 +110,7 @@ TEST(LightMap, ColouredLiquidAbsorbsByItsDepth)
     const Surface surface = roundDroplet({.outer = 8e-3, .height = 0.5e-3, .rings = 40, .segments = 96});
     const Scene scene(surface, RenderOptions{});
     const auto depth = static_cast<float>(0.5e-3 / scene.scale());
-    const Medium medium{true, 1.0F, {1.0F / depth, 0.5F / depth, 0.0F}};
+    const Media medium{{true, 1.0F, {1.0F / depth, 0.5F / depth, 0.0F}}};
     const Vec3f middle = lightGain(scene, medium, straightDown(), kCells, 0.0F).at({});
     EXPECT_NEAR(middle.x, std::exp(-1.0), 0.005);
     EXPECT_NEAR(middle.y, std::exp(-0.5), 0.005);
@@ -123,7 +124,7 @@ TEST(LightMap, IsTheSameWithAnyNumberOfThreads)
         LightMap map;
         tbb::task_arena(threads).execute([&] {
             const Scene scene(surface, RenderOptions{});
-            map = lightOnPlane(scene, {true, 1.333F, {1.0F, 2.0F, 3.0F}}, {slanted(), straightDown()}, kCells);
+            map = lightOnPlane(scene, {{true, 1.333F, {1.0F, 2.0F, 3.0F}}}, {slanted(), straightDown()}, kCells);
         });
         return map;
     };
@@ -149,7 +150,7 @@ TEST(LightMap, OnAStandEqualsThePlane)
     const Scene on_plane(surface, options);
     options.stand = plane;
     const Scene on_stand(surface, options);
-    const Medium medium{true, 1.333F, {}};
+    const Media medium{{true, 1.333F, {}}};
     const LightMap expected = lightGain(on_plane, medium, slanted(), 300, 2.0F);
     const LightMap gain = lightGainOnStand(on_stand, medium, slanted(), 300);
     double error = 0.0;

@@ -511,5 +511,34 @@ TEST(GroundMesh, EndsWhereTheGroundDoes)
     }
 }
 
+TEST(Render, EveryDropletHasItsLook)
+{
+    RenderOptions options = small(View::Top);
+    options.lighting = Lighting::Studio;
+    options.extent = {kExtent, kExtent};
+    options.ground = Picture{1, 1, {255, 255, 255}};
+    const Picture alike = render(testing::pairOfDroplets(), options);
+    options.looks = {options.look, options.look};
+    EXPECT_EQ(render(testing::pairOfDroplets(), options), alike);
+    for (const std::size_t red : {0U, 1U}) {
+        options.looks = {lookOf(Material::Water), lookOf(Material::Water)};
+        options.looks[red].colour = {1.0, 0.01, 0.01};
+        options.looks[red].tinted = true;
+        const Picture picture = render(testing::pairOfDroplets(), options);
+        std::array<double, 2> redness{};
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                const auto pixel = pixelAt(picture, x, y);
+                redness[2 * x < picture.width ? 1 : 0] += pixel[0] - pixel[1];
+            }
+        }
+        EXPECT_GT(redness[red], 20.0 * std::abs(redness[1 - red]));
+    }
+    options.looks.pop_back();
+    EXPECT_THROW(render(testing::pairOfDroplets(), options), Error);
+    options.looks = {lookOf(Material::Water)};
+    EXPECT_THROW(render(roundDroplet(), options), Error) << "it has no parts";
+}
+
 }  // namespace
 }  // namespace droplet

@@ -36,6 +36,9 @@ TEST(SheetContact, FindsNeighboursThatTouch)
     EXPECT_FALSE(firstContact({&one, &far}));
     const SheetMesh near = moved(one, 1.95 * reach);
     const std::optional<SheetContact> contact = firstContact({&one, &near});
+    EXPECT_TRUE(firstContact({&one, &near}, {0, 1}));
+    EXPECT_FALSE(firstContact({&one, &near}, {0, 0})) << "one cluster";
+    EXPECT_TRUE(firstContact({&one, &near, &far}, {0, 2, 0})) << "near is of another cluster";
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->first, 0U);
     EXPECT_EQ(contact->second, 1U);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws in Studio with a real browser: node --test studio_test.mjs
-// STUDIO is the HTML file, CHROMIUM the browser, DROPLET_SHAPE the command, if its figures shall be compared.
+// STUDIO is the HTML file, CHROMIUM the browser; DROPLET_SHAPE the command, whose figures are compared; PAGE a page that
+// --html wrote of data/ampersand.png, with Studio in it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -10,8 +11,8 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE } = process.env;
-const kUrl = pathToFileURL(resolve(STUDIO)).href;
+const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, PAGE } = process.env;
+const kStudio = pathToFileURL(resolve(STUDIO)).href;
 const kDesktop = { viewport: { width: 1100, height: 640 } };
 const kPhone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
@@ -29,13 +30,13 @@ after(async () => {
 });
 
 /** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
-function studio(name, options, run) {
+function studio(name, options, run, url = kStudio) {
     test(name, async () => {
         const context = await browser.newContext({ acceptDownloads: true, deviceScaleFactor: 0.5, colorScheme: 'light', ...options });
         const complaints = [];
         await context.route('**', (route) => {
             const asked = route.request().url();
-            if (asked === kUrl || /^(data|blob):/.test(asked)) {
+            if (asked.split('#')[0] === url || /^(data|blob):/.test(asked)) {
                 return route.continue();
             }
             complaints.push(`request of ${asked}`);
@@ -55,8 +56,8 @@ function studio(name, options, run) {
             return dialog.dismiss();
         });
         page.on('popup', () => complaints.push('popup'));
-        await page.goto(kUrl);
-        await page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
+        await page.goto(url);
+        await page.waitForFunction((alone) => document.documentElement.dataset[alone ? 'solver' : 'state'] !== (alone ? undefined : 'loading'), url === kStudio);
         await run(page);
         assert.deepEqual(complaints, []);
         await context.close();
@@ -475,3 +476,25 @@ studio('times from the hand to the eye', { viewport: { width: 1440, height: 900 
     console.log(`stroke on 1024 × 1024 to 3D: median ${summary.median.toFixed(1)} ms, nine in ten within ` +
         `${summary.nine_in_ten.toFixed(1)} ms, of which the solver ${summary.solve.toFixed(1)} ms; ${summary.drafts} drafts`);
 });
+
+if (PAGE) {
+    studio('the page that --html writes is edited in Studio', kDesktop, async (page) => {
+        const volume = (await page.locator('#subtitle').textContent()).split(' · ')[1];
+        await page.locator('#edit').click();
+        await page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
+        await settle(page);
+        // The footprint is drawn from the mesh, so it is the picture's but for the rim's pixels.
+        const given = Number.parseFloat(volume);
+        const drawn = Number.parseFloat(await said(page));
+        assert.ok(Math.abs(drawn / given - 1) < 0.01, `${drawn} ${given}`);
+        assert.deepEqual(await page.locator('#sheet').evaluate(({ width, height }) => [width, height]), [642, 548]);
+        assert.equal(await page.locator('#name').inputValue(), 'ampersand');
+        await choose(page, 'fill');
+        await stroke(page, [0.3, 0.65]);
+        await settle(page);
+        assert.ok(Number.parseFloat(await said(page)) > 1.1 * drawn);
+        await page.evaluate(() => window.addEventListener('beforeunload', (event) => event.stopImmediatePropagation(), true));
+        await page.goBack();
+        await page.locator('#edit').waitFor();
+    }, pathToFileURL(resolve(PAGE)).href);
+}

@@ -152,4 +152,30 @@ inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
     return surface;
 }
 
+/// Two droplets and their parts: the first in the arrays, on the left, is droplet 1, the other one is droplet 0.
+inline Surface pairOfDroplets()
+{
+    Surface surface = roundDroplet({.outer = 3e-3, .height = 1e-3, .rings = 8, .segments = 32, .centre = {-4e-3, 0.0}});
+    const std::size_t vertices = surface.positions.size();
+    const std::size_t triangles = surface.triangles.size();
+    surface = together(
+        surface, roundDroplet({.outer = 3e-3, .height = 2e-3, .rings = 9, .segments = 31, .centre = {4e-3, 0.0}}));
+    SurfacePart left;
+    left.droplet = 1;
+    left.vertices = vertices;
+    left.triangles = triangles;
+    left.volume = 1e-9;
+    left.area = 1e-6;
+    SurfacePart right;
+    right.first_vertex = vertices;
+    right.vertices = surface.positions.size() - vertices;
+    right.first_triangle = triangles;
+    right.triangles = surface.triangles.size() - triangles;
+    right.volume = 4e-9;
+    right.area = 2e-6;
+    surface.parts = {left, right};
+    surface.mean_height = 5e-9 / 3e-6;
+    return surface;
+}
+
 }  // namespace droplet::testing

@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
 #include "droplet/shape/figures.h"
+#include "droplet/units.h"
 #include "support/domains.h"
 #include "support/grounded.h"
 #include "support/zoo.h"
@@ -301,6 +303,73 @@ TEST(Loft, RefusesArgumentsThatDoNotFitTogether)
     spoilt([](HeightField& field) { field.dry.push_back(1); });
     spoilt([](HeightField& field) { field.rim_slope.pop_back(); });
     spoilt([](HeightField& field) { field.contact_angle.clear(); });
+}
+
+// Parts of several droplets, of which one is a sheet, cover the surface; a part is the droplet alone.
+TEST(SurfaceParts, AreTheDroplets)
+{
+    Domain domain;
+    domain.extent = {40e-3, 40e-3};
+    for (const double x : {-12e-3, 0.0, 12e-3}) {
+        Loop loop = testing::ellipseLoop(3e-3, 3e-3);
+        for (Vec2& p : loop.points) {
+            p.x += x;
+        }
+        domain.droplets.push_back({loop, {}});
+    }
+    DropletOptions options;
+    options.mesh.triangles = 1500;
+    options.solve.fill = {FillBy::ContactAngle, 100.0 * kDegree, FillSharing::Each};
+    const Droplet sheets = makeDroplet(domain, options);
+    options.solve.fill.amount = 30.0 * kDegree;
+    const Droplet fields = makeDroplet(domain, options);
+    for (const Droplet* droplet : {&sheets, &fields}) {
+        const Surface& surface = droplet->surface;
+        surface.validate();
+        ASSERT_EQ(surface.parts.size(), 3U);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const SurfacePart& part = surface.parts[k];
+            EXPECT_EQ(part.droplet, k);
+            EXPECT_NEAR(part.volume, droplet->figures[k].volume, 1e-9 * part.volume);
+            const Surface alone = extract(surface, {k});
+            alone.validate();
+            EXPECT_TRUE(isClosed(alone));
+            EXPECT_NEAR(enclosedVolume(alone), part.volume, 1e-3 * part.volume);
+            EXPECT_NEAR(alone.mean_height, part.volume / part.area, 1e-12);
+        }
+        const Surface two = extract(surface, {2, 0});
+        EXPECT_EQ(two.parts[0].droplet, 2U);
+        EXPECT_EQ(topology(two).components, 2U);
+    }
+    EXPECT_THROW(extract(fields.surface, {}), Error);
+    EXPECT_THROW(extract(fields.surface, {3}), Error);
+}
+
+TEST(SurfaceParts, MustCoverTheSurface)
+{
+    DropletOptions options;
+    options.mesh.triangles = 200;
+    const Domain domain = testing::domainOf(testing::ellipseLoop(3e-3, 2e-3));
+    Surface surface = makeDroplet(domain, options).surface;
+    const auto refused = [&](const SurfacePart& part) {
+        surface.parts = {part};
+        EXPECT_THROW(surface.validate(), Error);
+    };
+    const SurfacePart whole = surface.parts.front();
+    SurfacePart part = whole;
+    --part.vertices;
+    refused(part);
+    part = whole;
+    --part.triangles;
+    refused(part);
+    part = whole;
+    part.first_vertex = 1;
+    refused(part);
+    part = whole;
+    part.area = 0.0;
+    refused(part);
+    surface.parts = {whole};
+    surface.validate();
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "droplet/vector.h"
+
 namespace droplet {
 
 /// Colour in sRGB, as in style sheets.
@@ -24,5 +26,11 @@ CssColour parseCssColour(std::string_view text);
 
 /// The colour as `#rrggbb`.
 std::string text(const CssColour& colour);
+
+/// Name of a colour in files, where `#` may begin a comment: the first of its CSS names, such as `red`, or `rrggbb`.
+std::string fileName(const CssColour& colour);
+
+/// Linear light of a colour, 0 … 1 in every channel.
+Vec3 linearLight(const CssColour& colour);
 
 }  // namespace droplet

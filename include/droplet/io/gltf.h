@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
 
+/// Name, look and figures of a droplet in a file.
+struct FileDroplet {
+    std::string name;            ///< of its node in glTF
+    Look look;                   ///< of its liquid; droplets with the same look share a material
+    double volume = 0.0;         ///< [m³]
+    double contact_angle = 0.0;  ///< mean along the rim [rad]
+    double height_max = 0.0;     ///< [m]
+    double pressure = 0.0;       ///< at height 0 [Pa]
+};
+
+/// Nodes of a glTF file.
+enum class Nodes {
+    One,  ///< all droplets are one mesh
+    Each  ///< every droplet has a mesh and a node
+};
+
 /// Options of a glTF file.
 struct GltfOptions {
     bool binary = true;                   ///< GLB; otherwise JSON with the buffer embedded as base64
-    Material material = Material::Water;  ///< of the liquid
-    bool closed = true;  ///< false: no volume extension, since viewers would refract at the missing base
+    Material material = Material::Water;  ///< of the liquid, without `droplets`
+    bool closed = true;        ///< false: no volume extension, since viewers would refract at the missing base
+    Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
+    std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
+    std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -25,9 +47,18 @@ struct GltfOptions {
 /// its weight w shows 1 + w fills. mesh.weights is then [0], and mesh.extras holds `targetNames` and `fill_range`,
 /// the minimum and maximum fill. Colour by depth is given at the mean height; an open surface has it as plain tint.
 ///
+/// With `droplets`, every look has a primitive of one mesh, with a material for the mean height of its droplets; or,
+/// with Nodes::Each, every droplet has a node with its name, a mesh, a material for its own mean height, and extras
+/// `volume_m3`, `contact_angle_deg`, `height_max_m` and `pressure_pa`. Nodes follow each other as in `droplets`; a
+/// droplet without liquid has none.
+///
+/// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
+/// it, as KHR_materials_transmission says.
+///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
-/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or the file would reach 2 GiB
+/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or has parts that `droplets` lacks;
+///               if Nodes::Each has no `droplets`; or if the file would reach 2 GiB
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "droplet/io/gltf.h"
 #include "droplet/io/mesh_files.h"
@@ -27,11 +28,17 @@ const char* name(Format format);
 
 /// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {
-    Material material = Material::Water;            ///< glTF, and OBJ with material_file
+    Material material = Material::Water;            ///< glTF, and OBJ with material_file; without `droplets`
     std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
     LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
+    Nodes nodes = Nodes::One;                       ///< glTF
+    std::vector<FileDroplet> droplets = {};         ///< glTF as in GltfOptions; OBJ takes their looks
+    std::string texture = {};                       ///< glTF
 };
+
+/// Looks of droplets, in their order.
+std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets);
 
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
 /// without triangles.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/footprint/colour_regions.h"
 #include "droplet/footprint/mask.h"
 #include "droplet/io/output.h"
 #include "droplet/progress.h"
@@ -56,6 +57,8 @@ struct InputReport {
     double largest_speck_px = 0.0;    ///< area of the largest speck dropped [px²]
     Segmentation segment = Segmentation::Threshold;  ///< as in Mask
     double segment_confidence = 1.0;                 ///< as in Mask
+    std::vector<PaletteColour> palette = {};         ///< as in ColourRegions; empty unless droplets are made by colour
+    std::optional<CssColour> background = {};        ///< as in ColourRegions
 };
 
 /// Output file.
@@ -102,10 +105,11 @@ struct MeshReport {
 
 /// Figures of one droplet.
 struct DropletReport {
-    ShapeFigures figures;                ///< of this droplet
-    std::size_t holes = 0;               ///< dry spots
-    double pressure = 0.0;               ///< [Pa]
-    std::optional<Retention> retention;  ///< empty if Report::hysteresis is empty
+    ShapeFigures figures;                  ///< of this droplet
+    std::size_t holes = 0;                 ///< dry spots
+    double pressure = 0.0;                 ///< [Pa]
+    std::optional<Retention> retention;    ///< empty if Report::hysteresis is empty
+    std::optional<CssColour> colour = {};  ///< of its region; empty unless droplets are made by colour
 };
 
 /// Options, results and warnings of a run, in SI units and radians.

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "droplet/picture/environment.h"
 #include "droplet/picture/paint.h"
@@ -54,6 +55,7 @@ struct RenderOptions {
     bool fit_all_azimuths = false;           ///< frame the droplet so that it fits at every azimuth, for a turntable
     int samples = 16;                        ///< rays per pixel with detail; a quarter of it elsewhere. 4 … 256
     Look look;                               ///< of the liquid: lookOf(material)
+    std::vector<Look> looks = {};            ///< by SurfacePart::droplet, instead of `look`; empty: all are alike
     Lighting lighting = Lighting::Studio;    ///< Uniform ignores `environment`
     std::optional<Environment> environment = {};  ///< light instead of the studio's, fixed relative to the camera and
                                                   ///< scaled to the same brightness of level ground

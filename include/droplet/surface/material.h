@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "droplet/liquid.h"
@@ -20,7 +21,7 @@ Material materialOf(const Liquid& liquid);
 
 /// Optical properties of a material.
 struct Look {
-    const char* name = "water";     ///< name in files
+    std::string name = "water";     ///< name in files
     Vec3 colour = {1.0, 1.0, 1.0};  ///< linear red, green, blue; for liquids, the colour of white light after the mean
                                     ///< height
     double metallic = 0.0;          ///< 1 for metal
@@ -28,6 +29,9 @@ struct Look {
     double transmission = 1.0;      ///< share of the light that passes, 0 … 1
     double ior = 1.333;             ///< index of refraction
     bool tinted = false;            ///< whether the colour deepens with the path through the liquid
+
+    /// Whether all properties are equal.
+    friend bool operator==(const Look&, const Look&) = default;
 };
 
 /// Looks up a material.

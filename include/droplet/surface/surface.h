@@ -37,6 +37,17 @@ enum class TextureMap {
     Folded,      ///< the place above or below, although something leans out: there the picture repeats
 };
 
+/// Vertices and triangles of one droplet in a surface.
+struct SurfacePart {
+    std::size_t droplet = 0;         ///< number of the droplet, from 0
+    std::size_t first_vertex = 0;    ///< index
+    std::size_t vertices = 0;        ///< number; triangles of the part have no others
+    std::size_t first_triangle = 0;  ///< index
+    std::size_t triangles = 0;       ///< number, at least 1
+    double volume = 0.0;             ///< of the liquid [m³], ≥ 0
+    double area = 0.0;               ///< wet area of the footprint [m²], > 0
+};
+
 /// Surface of all droplets in space, ready to be written.
 ///
 /// Invariants: all arrays of vertices have one length, but contact_angle may be empty; triangles wind outward; normals
@@ -52,12 +63,21 @@ struct Surface {
     TextureMap texture_map = TextureMap::Projection;  ///< the last in its order of all droplets
     double mean_height = 0.0;                         ///< volume divided by the wet area of the footprint [m], ≥ 0
     std::optional<Refill> refill;                     ///< for a surface that can be filled and drained
+    std::vector<SurfacePart> parts;  ///< droplets that have liquid, one after another without gaps; empty if unknown
 
     /// Checks all invariants that need no topology: there is a triangle, lengths of arrays match, indices are in range,
-    /// numbers are finite, normals have unit length to 1e-6, and welded copies have one position and one change of it.
+    /// numbers are finite, normals have unit length to 1e-6, welded copies have one position and one change of it, and
+    /// parts, if there are any, cover all vertices and triangles.
     /// @throws Error InvalidArgument
     void validate() const;
 };
+
+/// Copies droplets out of a surface, with their refill.
+/// @param surface  valid, with parts
+/// @param which    indices of its parts, at least one
+/// @return         surface with the parts in that order
+/// @throws Error   InvalidArgument
+Surface extract(const Surface& surface, const std::vector<std::size_t>& which);
 
 /// Makes the surface at another fill, as a viewer shows it with the weights of its states.
 /// @param surface  valid, with a refill

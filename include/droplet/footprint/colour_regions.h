@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "droplet/footprint/css_colour.h"
+#include "droplet/footprint/mask.h"
+
+namespace droplet {
+
+/// Largest number of colours of a picture.
+inline constexpr std::size_t kMaxColours = 64;
+
+/// Options of decodeColours().
+struct ColourOptions {
+    /// Number of colours of the liquid, 1 … kMaxColours; empty: as many as stand out.
+    std::optional<std::size_t> colours = {};
+    /// What is dry: Alpha: what is less than half opaque, nothing in an opaque picture. Luma: the most common colour of
+    /// the picture's border. Auto: as Alpha if the picture has transparent parts, else as Luma if that colour has at
+    /// least 95 % of the border, else nothing.
+    Channel channel = Channel::Auto;
+    std::size_t max_pixels = std::size_t{1} << 28;     ///< as in MaskOptions
+    int vector_long_side = 2048;                       ///< as in MaskOptions
+    double vector_seconds = 10.0;                      ///< as in MaskOptions
+    std::size_t vector_memory = std::size_t{1} << 30;  ///< as in MaskOptions
+
+    /// @throws Error InvalidArgument if the number of colours is out of its range
+    void validate() const;
+};
+
+/// Colour of a picture's palette.
+struct PaletteColour {
+    CssColour colour;        ///< mean of its pixels, or the most common one
+    std::size_t pixels = 0;  ///< number of its pixels
+};
+
+/// Picture whose pixels are sorted by colour.
+/// Invariants: label, is_blend and colour have width · height entries; alpha too, or none; a label is 0 for dry, or 1 +
+/// index in the palette.
+struct ColourRegions {
+    int width = 0;                                    ///< [px]
+    int height = 0;                                   ///< [px]
+    std::vector<std::uint8_t> label;                  ///< row by row from the top left
+    std::vector<std::uint8_t> is_blend;               ///< 1 for a pixel at a rim that mixes the colours on both sides
+    std::vector<std::array<std::uint8_t, 3>> colour;  ///< of every pixel, sRGB
+    std::vector<std::uint16_t> alpha;                 ///< where that says what is dry; 65535 opaque
+    std::vector<PaletteColour> palette;               ///< colours of the liquid, the one with most pixels first
+    std::optional<CssColour> background;              ///< colour of what is dry, if it has one
+    std::optional<double> raster_scale;               ///< as in Mask
+    std::optional<double> physical_width;             ///< as in Mask [m]
+};
+
+/// Sorts the pixels of an encoded image by colour.
+///
+/// Colours of even parts of the picture are grouped by their distance in CIE 1976 L*a*b*; without a number of colours,
+/// groups nearer than 16 become one, and at most 12 remain. A pixel that lies between two colours on opposite sides of
+/// it is a blend; it goes to the one with the larger share, and does not become a colour of its own. The result does
+/// not depend on the number of threads.
+/// @param encoded  the file's bytes, in any format of decodeMask
+/// @param options  number of colours, channel, limits
+/// @throws Error   InvalidArgument; InvalidInput as decodeMask, or if nothing but background is in the picture
+ColourRegions decodeColours(std::span<const std::byte> encoded, const ColourOptions& options = {});
+
+}  // namespace droplet

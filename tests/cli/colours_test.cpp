@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Droplets by colour, nodes and materials of single droplets, and the picture as a tint.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/colour_pictures.h"
+#include "support/command.h"
+
+namespace droplet {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using testing::CommandResult;
+using ::testing::HasSubstr;
+using testing::pie;
+using testing::readFile;
+using testing::runDroplet;
+using testing::ScratchDirectory;
+using testing::writeFile;
+
+class ColoursTest : public ::testing::Test {
+protected:
+    ColoursTest()
+    {
+        writeFile(at("pie.ppm"), pie(120, 50.0));
+        writeFile(at("two.pgm"), testing::greymap(96, 64, [](int x, int y) {
+                      const double left = std::hypot(x - 30.0, y - 32.0);
+                      const double right = std::hypot(x - 76.0, y - 32.0);
+                      return left < 20.0 || right < 14.0 ? 255 : 0;
+                  }));
+    }
+
+    [[nodiscard]] std::string at(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    /// Runs the command in the scratch directory, which must succeed.
+    CommandResult made(std::vector<std::string> arguments) const
+    {
+        CommandResult result = run(std::move(arguments));
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return result;
+    }
+    CommandResult run(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.end(), {"--triangles", "2000"});
+        testing::CommandOptions options;
+        options.directory = scratch_.path();
+        return runDroplet(arguments, options);
+    }
+
+    /// JSON chunk of a GLB.
+    [[nodiscard]] json sceneOf(const std::string& name) const
+    {
+        const std::string bytes = readFile(at(name));
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, sizeof size);
+        return json::parse(bytes.substr(20, size));
+    }
+    [[nodiscard]] json reportOf(const std::string& name) const { return json::parse(readFile(at(name))); }
+
+private:
+    ScratchDirectory scratch_;
+};
+
+std::set<std::string> namesOf(const json& list)
+{
+    std::set<std::string> names;
+    for (const json& entry : list) {
+        names.insert(entry.at("name"));
+    }
+    return names;
+}
+
+TEST_F(ColoursTest, MakesOneDropletForEachColour)
+{
+    const CommandResult result = made({"pie.ppm", "pie.glb", "--by-colour", "--nodes", "each", "--json", "pie.json"});
+    EXPECT_THAT(result.error, HasSubstr("3 colours are liquid (--by-colour)"));
+    const json report = reportOf("pie.json");
+    EXPECT_EQ(report["input"]["background"], "#ffffff");
+    ASSERT_EQ(report["input"]["palette"].size(), 3U);
+    ASSERT_EQ(report["droplets"].size(), 3U);
+    double area = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(report["droplets"][k]["colour"], report["input"]["palette"][k]["colour"]);
+        area += report["droplets"][k]["footprint_area_m2"].get<double>();
+    }
+    EXPECT_NEAR(area, report["mesh"]["footprint_area_m2"].get<double>(), 1e-12);
+    EXPECT_TRUE(report["output"]["closed"]);
+    EXPECT_EQ(report["output"]["components"], 3);
+    const json scene = sceneOf("pie.glb");
+    EXPECT_EQ(namesOf(scene["nodes"]), (std::set<std::string>{"e30613_1", "ffcc00_1", "0062b8_1"}));
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(scene["nodes"][k]["extras"]["volume_m3"], report["droplets"][k]["volume_m3"]);
+        EXPECT_EQ(scene["nodes"][k]["extras"]["pressure_pa"], report["droplets"][k]["pressure_pa"]);
+        EXPECT_EQ(scene["nodes"][k]["extras"]["height_max_m"], report["droplets"][k]["height_max_m"]);
+        EXPECT_EQ(scene["nodes"][k]["extras"]["contact_angle_deg"], report["droplets"][k]["contact_angle_deg"]["mean"]);
+    }
+}
+
+// White light that passes the mean height of a droplet gets its colour.
+TEST_F(ColoursTest, TintIsTheRegionsColour)
+{
+    made({"pie.ppm", "pie.glb", "--by-colour"});
+    const json scene = sceneOf("pie.glb");
+    ASSERT_EQ(scene["meshes"].size(), 1U);
+    EXPECT_EQ(scene["meshes"][0]["primitives"].size(), 3U);
+    ASSERT_EQ(namesOf(scene["materials"]), (std::set<std::string>{"e30613", "ffcc00", "0062b8"}));
+    for (const json& material : scene["materials"]) {
+        const json& volume = material["extensions"]["KHR_materials_volume"];
+        EXPECT_EQ(volume["attenuationDistance"], volume["thicknessFactor"]);
+        if (material["name"] == "ffcc00") {
+            EXPECT_NEAR(volume["attenuationColor"][0].get<double>(), 1.0, 1e-9);
+            EXPECT_NEAR(volume["attenuationColor"][1].get<double>(), 0.6038, 1e-4);
+            EXPECT_NEAR(volume["attenuationColor"][2].get<double>(), 0.0, 1e-9);
+        }
+    }
+}
+
+TEST_F(ColoursTest, NumberAndGapAreOptions)
+{
+    made({"pie.ppm", "two.glb", "--by-colour", "--colours", "2", "--json", "two.json"});
+    EXPECT_EQ(reportOf("two.json")["input"]["palette"].size(), 2U);
+    made({"pie.ppm", "none.glb", "--by-colour", "--json", "none.json"});
+    made({"pie.ppm", "gap.glb", "--by-colour", "--gap", "0.5mm", "--json", "gap.json"});
+    const auto area = [&](const std::string& name) {
+        return reportOf(name)["mesh"]["footprint_area_m2"].get<double>();
+    };
+    // Three radii of 50 of 120 pixels of a picture 20 mm wide, less what meets in the middle.
+    const double radii = 3.0 * 50.0 / 120.0 * 20e-3;
+    EXPECT_NEAR(area("none.json") - area("gap.json"), radii * 0.5e-3, 0.05 * radii * 0.5e-3);
+    EXPECT_THAT(made({"pie.ppm", "x.glb", "--by-colour", "--colours", "9"}).error,
+                HasSubstr("the picture has only 3 that stand out"));
+}
+
+TEST_F(ColoursTest, IsTheSameWithAnyNumberOfThreads)
+{
+    made({"pie.ppm", "one.glb", "--by-colour", "-j", "1"});
+    made({"pie.ppm", "two.glb", "--by-colour", "-j", "2"});
+    EXPECT_EQ(readFile(at("one.glb")), readFile(at("two.glb")));
+}
+
+TEST_F(ColoursTest, RefusesOptionsThatReadTheMaskOtherwise)
+{
+    for (const std::vector<std::string>& other : {std::vector<std::string>{"--segment", "grabcut"},
+                                                  {"--colour", "red"},
+                                                  {"--threshold", "0.3"},
+                                                  {"--invert"},
+                                                  {"--mask-out", "m.png"},
+                                                  {"--colour-map"}}) {
+        std::vector<std::string> arguments{"pie.ppm", "x.glb", "--by-colour"};
+        arguments.insert(arguments.end(), other.begin(), other.end());
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.error, AllOf(HasSubstr("--by-colour"), HasSubstr(other[0]), HasSubstr("exclude")));
+    }
+    for (const char* wrong : {"0", "65", "few"}) {
+        EXPECT_EQ(run({"pie.ppm", "x.glb", "--by-colour", "--colours", wrong}).exit_code, 2) << wrong;
+    }
+    EXPECT_THAT(made({"two.pgm", "x.glb", "--gap", "1mm"}).error, HasSubstr("--gap has no effect without --by-colour"));
+}
+
+TEST_F(ColoursTest, NodesKeepTheDefaultFileAsItIs)
+{
+    made({"two.pgm", "default.glb"});
+    made({"two.pgm", "one.glb", "--nodes", "one"});
+    EXPECT_EQ(readFile(at("default.glb")), readFile(at("one.glb")));
+    made({"two.pgm", "each.glb", "--nodes", "each"});
+    EXPECT_EQ(namesOf(sceneOf("each.glb")["nodes"]), (std::set<std::string>{"droplet_1", "droplet_2"}));
+    EXPECT_THAT(made({"two.pgm", "each.stl", "--nodes", "each"}).error,
+                HasSubstr("--nodes each has no effect: stl files have no nodes"));
+}
+
+TEST_F(ColoursTest, MaterialsComeFromAFile)
+{
+    writeFile(at("m.toml"),
+              "[[droplet]]\nindex = \"all\"\nmaterial = \"honey\"\n\n"
+              "[[droplet]]\nindex = 2\nmaterial = \"plain\"\ncolour = \"#e0312f\"\nroughness = 0.25\nior = 1.4\n");
+    made({"two.pgm", "m.glb", "--materials", "m.toml"});
+    const json scene = sceneOf("m.glb");
+    EXPECT_EQ(scene["meshes"][0]["primitives"].size(), 2U);
+    EXPECT_EQ(namesOf(scene["materials"]), (std::set<std::string>{"honey", "plain_e0312f_roughness_0.25_ior_1.4"}));
+    const json& plain = scene["materials"][1]["pbrMetallicRoughness"];
+    EXPECT_EQ(plain["roughnessFactor"], 0.25);
+    EXPECT_NEAR(plain["baseColorFactor"][0].get<double>(), 0.7454, 1e-4);
+    made({"two.pgm", "m.obj", "--materials", "m.toml"});
+    EXPECT_THAT(readFile(at("m.mtl")), AllOf(HasSubstr("newmtl honey\n"), HasSubstr("newmtl plain_e0312f")));
+    EXPECT_THAT(readFile(at("m.obj")), AllOf(HasSubstr("usemtl honey\nf"), HasSubstr("usemtl plain_e0312f")));
+    EXPECT_THAT(made({"two.pgm", "m.ply", "--materials", "m.toml"}).error,
+                HasSubstr("--materials m.toml has no effect: ply files have no material"));
+}
+
+TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
+{
+    const auto refused = [&](const std::string& text, const std::string& why) {
+        writeFile(at("m.toml"), text);
+        const CommandResult result = run({"two.pgm", "x.glb", "--materials", "m.toml"});
+        EXPECT_EQ(result.exit_code, 2) << text;
+        EXPECT_THAT(result.error, AllOf(HasSubstr("--materials: m.toml:"), HasSubstr(why))) << text;
+    };
+    refused("[[droplet]]\nindex = 1\nshine = 2\n", "m.toml:3: 'shine' is unknown; allowed are index, material, colour");
+    refused("[[drop]]\nindex = 1\n", "'drop' is unknown; allowed are tables [[droplet]]");
+    refused("[[droplet]]\nmaterial = \"ink\"\n", "index is missing");
+    refused("[[droplet]]\nindex = 0\n", "index must be \"all\" or the number of a droplet, from 1");
+    refused("[[droplet]]\nindex = 1\nmaterial = \"beer\"\n", "material must be one of water, ink");
+    refused("[[droplet]]\nindex = 1\ncolour = 7\n", "colour must be a colour such as");
+    refused("[[droplet]]\nindex = 1\nroughness = 2\n", "roughness must be a number from 0 to 1");
+    refused("[[droplet]]\nindex = 1\nior = 0.9\n", "ior must be a number from 1 to 4");
+    refused("[[droplet]\n", "m.toml:1:");
+    EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "missing.toml"}).error,
+                HasSubstr("--materials: missing.toml cannot be read"));
+    writeFile(at("m.toml"), "[[droplet]]\nindex = 7\n");
+    EXPECT_THAT(made({"two.pgm", "x.glb", "--materials", "m.toml"}).error,
+                HasSubstr("m.toml names droplet 7, but there are only 2"));
+}
+
+TEST_F(ColoursTest, PictureTintsTheLiquid)
+{
+    made({"pie.ppm", "map.glb", "--colour-map"});
+    const json scene = sceneOf("map.glb");
+    ASSERT_EQ(scene["images"].size(), 1U);
+    EXPECT_EQ(scene["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+    const json& view = scene["bufferViews"][scene["images"][0]["bufferView"].get<std::size_t>()];
+    const std::string bytes = readFile(at("map.glb"));
+    EXPECT_EQ(bytes.substr(bytes.find("BIN") + 4 + view["byteOffset"].get<std::size_t>(), 4), "\x89PNG");
+    EXPECT_THAT(made({"pie.ppm", "map.stl", "--colour-map"}).error,
+                HasSubstr("--colour-map has no effect: stl files have no texture"));
+}
+
+TEST_F(ColoursTest, PreviewShowsTheColours)
+{
+    made({"pie.ppm", "a.glb", "--by-colour", "--preview", "a.png", "--preview-size", "64x48"});
+    made({"pie.ppm", "b.glb", "--by-colour", "--preview", "b.png", "--preview-size", "64x48", "--material", "plain"});
+    EXPECT_NE(readFile(at("a.png")), readFile(at("b.png")));
+    EXPECT_EQ(namesOf(sceneOf("a.glb")["materials"]), namesOf(sceneOf("b.glb")["materials"]));
+}
+
+}  // namespace
+}  // namespace droplet
