@@ -51,7 +51,7 @@ void declareShape(CommandLine& line)
     line.addArgument("INPUT",
                      "Picture of the footprint: PNG, JPEG, SVG, TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or "
                      "HDR; - is standard input");
-    line.addArgument("OUTPUT", "The droplet: .glb, .gltf, .obj, .ply or .stl; - is standard output and needs --format");
+    line.addArgument("OUTPUT", "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
     declareShapes(line);
     declareMaskOut(line);
     declarePreview(line);
@@ -90,14 +90,16 @@ bool inGltf(const ShapeOptions& options)
 /// @param subject  name of the output in messages
 void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
-    const std::string known = "glb, gltf, obj, ply, stl";
+    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz";
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (const auto format = line.value("--format")) {
         options.format = choice<droplet::Format>(*format, {{"glb", droplet::Format::Glb},
                                                            {"gltf", droplet::Format::Gltf},
                                                            {"obj", droplet::Format::Obj},
                                                            {"ply", droplet::Format::Ply},
-                                                           {"stl", droplet::Format::Stl}});
+                                                           {"stl", droplet::Format::Stl},
+                                                           {"usda", droplet::Format::Usda},
+                                                           {"usdz", droplet::Format::Usdz}});
     } else if (options.output == kStandardStream) {
         refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
@@ -157,7 +159,7 @@ void declareDroplets(CommandLine& line)
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
-    line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
+    line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "

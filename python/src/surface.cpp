@@ -114,8 +114,8 @@ after the surface is deleted.)")
              py::arg("no_clobber") = false,
              R"(Writes the surface to a file, completely or not at all.
 
-path        ends in .glb, .gltf, .obj (with its .mtl), .ply or .stl
-material    water, ink, mercury, honey or plain: the look in glTF and OBJ
+path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or .usdz
+material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD
             [the liquid's own]
 unit        m, cm or mm: unit of length in OBJ and STL
 no_clobber  refuse to replace a file

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "io/byte_stream.h"
+#include "io/compressed_gltf.h"
 #include "io/dry_surface.h"
 #include "io/gltf_model.h"
 
@@ -55,6 +57,15 @@ void checkFileSize(const Surface& surface, bool binary)
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
                                                     " triangles would make a glTF file of " + std::to_string(file) +
                                                     " bytes; it must stay below 2 GiB");
+    }
+}
+
+void checkCompression(const Surface& surface, const GltfOptions& options)
+{
+    if (options.compression != Compression::None && (!options.binary || surface.refill)) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::string("options.compression = ") + name(options.compression) + " needs " +
+                        (options.binary ? "a surface without a refill: its changes are floats" : "a GLB"));
     }
 }
 
@@ -225,10 +236,18 @@ void writeText(const Surface& surface, const tinygltf::Model& model, ByteStream&
 
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
+    checkCompression(surface, options);
     checkFileSize(surface, options.binary);
     validateUnlessDry(surface);
     checkFloats(surface);
     const tinygltf::Model model = makeModel(surface, options);
+    if (options.compression != Compression::None && !isDry(surface)) {
+        std::ostringstream buffer;
+        ByteStream bytes(buffer);
+        writeBuffer(surface, bytes);
+        bytes.finish();
+        return writeCompressed(out, jsonOf(model), buffer.view(), options.compression);
+    }
     if (options.binary) {
         return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(surface, bytes); });
     }

@@ -25,6 +25,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/mesh_files.h"
+#include "droplet/io/usd.h"
 #include "io/dry_surface.h"
 
 namespace droplet {
@@ -32,12 +33,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
+constexpr std::array<std::pair<Format, const char*>, 7> kFormats = {{
     {Format::Glb, "glb"},
     {Format::Gltf, "gltf"},
     {Format::Obj, "obj"},
     {Format::Ply, "ply"},
     {Format::Stl, "stl"},
+    {Format::Usda, "usda"},
+    {Format::Usdz, "usdz"},
 }};
 
 constexpr int kMaxLinks = 40;          // Linux's own limit
@@ -502,7 +505,7 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out, {format == Format::Glb, options.material, closed});
+            return writeGltf(surface, out, {format == Format::Glb, options.material, closed, format == Format::Glb ? options.compression : Compression::None});
         }
         case Format::Obj:
             return writeObj(surface, out, {options.unit, options.material, options.material_file});
@@ -510,6 +513,10 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
             return writePly(surface, out);
         case Format::Stl:
             return writeStl(surface, out, options.unit);
+        case Format::Usda:
+            return writeUsda(surface, out, options.material);
+        case Format::Usdz:
+            return writeUsdz(surface, out, options.material);
     }
     refuse(format);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 
+#include "droplet/io/compression.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
@@ -14,6 +15,7 @@ struct GltfOptions {
     bool binary = true;                   ///< GLB; otherwise JSON with the buffer embedded as base64
     Material material = Material::Water;  ///< of the liquid
     bool closed = true;  ///< false: no volume extension, since viewers would refract at the missing base
+    Compression compression = Compression::None;  ///< only of a GLB without a refill
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -25,9 +27,13 @@ struct GltfOptions {
 /// its weight w shows 1 + w fills. mesh.weights is then [0], and mesh.extras holds `targetNames` and `fill_range`,
 /// the minimum and maximum fill. Colour by depth is given at the mean height; an open surface has it as plain tint.
 ///
+/// A compressed file requires the extensions of its Compression, and its node has a scale and a translation. Meshopt
+/// gives vertices and triangles another order.
+///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
-/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or the file would reach 2 GiB
+/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or cannot be compressed, or the file would
+///               reach 2 GiB without compression
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "droplet/io/compression.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/mesh_files.h"
 #include "droplet/surface/surface.h"
@@ -16,7 +17,7 @@
 namespace droplet {
 
 /// File formats of a surface.
-enum class Format { Glb, Gltf, Obj, Ply, Stl };
+enum class Format { Glb, Gltf, Obj, Ply, Stl, Usda, Usdz };
 
 /// Format with a name (`glb`) or a file extension (`.GLB`).
 /// @throws Error InvalidArgument, listing the known names
@@ -27,10 +28,11 @@ const char* name(Format format);
 
 /// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {
-    Material material = Material::Water;            ///< glTF, and OBJ with material_file
+    Material material = Material::Water;            ///< glTF, USD, and OBJ with material_file
     std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
     LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
+    Compression compression = Compression::None;    ///< GLB
 };
 
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
