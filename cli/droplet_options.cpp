@@ -395,7 +395,7 @@ void declareSurface(CommandLine& line)
              "Largest edge length far from the rim, as a multiple of the length at the rim [1]");
     line.addFlag(kGroup, "--open", "Leave out the base");
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
-             "Look in glTF, OBJ, previews and the page; does not change the shape [the liquid's own]");
+             "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
     line.add(kGroup, "--unit", "m|cm|mm", "Unit of length in OBJ and STL [mm]");
     line.exclude({"--triangles", "--edge"});
 }

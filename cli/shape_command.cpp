@@ -182,7 +182,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const std::optional<Pre
                                                   options.format,
                                                   {.material = options.settings.material,
                                                    .closed = report.output.topology.closed,
-                                                   .unit = options.settings.unit}},
+                                                   .unit = options.settings.unit,
+                                                   .compression = options.compression}},
                                                  report.output.bytes);
     if (mask) {
         files.push_back(*mask);
@@ -247,6 +248,10 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const d
     report.fill_range = options.settings.droplet.fill_range;
     report.input = input;
     report.output = describeOutput(droplet.surface, options.output, options.format);
+    report.output.compression = options.compression;
+    if (options.compression != droplet::Compression::None) {
+        report.output.compression_error = droplet::compressionError(droplet.surface, options.compression);
+    }
     report.onto = onto;
     std::optional<PreviewSubject> subject;
     if (options.preview) {

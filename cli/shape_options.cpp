@@ -51,7 +51,9 @@ void declareShape(CommandLine& line)
     line.addArgument("INPUT",
                      "Picture of the footprint: PNG, JPEG, SVG, TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or "
                      "HDR; - is standard input");
-    line.addArgument("OUTPUT", "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
+    line.addArgument(
+        "OUTPUT",
+        "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
     declareShapes(line);
     declareMaskOut(line);
     declarePreview(line);
@@ -152,6 +154,28 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     options.settings.droplet.fill_range = range;
 }
 
+/// Reads --compress, which only a GLB without a slider can have.
+void readCompression(const CommandLine& line, ShapeOptions& options)
+{
+    using droplet::Compression;
+    const auto given = line.value("--compress");
+    if (!given) {
+        return;
+    }
+    options.compression = choice<Compression>(
+        *given, {{"none", Compression::None}, {"quantize", Compression::Quantize}, {"meshopt", Compression::Meshopt}});
+    if (options.compression == Compression::None) {
+        return;
+    }
+    if (options.format != droplet::Format::Glb) {
+        refuse(std::string("--compress and the format ") + droplet::name(options.format) +
+               " exclude each other: only glb can be compressed");
+    }
+    if (options.settings.droplet.fill_range) {
+        refuse("--compress and --fill-range exclude each other: the changes of a slider are not compressed");
+    }
+}
+
 }  // namespace
 
 void declareDroplets(CommandLine& line)
@@ -164,6 +188,10 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
              "takes the linear model unless --model exact is given");
+    line.add(
+        "Surface", "--compress", "none|quantize|meshopt",
+        "Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, "
+        "those encoded (EXT_meshopt_compression), a third of the size [none]");
 }
 
 void declareShapes(CommandLine& line)
@@ -195,6 +223,7 @@ ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const s
     options.run = readRun(line);
     readFormat(line, subject, options);
     readFillRange(line, options);
+    readCompression(line, options);
     return options;
 }
 

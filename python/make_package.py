@@ -242,7 +242,7 @@ mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose l
 (3, dtype('uint32'))
 """,
         "_core.make_droplet(mask_of(mask), {tokens})",
-        leave_out={"channel", "segment", "colour", "mask_out", "unit", "format", "material"},
+        leave_out={"channel", "segment", "colour", "mask_out", "unit", "format", "material", "compress"},
     ),
     Function(
         "glyphs",
@@ -262,7 +262,7 @@ text: one line or more, separated by line feeds.
 2
 """,
         "_core.glyphs(font, text, {tokens})",
-        leave_out={"font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material"},
+        leave_out={"font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "compress"},
     ),
     Function(
         "animate",

@@ -68,8 +68,7 @@ std::string encoded(const Column& column)
         bytes.resize(meshopt_encodeIndexBuffer(at(), bytes.size(), indices.data(), column.count));
     } else {
         bytes.resize(meshopt_encodeVertexBufferBound(column.count, column.stride));
-        bytes.resize(
-            meshopt_encodeVertexBuffer(at(), bytes.size(), column.bytes.data(), column.count, column.stride));
+        bytes.resize(meshopt_encodeVertexBuffer(at(), bytes.size(), column.bytes.data(), column.count, column.stride));
     }
     return bytes;
 }
@@ -196,9 +195,9 @@ private:
             accessor["componentType"] = component_type;
             accessor["normalized"] = true;
         };
-        const bool is_texture = name.starts_with("TEXCOORD_") && std::all_of(numbers.begin(), numbers.end(), [](float n) {
-                                    return n >= 0.0F && n <= 1.0F;
-                                });
+        const bool is_texture =
+            name.starts_with("TEXCOORD_") &&
+            std::all_of(numbers.begin(), numbers.end(), [](float n) { return n >= 0.0F && n <= 1.0F; });
         if (name == "POSITION") {
             normalised(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
             column.bytes = quantizedPositions(numbers, accessor);
@@ -252,8 +251,7 @@ private:
         column.indices = true;
         column.count = indices.size();
         column.stride = wide ? 4 : 2;
-        column.bytes =
-            wide ? bytesOf(indices) : bytesOf(std::vector<std::uint16_t>(indices.begin(), indices.end()));
+        column.bytes = wide ? bytesOf(indices) : bytesOf(std::vector<std::uint16_t>(indices.begin(), indices.end()));
         return addAccessor(
             {{"componentType", wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
              {"count", column.count},

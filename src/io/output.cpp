@@ -505,7 +505,9 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out, {format == Format::Glb, options.material, closed, format == Format::Glb ? options.compression : Compression::None});
+            return writeGltf(surface, out,
+                             {format == Format::Glb, options.material, closed,
+                              format == Format::Glb ? options.compression : Compression::None});
         }
         case Format::Obj:
             return writeObj(surface, out, {options.unit, options.material, options.material_file});

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "droplet/error.h"
 #include "io/axes.h"
@@ -15,6 +17,12 @@
 
 namespace droplet {
 namespace {
+
+constexpr std::array<std::pair<Compression, const char*>, 3> kNames = {{
+    {Compression::None, "none"},
+    {Compression::Quantize, "quantize"},
+    {Compression::Meshopt, "meshopt"},
+}};
 
 constexpr double kSteps = 65535.0;
 constexpr double kOne = 32767.0;
@@ -96,15 +104,23 @@ QuantizedNormals quantizeNormals(std::span<const Vec3> normals, Compression comp
     return quantized;
 }
 
+Compression compressionNamed(std::string_view wanted)
+{
+    for (const auto& [compression, known] : kNames) {
+        if (wanted == known) {
+            return compression;
+        }
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                "compression \"" + std::string(wanted) + "\" is unknown; known are none quantize meshopt");
+}
+
 const char* name(Compression compression)
 {
-    switch (compression) {
-        case Compression::None:
-            return "none";
-        case Compression::Quantize:
-            return "quantize";
-        case Compression::Meshopt:
-            return "meshopt";
+    for (const auto& [known, known_name] : kNames) {
+        if (known == compression) {
+            return known_name;
+        }
     }
     throw Error(ErrorCode::InvalidArgument,
                 "compression = " + std::to_string(static_cast<int>(compression)) + " is unknown");

@@ -105,7 +105,10 @@ public:
 
 private:
     [[nodiscard]] std::size_t corners() const { return 3 * surface_.triangles.size(); }
-    [[nodiscard]] std::uint32_t vertexAt(std::size_t corner) const { return surface_.triangles[corner / 3][corner % 3]; }
+    [[nodiscard]] std::uint32_t vertexAt(std::size_t corner) const
+    {
+        return surface_.triangles[corner / 3][corner % 3];
+    }
 
     template <typename ValueOf>
     void attribute(std::string_view declaration, std::size_t count, const ValueOf& value_of)
@@ -172,8 +175,9 @@ void writeMaterial(const Look& look, ByteStream& bytes)
         bytes.digits(toFloat(value));
         bytes.u8('\n');
     };
-    bytes.text(std::string("\n    def Material \"") + look.name + "\"\n    {\n        token outputs:surface.connect = <" +
-               path + "/preview.outputs:surface>\n\n        def Shader \"preview\"\n        {\n" +
+    bytes.text(std::string("\n    def Material \"") + look.name +
+               "\"\n    {\n        token outputs:surface.connect = <" + path +
+               "/preview.outputs:surface>\n\n        def Shader \"preview\"\n        {\n" +
                "            uniform token info:id = \"UsdPreviewSurface\"\n            color3f inputs:diffuseColor = ");
     write(bytes, std::array{toFloat(look.colour.x), toFloat(look.colour.y), toFloat(look.colour.z)});
     bytes.u8('\n');
@@ -200,7 +204,8 @@ private:
     uLong crc_ = crc32_z(0, nullptr, 0);
 };
 
-/// Fields that both headers of a zip's file share: version 1.0, no flags, stored, 1980-01-01, checksum and length twice.
+/// Fields that both headers of a zip's file share: version 1.0, no flags, stored, 1980-01-01, checksum and length
+/// twice.
 void writeZipFields(ByteStream& zip, std::uint32_t crc, std::uint64_t length, std::string_view name)
 {
     zip.u16(10, 0, 0, 0, 0x21);
@@ -215,9 +220,9 @@ std::uint64_t writeUsda(const Surface& surface, std::ostream& out, Material mate
     validateUnlessDry(surface);
     constexpr std::size_t kMaxIndices = std::numeric_limits<std::int32_t>::max();
     if (surface.triangles.size() > kMaxIndices / 3 || surface.positions.size() > kMaxIndices) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "surface has " + std::to_string(surface.triangles.size()) + " triangles and " +
-                        std::to_string(surface.positions.size()) + " vertices; USD allows at most 2147483647 corners");
+        throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
+                                                    " triangles and " + std::to_string(surface.positions.size()) +
+                                                    " vertices; USD allows at most 2147483647 corners");
     }
     const Look look = lookOf(material);
     ByteStream bytes(out);

@@ -67,7 +67,6 @@ function describe(mesh) {
         outward,
         open_edges: openEdges(triangles),
         uv: [sum(uv, 0), sum(uv, 1)],
-        flipped_uv: !file.endsWith('.glb'),
         material: {
             name: material.name,
             ior: material.ior,

@@ -14,7 +14,11 @@ enum class Compression {
     Meshopt,   ///< EXT_meshopt_compression of such integers, with vertices and triangles in another order
 };
 
-/// Name of a compression: none, quantize or meshopt.
+/// Finds a compression by its name: none, quantize or meshopt.
+/// @throws Error InvalidArgument
+Compression compressionNamed(std::string_view name);
+
+/// Name of a compression.
 const char* name(Compression compression);
 
 /// Largest changes by a compression.

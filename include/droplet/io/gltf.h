@@ -32,7 +32,8 @@ struct GltfOptions {
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
-/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or cannot be compressed, or the file would
+/// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or cannot be compressed, or the file
+/// would
 ///               reach 2 GiB without compression
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 

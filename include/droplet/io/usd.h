@@ -12,10 +12,11 @@ namespace droplet {
 /// Writes a surface as Universal Scene Description in text: metres, +Y up like glTF, a default prim `/droplet` with a
 /// mesh `/droplet/surface` and its material.
 ///
-/// Points are welded, so that the mesh is watertight. Normals are the indexed primvar `normals` of every corner, so that
-/// the rim is crisp. Texture coordinates are the primvar `st` with its origin at the lower left; contact angles, if the
-/// surface has them, are the primvar `contact_angle` of every point, in degrees. The material is a UsdPreviewSurface:
-/// colour, index of refraction, roughness, metal. It has no transmission; clear liquids have an opacity below 1.
+/// Points are welded, so that the mesh is watertight. Normals are the indexed primvar `normals` of every corner, so
+/// that the rim is crisp. Texture coordinates are the primvar `st` with its origin at the lower left; contact angles,
+/// if the surface has them, are the primvar `contact_angle` of every point, in degrees. The material is a
+/// UsdPreviewSurface: colour, index of refraction, roughness, metal. It has no transmission; clear liquids have an
+/// opacity below 1.
 ///
 /// Guarantees: the same surface gives the same bytes, in any locale; numbers are read back as the same floats; the
 /// stream is left failed if it did not take everything.
