@@ -38,18 +38,19 @@ std::string written(Writer write, const Surface& surface, Material material = Ma
 }
 
 /// Numbers of a list, without its brackets; those of tuples one after another.
-std::vector<double> listOf(const std::string& usda, const std::string& declaration)
+std::vector<float> listOf(const std::string& usda, const std::string& declaration)
 {
     const std::string begin = "        " + declaration + " = [";
     const std::size_t at = usda.find(begin);
     EXPECT_NE(at, std::string::npos) << declaration;
-    std::string text = usda.substr(at + begin.size(), usda.find(']', at) - at - begin.size());
+    const std::size_t first = at + begin.size();
+    std::string text = usda.substr(first, usda.find(']', first) - first);
     for (char& c : text) {
         c = c == '(' || c == ')' || c == ',' ? ' ' : c;
     }
     std::istringstream in(text);
-    std::vector<double> numbers;
-    for (double number = 0.0; in >> number;) {
+    std::vector<float> numbers;
+    for (float number = 0.0F; in >> number;) {
         numbers.push_back(number);
     }
     EXPECT_TRUE(in.eof()) << declaration;
@@ -66,9 +67,9 @@ std::string interpolationOf(const std::string& usda, const std::string& declarat
                : rest.substr(rest.find('"') + 1, rest.rfind('"') - rest.find('"') - 1);
 }
 
-double nearestFloat(double value)
+float nearestFloat(double value)
 {
-    return static_cast<double>(static_cast<float>(value));
+    return static_cast<float>(value);
 }
 
 template <class Number>
@@ -101,7 +102,7 @@ TEST(Usda, WeldsPointsAndKeepsNormalsApart)
     const auto normal_indices = listOf(usda, "int[] primvars:normals:indices");
     const auto textures = listOf(usda, "texCoord2f[] primvars:st");
     const auto angles = listOf(usda, "float[] primvars:contact_angle");
-    EXPECT_EQ(counts, std::vector<double>(surface.triangles.size(), 3.0));
+    EXPECT_EQ(counts, std::vector<float>(surface.triangles.size(), 3.0F));
     ASSERT_EQ(corners.size(), 3 * surface.triangles.size());
     ASSERT_EQ(normal_indices.size(), corners.size());
     ASSERT_LT(points.size(), 3 * surface.positions.size());
