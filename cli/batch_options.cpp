@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "droplet/io/read_surface.h"
 #include "option_values.h"
 
 namespace cli {
@@ -102,6 +103,7 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
         if (format && fs::path(output_pattern).extension() != "." + format->text) {
             refuse("--contact-sheet reads droplets by their extension: --output must end in ." + format->text);
         }
+        forOption("--contact-sheet", [&] { return droplet::readableFormat(output_pattern); });
     }
     options.decisive = decisiveOptions(line);
     if (run.config) {

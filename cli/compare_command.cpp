@@ -97,8 +97,7 @@ Options readOptions(const CommandLine& line)
         if (isStream(path)) {
             refuse("'-': surfaces are read from files, not from standard input");
         }
-        forOption("'" + path + "'",
-                  [&] { return droplet::formatNamed(std::filesystem::path(path).extension().string()); });
+        forOption("'" + path + "'", [&] { return droplet::readableFormat(path); });
     }
     if (const auto tolerance = line.value("--tolerance")) {
         options.tolerances.distance = quantity(*tolerance, kTolerance);

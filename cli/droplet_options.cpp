@@ -417,7 +417,7 @@ void declareSurface(CommandLine& line)
              "Largest edge length far from the rim, as a multiple of the length at the rim [1]");
     line.addFlag(kGroup, "--open", "Leave out the base");
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
-             "Look in glTF, OBJ, previews and the page; does not change the shape [the liquid's own]");
+             "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
     line.add(kGroup, "--unit", "m|cm|mm", "Unit of length in OBJ and STL [mm]");
     line.exclude({"--triangles", "--edge"});
 }
@@ -530,6 +530,9 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     }
     if (settings.materials && !has_material && !is_shown) {
         warn({settings.materials->path, "--materials"}, "have no material");
+    }
+    if (settings.materials && (format == droplet::Format::Usda || format == droplet::Format::Usdz)) {
+        warn({settings.materials->path, "--materials"}, "have one material");
     }
     const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
     if (settings.colour_map && !is_gltf) {

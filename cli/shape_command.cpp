@@ -192,7 +192,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                                                    .unit = options.settings.unit,
                                                    .nodes = options.settings.nodes,
                                                    .droplets = extras.droplets,
-                                                   .texture = extras.texture}},
+                                                   .texture = extras.texture,
+                                                   .compression = options.compression}},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -268,6 +269,10 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
         report.droplets[k].colour = source.colours[k];
     }
     report.output = describeOutput(droplet.surface, options.output, options.format);
+    report.output.compression = options.compression;
+    if (options.compression != droplet::Compression::None) {
+        report.output.compression_error = droplet::compressionError(droplet.surface, options.compression);
+    }
     report.onto = onto;
     if (options.preview) {
         extras.subject.emplace(subjectOf(droplet, settings, droplet::looksOf(extras.droplets), around));

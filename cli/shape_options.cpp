@@ -53,7 +53,9 @@ void declareShape(CommandLine& line)
     line.addArgument("INPUT",
                      "Picture of the footprint: PNG, JPEG, SVG, TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or "
                      "HDR; - is standard input");
-    line.addArgument("OUTPUT", "The droplet: .glb, .gltf, .obj, .ply or .stl; - is standard output and needs --format");
+    line.addArgument(
+        "OUTPUT",
+        "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
     declareShapes(line);
     declareMaskOut(line);
     declarePreview(line);
@@ -92,14 +94,16 @@ bool inGltf(const ShapeOptions& options)
 /// @param subject  name of the output in messages
 void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
-    const std::string known = "glb, gltf, obj, ply, stl";
+    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz";
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (const auto format = line.value("--format")) {
         options.format = choice<droplet::Format>(*format, {{"glb", droplet::Format::Glb},
                                                            {"gltf", droplet::Format::Gltf},
                                                            {"obj", droplet::Format::Obj},
                                                            {"ply", droplet::Format::Ply},
-                                                           {"stl", droplet::Format::Stl}});
+                                                           {"stl", droplet::Format::Stl},
+                                                           {"usda", droplet::Format::Usda},
+                                                           {"usdz", droplet::Format::Usdz}});
     } else if (options.output == kStandardStream) {
         refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
@@ -152,6 +156,37 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     options.settings.droplet.fill_range = range;
 }
 
+/// Reads --compress, which only a GLB without a slider can have.
+void readCompression(const CommandLine& line, ShapeOptions& options)
+{
+    using droplet::Compression;
+    const auto given = line.value("--compress");
+    if (!given) {
+        return;
+    }
+    options.compression = choice<Compression>(
+        *given, {{"none", Compression::None}, {"quantize", Compression::Quantize}, {"meshopt", Compression::Meshopt}});
+    if (options.compression == Compression::None) {
+        return;
+    }
+    if (options.format != droplet::Format::Glb) {
+        refuse(std::string("--compress and the format ") + droplet::name(options.format) +
+               " exclude each other: only glb can be compressed");
+    }
+    if (options.settings.droplet.fill_range) {
+        refuse("--compress and --fill-range exclude each other: the changes of a slider are not compressed");
+    }
+    const auto clash = [&](bool is_given, const std::string& option) {
+        if (is_given) {
+            refuse("--compress and " + option + " exclude each other: only a file of one look is compressed");
+        }
+    };
+    clash(options.settings.nodes == droplet::Nodes::Each, "--nodes each");
+    clash(options.settings.materials.has_value(), "--materials");
+    clash(options.settings.colour_map, "--colour-map");
+    clash(line.knows("--by-colour") && line.flag("--by-colour"), "--by-colour");
+}
+
 }  // namespace
 
 void declareDroplets(CommandLine& line)
@@ -159,7 +194,7 @@ void declareDroplets(CommandLine& line)
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
-    line.add("Surface", "--format", "glb|gltf|obj|ply|stl",
+    line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--nodes", "one|each",
              "Nodes in glTF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its figures "
@@ -169,6 +204,10 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--fill-range", "RANGE",
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
              "takes the linear model unless --model exact is given");
+    line.add(
+        "Surface", "--compress", "none|quantize|meshopt",
+        "Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, "
+        "those encoded (EXT_meshopt_compression), a third of the size [none]");
 }
 
 void declareShapes(CommandLine& line)
@@ -211,6 +250,7 @@ ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const s
     }
     readFormat(line, subject, options);
     readFillRange(line, options);
+    readCompression(line, options);
     return options;
 }
 

@@ -21,6 +21,7 @@ struct ShapeOptions {
     std::optional<PreviewOptions> preview;
     std::optional<std::string> html;  ///< path or kStandardStream
     droplet::Format format = droplet::Format::Glb;
+    droplet::Compression compression = droplet::Compression::None;
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;

@@ -197,6 +197,16 @@ std::string penetration(const Report& report)
     return sinks ? ", the liquid sinks " + millimetres(report.total.depth_max) + " into it" : "";
 }
 
+std::string compression(const droplet::OutputReport& output)
+{
+    if (!output.compression_error) {
+        return "";
+    }
+    return fmt::format("; {}, vertices off by up to {} µm, normals by {}°", name(output.compression),
+                       digits(output.compression_error->position * 1e6, 2),
+                       digits(output.compression_error->normal / droplet::kDegree, 2));
+}
+
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
@@ -259,7 +269,7 @@ std::string summary(const Report& report, bool with_details)
     }
     text += line("written", oneLine(report.output.path) + ": " + bytes(report.output.bytes) + ", " +
                                 counted(report.output.triangles, "triangle") + ", " +
-                                (report.output.topology.closed ? "closed" : "open"));
+                                (report.output.topology.closed ? "closed" : "open") + compression(report.output));
     return text;
 }
 

@@ -244,7 +244,7 @@ mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose l
         "_core.make_droplet(mask_of(mask), {tokens})",
         leave_out={
             "channel", "segment", "colour", "mask_out", "unit", "format", "material",
-            "by_colour", "colours", "gap", "colour_map", "nodes", "materials",
+            "by_colour", "colours", "gap", "colour_map", "nodes", "materials", "compress",
         },
     ),
     Function(
@@ -265,7 +265,7 @@ text: one line or more, separated by line feeds.
 2
 """,
         "_core.glyphs(font, text, {tokens})",
-        leave_out={"font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes", "materials"},
+        leave_out={"font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes", "materials", "compress"},
     ),
     Function(
         "animate",

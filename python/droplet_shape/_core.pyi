@@ -28,7 +28,13 @@ class Surface:
     @property
     def warnings(self) -> tuple[str, ...]: ...
     def save(
-        self, path: _Path, *, material: Optional[str] = None, unit: str = "mm", no_clobber: bool = False
+        self,
+        path: _Path,
+        *,
+        material: Optional[str] = None,
+        unit: str = "mm",
+        compress: str = "none",
+        no_clobber: bool = False,
     ) -> None: ...
 
 class Droplet(Surface):

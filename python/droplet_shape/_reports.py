@@ -108,6 +108,9 @@ class ReportOutput(_Report):
     components: int  # Number of connected parts
     boundary_loops: int  # Number of boundary loops
     uv: str
+    compression: str  # Compression of the file
+    position_error_m: float | None  # Largest distance by which the compression moves a vertex; null without compression
+    normal_error_deg: float | None  # Largest angle by which the compression turns a normal; null without compression
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ auto view(std::vector<Item> droplet::Surface::*member)
 }
 
 void save(const Surface& self, const std::filesystem::path& path, const std::optional<std::string>& material,
-          const std::string& unit, bool no_clobber)
+          const std::string& unit, const std::string& compress, bool no_clobber)
 {
     const py::gil_scoped_release release;
     using droplet::LengthUnit;
@@ -64,6 +64,7 @@ void save(const Surface& self, const std::filesystem::path& path, const std::opt
         material ? cli::forOption("material", [&] { return droplet::materialNamed(*material); }) : self.material();
     target.options.unit = cli::choice<LengthUnit>(
         {unit, "unit"}, {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
+    target.options.compression = cli::forOption("compress", [&] { return droplet::compressionNamed(compress); });
     std::uint64_t bytes = 0;
     cli::writeTogether(cli::surfaceFiles(self.surface(), target, bytes), {no_clobber});
 }
@@ -111,13 +112,14 @@ after the surface is deleted.)")
             "warnings", [](const Surface& self) { return warningsOf(self.warnings()); },
             "Warnings, one line each, the grave ones first.")
         .def("save", &save, py::arg("path"), py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
-             py::arg("no_clobber") = false,
+             py::arg("compress") = "none", py::arg("no_clobber") = false,
              R"(Writes the surface to a file, completely or not at all.
 
-path        ends in .glb, .gltf, .obj (with its .mtl), .ply or .stl
-material    water, ink, mercury, honey or plain: the look in glTF and OBJ
+path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or .usdz
+material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD
             [the liquid's own]
 unit        m, cm or mm: unit of length in OBJ and STL
+compress    none, quantize or meshopt: compression of a .glb
 no_clobber  refuse to replace a file
 
 Raises InvalidArgument for another extension, OutputFailed if the file cannot

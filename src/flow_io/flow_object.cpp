@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/io/output.h"
+#include "droplet/io/read_surface.h"
 #include "file_bytes.h"
 #include "io/file_mesh.h"
 #include "number_text.h"
@@ -118,7 +118,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
         require(is_positive(*options.size), "size", *options.size, "finite and more than 0 m");
         require(!options.scale, "size", *options.size, "left out if there is a scale");
     }
-    const bool is_ply = formatNamed(path.extension().string()) == Format::Ply;
+    const bool is_ply = readableFormat(path) == Format::Ply;
     FileMesh mesh = readFileMesh(path, {.uvs = true,
                                         .polygons = true,
                                         .motion = true,

@@ -29,7 +29,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "droplet/io/output.h"
+#include "droplet/io/read_surface.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
 #include "io/axes.h"
@@ -659,8 +659,7 @@ FileMesh readAs(Format format, std::string_view text, const FileMeshOptions& opt
 
 FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& options)
 {
-    const std::string extension = path.extension().string();
-    const Format format = formatNamed(extension.empty() ? extension : extension.substr(1));
+    const Format format = readableFormat(path);
     FileMesh mesh;
     readFile(path, [&] {
         if (format == Format::Glb || format == Format::Gltf) {

@@ -10,17 +10,20 @@
 #include "droplet/io/gltf.h"
 #include "droplet/io/mesh_files.h"
 #include "droplet/io/output.h"
+#include "droplet/io/usd.h"
 #include "io/dry_surface.h"
 
 namespace droplet {
 namespace {
 
-constexpr std::array<std::pair<Format, const char*>, 5> kFormats = {{
+constexpr std::array<std::pair<Format, const char*>, 7> kFormats = {{
     {Format::Glb, "glb"},
     {Format::Gltf, "gltf"},
     {Format::Obj, "obj"},
     {Format::Ply, "ply"},
     {Format::Stl, "stl"},
+    {Format::Usda, "usda"},
+    {Format::Usdz, "usdz"},
 }};
 
 [[noreturn]] void refuse(Format format)
@@ -71,9 +74,9 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(
-                surface, out,
-                {format == Format::Glb, options.material, closed, options.nodes, options.droplets, options.texture});
+            return writeGltf(surface, out,
+                             {format == Format::Glb, options.material, closed, options.nodes, options.droplets,
+                              options.texture, format == Format::Glb ? options.compression : Compression::None});
         }
         case Format::Obj:
             return writeObj(surface, out,
@@ -82,6 +85,10 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
             return writePly(surface, out);
         case Format::Stl:
             return writeStl(surface, out, options.unit);
+        case Format::Usda:
+            return writeUsda(surface, out, options.material);
+        case Format::Usdz:
+            return writeUsdz(surface, out, options.material);
     }
     refuse(format);
 }

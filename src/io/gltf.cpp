@@ -12,6 +12,7 @@
 #include <numeric>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "io/byte_stream.h"
+#include "io/compressed_gltf.h"
 #include "io/dry_surface.h"
 #include "io/gltf_model.h"
 
@@ -73,6 +75,19 @@ void checkFileSize(const Surface& surface, const GltfOptions& options)
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +
                                                     " triangles would make a glTF file of " + std::to_string(file) +
                                                     " bytes; it must stay below 2 GiB");
+    }
+}
+
+void checkCompression(const Surface& surface, const GltfOptions& options)
+{
+    if (options.compression != Compression::None && (!options.binary || surface.refill)) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::string("options.compression = ") + name(options.compression) + " needs " +
+                        (options.binary ? "a surface without a refill: its changes are floats" : "a GLB"));
+    }
+    if (options.compression != Compression::None && (!options.droplets.empty() || !options.texture.empty())) {
+        throw Error(ErrorCode::InvalidArgument, std::string("options.compression = ") + name(options.compression) +
+                                                    " needs a surface of one look, without droplets and texture");
     }
 }
 
@@ -374,11 +389,19 @@ void writeText(const Pieces& pieces, const tinygltf::Model& model, const std::st
 
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options)
 {
+    checkCompression(surface, options);
     checkFileSize(surface, options);
     validateUnlessDry(surface);
     checkFloats(surface);
     const Pieces pieces = piecesOf(surface, options);
     const tinygltf::Model model = makeModel(surface, pieces, options);
+    if (options.compression != Compression::None && !isDry(surface)) {
+        std::ostringstream buffer;
+        ByteStream bytes(buffer);
+        writeBuffer(pieces, options.texture, bytes);
+        bytes.finish();
+        return writeCompressed(out, jsonOf(model), buffer.view(), options.compression);
+    }
     if (options.binary) {
         return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(pieces, options.texture, bytes); });
     }

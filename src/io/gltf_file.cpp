@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "file_bytes.h"
+#include "io/meshopt_views.h"
 
 namespace droplet {
 namespace {
@@ -78,15 +79,15 @@ Container containerOf(std::span<const std::byte> bytes)
 
 // ------------------------------------------------------------------------------------------------ the checks
 
-/// Parses JSON without extras and extensions.
-Json parsed(std::string_view text)
+/// Parses JSON without extras, and without extensions unless they are wanted.
+Json parsed(std::string_view text, bool with_extensions = false)
 {
     constexpr int kDeepest = 64;  // glTF needs 7; extras have no limit
-    const auto keep = [](int depth, Json::parse_event_t event, const Json& value) {
+    const auto keep = [with_extensions](int depth, Json::parse_event_t event, const Json& value) {
         if (depth > kDeepest) {
             throw Damage("its JSON is nested more than " + std::to_string(kDeepest) + " deep");
         }
-        return event != Json::parse_event_t::key || (value != "extras" && value != "extensions");
+        return event != Json::parse_event_t::key || (value != "extras" && (with_extensions || value != "extensions"));
     };
     constexpr bool kThrow = false;
     Json root = Json::parse(text, keep, kThrow);
@@ -337,11 +338,15 @@ GltfFile readGltfFile(const std::filesystem::path& path)
                   });
     const Container container = containerOf(bytes);
     Json root = parsed(container.json);
-    for (const char* const required : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+    for (const char* const required : {"KHR_draco_mesh_compression", "KHR_meshopt_compression"}) {
         const auto list = root.find("extensionsRequired");
         if (list != root.end() && std::find(list->begin(), list->end(), required) != list->end()) {
             throw Damage(std::string("its meshes are compressed, which is not supported: ") + required);
         }
+    }
+    std::vector<MeshoptView> meshopt_views;
+    if (container.json.find("EXT_meshopt_compression") != std::string_view::npos) {
+        meshopt_views = findMeshoptViews(root, parsed(container.json, true));
     }
     checkValues(root);
     Sources sources = sourcesOf(root, container.chunk);
@@ -371,6 +376,7 @@ GltfFile readGltfFile(const std::filesystem::path& path)
         constexpr std::size_t kLongest = 100;
         throw Damage("it is not glTF 2.0: " + error.substr(0, std::min(error.find('\n'), kLongest)));
     }
+    decodeMeshoptViews(file.model, meshopt_views);
     return file;
 }
 

@@ -171,13 +171,13 @@ void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, 
 }
 
 // GLB file format: a header of three words, then chunks padded to whole words, JSON with spaces, the buffer with 0.
-std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
+std::uint64_t writeBinary(std::ostream& out, const nlohmann::json& content, std::size_t length,
                           const std::function<void(ByteStream&)>& write_buffer)
 {
-    std::string json = jsonOf(model).dump();
+    std::string json = content.dump();
     json.append(padding(json.size()), ' ');
-    const std::string zeros(padding(bufferBytes(model)), '\0');
-    const std::size_t buffer_bytes = bufferBytes(model) + zeros.size();
+    const std::string zeros(padding(length), '\0');
+    const std::size_t buffer_bytes = length + zeros.size();
     const std::size_t headers = buffer_bytes > 0 ? 12 + 8 + 8 : 12 + 8;  // an empty buffer has no chunk
     ByteStream bytes(out);
     bytes.text("glTF");
@@ -192,6 +192,12 @@ std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
         bytes.text(zeros);
     }
     return bytes.finish();
+}
+
+std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
+                          const std::function<void(ByteStream&)>& write_buffer)
+{
+    return writeBinary(out, jsonOf(model), bufferBytes(model), write_buffer);
 }
 
 }  // namespace droplet

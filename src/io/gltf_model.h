@@ -61,5 +61,8 @@ void writeIndices(const std::vector<Triangle>& triangles, std::size_t vertices, 
 /// @return              bytes written
 std::uint64_t writeBinary(std::ostream& out, const tinygltf::Model& model,
                           const std::function<void(ByteStream&)>& write_buffer);
+/// Writes a GLB from JSON, with a buffer of the given length in bytes.
+std::uint64_t writeBinary(std::ostream& out, const nlohmann::json& content, std::size_t length,
+                          const std::function<void(ByteStream&)>& write_buffer);
 
 }  // namespace droplet

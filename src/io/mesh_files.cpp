@@ -15,7 +15,6 @@
 #include <ostream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "droplet/error.h"
 #include "droplet/units.h"
@@ -24,18 +23,14 @@
 #include "io/byte_stream.h"
 #include "io/dry_surface.h"
 #include "io/length_unit.h"
+#include "io/preview_opacity.h"
+#include "io/welded_vertices.h"
 
 namespace droplet {
 namespace {
 
 constexpr int kSignificantDigits = 9;  // enough to distinguish any two floats
 constexpr std::size_t kStlHeaderBytes = 80;
-
-// Moves the texture origin from the upper left to the lower left.
-Vec2 fromBelow(Vec2 uv)
-{
-    return {uv.x, 1.0 - uv.y};
-}
 
 template <class... Numbers>
 void writeLine(ByteStream& bytes, std::string_view key, Numbers... values)
@@ -52,27 +47,6 @@ void writeLine(ByteStream& bytes, std::string_view key, Numbers... values)
 void writeVec3(ByteStream& bytes, Vec3 a)
 {
     bytes.f32(a.x, a.y, a.z);
-}
-
-// Welded vertices, numbered in order of first appearance.
-struct Welded {
-    std::vector<std::uint32_t> first;   // for each welded vertex, a vertex of the surface
-    std::vector<std::uint32_t> number;  // for each vertex of the surface, its welded vertex
-};
-
-Welded weldVertices(const Surface& surface)
-{
-    Welded welded;
-    welded.number.resize(surface.weld.size());
-    for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
-        if (surface.weld[i] == i) {
-            welded.number[i] = static_cast<std::uint32_t>(welded.first.size());
-            welded.first.push_back(i);
-        } else {
-            welded.number[i] = welded.number[surface.weld[i]];
-        }
-    }
-    return welded;
 }
 
 // Unit normal by a triangle's winding; zero without an area, which readers replace.
@@ -101,7 +75,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
                                                     " entries; the surface must have parts, for these droplets alone");
     }
     const NamedUnit& unit = namedUnit(options.unit);
-    const Welded welded = weldVertices(surface);
+    const WeldedVertices welded = weldVertices(surface);
     ByteStream bytes(out);
     bytes.text("# " + signature() + "\n# unit: " + std::string(unit.name) + ", up: +Y, front: +Z\n");
     if (options.material_file) {
@@ -148,8 +122,6 @@ namespace {
 
 void writeLook(const Look& look, ByteStream& bytes)
 {
-    // Programs without refraction show the liquid's transparency by its opacity.
-    constexpr double kOpacity = 0.35;
     constexpr double kGloss = 1000.0;
     const bool clear = look.transmission > 0.0;
     const double mirror = (look.ior - 1.0) * (look.ior - 1.0) / ((look.ior + 1.0) * (look.ior + 1.0));
@@ -160,7 +132,7 @@ void writeLook(const Look& look, ByteStream& bytes)
         bytes.text(colour("Tf", look.colour));
     }
     bytes.text(fmt::format("Ns {:g}\nNi {:g}\nd {:g}\nillum {}\nPr {:g}\nPm {:g}\n", kGloss * (1.0 - look.roughness),
-                           look.ior, clear ? kOpacity : 1.0,
+                           look.ior, previewOpacity(look),
                            clear                 ? 7
                            : look.metallic > 0.0 ? 3
                                                  : 2,
@@ -189,7 +161,7 @@ std::uint64_t writeMtl(const std::vector<Look>& looks, std::ostream& out)
 std::uint64_t writePly(const Surface& surface, std::ostream& out)
 {
     validateUnlessDry(surface);
-    const Welded welded = weldVertices(surface);
+    const WeldedVertices welded = weldVertices(surface);
     if (welded.first.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw Error(ErrorCode::InvalidArgument,
                     "surface has " + std::to_string(welded.first.size()) + " vertices; PLY allows at most 2147483647");

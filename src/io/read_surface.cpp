@@ -4,9 +4,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "droplet/error.h"
 #include "io/file_mesh.h"
 
 namespace droplet {
+
+Format readableFormat(const std::filesystem::path& path)
+{
+    const Format format = formatNamed(path.extension().string());
+    if (format == Format::Usda || format == Format::Usdz) {
+        throw Error(ErrorCode::InvalidArgument, "USD files are only written; glb, gltf, obj, ply and stl can be read");
+    }
+    return format;
+}
 
 ReadSurface readSurface(const std::filesystem::path& path)
 {

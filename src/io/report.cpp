@@ -193,7 +193,10 @@ Json outputSection(const OutputReport& output)
             {"euler", output.topology.euler},
             {"components", output.topology.components},
             {"boundary_loops", output.topology.boundary_loops},
-            {"uv", nameOf(output.texture_map)}};
+            {"uv", nameOf(output.texture_map)},
+            {"compression", name(output.compression)},
+            {"position_error_m", output.compression_error ? Json(output.compression_error->position) : Json()},
+            {"normal_error_deg", output.compression_error ? Json(output.compression_error->normal / kDegree) : Json()}};
 }
 
 Json ontoSection(const ObjectReport& onto)

@@ -107,6 +107,16 @@ TEST_F(CompareCommand, AllFormatsHoldTheSameDroplet)
     }
 }
 
+TEST_F(CompareCommand, RefusesFormatsThatAreOnlyWritten)
+{
+    const std::string glb = file("droplet.glb", roundDroplet());
+    for (const char* const name : {"droplet.usda", "droplet.usdz"}) {
+        const CommandResult result = compare({glb, file(name, roundDroplet())});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.error, HasSubstr("USD files are only written; glb, gltf, obj, ply and stl can be read"));
+    }
+}
+
 // The facets of an STL are separate; the picture must have the colours of the connected surface.
 TEST_F(CompareCommand, PictureOfSeparateFacetsIsColoured)
 {

@@ -671,12 +671,40 @@ TEST_F(ShapeCommandTest, ObjIsWrittenWithItsMaterialOrNotAtAll)
 
 TEST_F(ShapeCommandTest, GivesTheSameBytesWithAnyNumberOfThreads)
 {
-    for (const char* format : {"glb", "gltf", "obj", "ply", "stl"}) {
+    for (const char* format : {"glb", "gltf", "obj", "ply", "stl", "usda", "usdz"}) {
         make({"two.pgm", "one", "--format", format, "-j", "1"});
         make({"two.pgm", "other", "--format", format, "-j", "2"});
         make({"two.pgm", "again", "--format", format});
         EXPECT_EQ(bytesOf("one"), bytesOf("other")) << format;
         EXPECT_EQ(bytesOf("one"), bytesOf("again")) << format;
+    }
+}
+
+TEST_F(ShapeCommandTest, CompressionMakesFilesSmallerAndReportsItsError)
+{
+    make({"two.pgm", "plain.glb"});
+    const json plain = report({"two.pgm", "plain.glb", "--compress", "none"})["output"];
+    EXPECT_EQ(plain["compression"], "none");
+    EXPECT_TRUE(plain["position_error_m"].is_null());
+    EXPECT_TRUE(plain["normal_error_deg"].is_null());
+    double size = plain["bytes"];
+    for (const std::string compress : {"quantize", "meshopt"}) {
+        const json output = report({"two.pgm", compress + ".glb", "--compress", compress})["output"];
+        EXPECT_EQ(output["compression"], compress);
+        EXPECT_EQ(output["bytes"], bytesOf(compress + ".glb").size());
+        EXPECT_LT(output["bytes"], 0.8 * size);
+        size = output["bytes"];
+        // Half the diagonal of a step, with steps of at most the picture's 20 mm by 65535.
+        EXPECT_GT(output["position_error_m"], 0.0);
+        EXPECT_LT(output["position_error_m"], 0.87 * 20e-3 / 65535);
+        EXPECT_GT(output["normal_error_deg"], 0.0);
+        EXPECT_LT(output["normal_error_deg"], 0.1);
+        make({"two.pgm", "again.glb", "--compress", compress, "-j", "1"});
+        EXPECT_TRUE(bytesOf("again.glb") == bytesOf(compress + ".glb"));
+        EXPECT_THAT(run({"two.pgm", "again.glb", "--compress", compress, "--triangles", "2k"}).error,
+                    HasSubstr("closed; " + compress + ", vertices off by up to 0."));
+        const auto comparison = run({"compare", "plain.glb", compress + ".glb", "--tolerance", "0.5um"});
+        EXPECT_EQ(comparison.exit_code, 0) << comparison.error;
     }
 }
 

@@ -105,6 +105,15 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
                                    written(testing::withRefill(testing::pairOfDroplets()), by_droplet)));
         }
     }
+    for (const Compression compression : {Compression::Quantize, Compression::Meshopt}) {
+        for (const bool wide : {false, true}) {
+            const std::uint32_t rings = wide ? 200 : 4;
+            const Surface surface = testing::roundDroplet({.rings = rings, .segments = 200});
+            files.push_back(stored(
+                std::string(name(compression)) + (wide ? "_wide.glb" : ".glb"),
+                written(testing::withContactAngles(surface), {.material = Material::Ink, .compression = compression})));
+        }
+    }
     const auto animate = [&](const std::string& name, const std::vector<Surface>& frames, std::size_t run,
                              bool closed) {
         Animation animation({.frames_per_second = 25.0, .material = Material::Ink, .closed = closed});

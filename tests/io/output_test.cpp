@@ -633,7 +633,8 @@ TEST_F(Output, OfTwoConcurrentWritesOneIsComplete)
 
 TEST(FormatNamed, KnowsNamesAndExtensions)
 {
-    for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl}) {
+    for (const Format format :
+         {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl, Format::Usda, Format::Usdz}) {
         EXPECT_EQ(formatNamed(name(format)), format);
         EXPECT_EQ(formatNamed(std::string(".") + name(format)), format);
     }
@@ -642,6 +643,8 @@ TEST(FormatNamed, KnowsNamesAndExtensions)
     EXPECT_STREQ(name(Format::Obj), "obj");
     EXPECT_STREQ(name(Format::Ply), "ply");
     EXPECT_STREQ(name(Format::Stl), "stl");
+    EXPECT_STREQ(name(Format::Usda), "usda");
+    EXPECT_STREQ(name(Format::Usdz), "usdz");
     EXPECT_EQ(formatNamed(".GLB"), Format::Glb);
     EXPECT_EQ(formatNamed("Ply"), Format::Ply);
 }
@@ -655,7 +658,7 @@ TEST(FormatNamed, RefusesOtherNames)
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_THAT(error.what(), HasSubstr("\"" + std::string(wrong) + "\""));
-            EXPECT_THAT(error.what(), HasSubstr("glb gltf obj ply stl"));
+            EXPECT_THAT(error.what(), HasSubstr("glb gltf obj ply stl usda usdz"));
         }
     }
 }

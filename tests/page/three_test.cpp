@@ -44,6 +44,60 @@ TEST(Three, KnowsTheSliderByItsName)
     EXPECT_EQ(mesh.at("relative"), true);
 }
 
+// Compressed GLB and USD are the same droplet as the GLB: its size in metres, its volume, its crisp rim, its closed
+// mesh.
+TEST(Three, SeesTheSameDropletInEveryFormat)
+{
+    testing::ScratchDirectory scratch;
+    const std::string picture = (scratch.path() / "disc.pgm").string();
+    writeFile(picture, testing::discPicture(64, 24.0));
+    const auto seen = [&](const std::string& name, const std::vector<std::string>& options = {}) {
+        const std::string file = (scratch.path() / name).string();
+        std::vector<std::string> arguments{picture, file, "--triangles", "500", "-q", "--material", "honey"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto made = runDroplet(arguments);
+        EXPECT_EQ(made.exit_code, 0) << made.error;
+        const auto run = runProgram({"node", testing::kMeshReader, testing::kThree, file});
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        const auto meshes = nlohmann::json::parse(run.output, nullptr, false);
+        EXPECT_THAT(meshes, SizeIs(1)) << name;
+        return meshes.at(0);
+    };
+    const auto glb = seen("droplet.glb");
+    EXPECT_EQ(glb.at("open_edges"), 0);
+    EXPECT_NEAR(glb.at("high").at(0), 7.5e-3, 0.05e-3);
+    EXPECT_GT(glb.at("outward"), 0.9);
+    const auto compare = [&](const nlohmann::json& other, double tolerance) {
+        EXPECT_EQ(other.at("triangles"), glb.at("triangles"));
+        EXPECT_EQ(other.at("places"), glb.at("places"));
+        EXPECT_EQ(other.at("open_edges"), 0);
+        EXPECT_GT(other.at("outward"), 0.9);
+        EXPECT_NEAR(other.at("volume"), glb.at("volume"), 1e-4 * glb.at("volume").get<double>());
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(other.at("low").at(k), glb.at("low").at(k), tolerance);
+            EXPECT_NEAR(other.at("high").at(k), glb.at("high").at(k), tolerance);
+        }
+        EXPECT_NEAR(other.at("uv").at(0), glb.at("uv").at(0), 1e-5);
+        EXPECT_EQ(other.at("material").at("ior"), glb.at("material").at("ior"));
+        EXPECT_EQ(other.at("material").at("roughness"), glb.at("material").at("roughness"));
+    };
+    for (const char* compression : {"quantize", "meshopt"}) {
+        const auto compressed = seen(std::string(compression) + ".glb", {"--compress", compression});
+        compare(compressed, 0.2e-6);
+        EXPECT_NEAR(compressed.at("uv").at(1), glb.at("uv").at(1), 1e-5);
+        const double thickness = glb.at("material").at("thickness");
+        EXPECT_GT(thickness, 0.0);
+        EXPECT_NEAR(compressed.at("material").at("thickness"), thickness, 1e-6 * thickness);
+    }
+    for (const char* name : {"droplet.usda", "droplet.usdz"}) {
+        const auto usd = seen(name);
+        compare(usd, 0.0);
+        EXPECT_NEAR(usd.at("uv").at(1), 1.0 - glb.at("uv").at(1).get<double>(), 1e-5);
+        EXPECT_LT(usd.at("material").at("opacity"), 1.0);
+        EXPECT_EQ(usd.at("material").at("colour"), nlohmann::json({0.9, 0.5, 0.1})) << name;
+    }
+}
+
 // At every time one mesh is shown; its weights select the frame and add up to 1, or to 0 at a run's first frame.
 TEST(Three, PlaysOneMeshAfterAnother)
 {

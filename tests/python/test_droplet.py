@@ -294,6 +294,18 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(ds.InvalidArgument, "^" + next(iter(options))):
                 self.drop.save(self.folder / "drop.obj", **options)
 
+    def test_compression(self):
+        sizes = {}
+        for compress in ("none", "quantize", "meshopt"):
+            path = self.folder / f"{compress}.glb"
+            self.drop.save(path, compress=compress)
+            sizes[compress] = path.stat().st_size
+            self.assertTrue(ds.compare(self.drop, path).same_topology, compress)
+        self.assertLess(sizes["quantize"], sizes["none"])
+        self.assertLess(sizes["meshopt"], sizes["quantize"])
+        with self.assertRaisesRegex(ds.InvalidArgument, "^compress"):
+            self.drop.save(self.folder / "drop.glb", compress="draco")
+
     def test_failures(self):
         with self.assertRaisesRegex(ds.InvalidArgument, "path: .*drop.txt"):
             self.drop.save(self.folder / "drop.txt")

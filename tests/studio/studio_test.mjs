@@ -52,6 +52,9 @@ function studio(name, options, run, url = kStudio) {
         });
         page.on('pageerror', (error) => complaints.push(error.message));
         page.on('dialog', (dialog) => {
+            if (dialog.type() === 'beforeunload') {
+                return dialog.accept();
+            }
             complaints.push(`dialog ${dialog.message()}`);
             return dialog.dismiss();
         });
@@ -493,7 +496,6 @@ if (PAGE) {
         await stroke(page, [0.3, 0.65]);
         await settle(page);
         assert.ok(Number.parseFloat(await said(page)) > 1.1 * drawn);
-        await page.evaluate(() => window.addEventListener('beforeunload', (event) => event.stopImmediatePropagation(), true));
         await page.goBack();
         await page.locator('#edit').waitFor();
     }, pathToFileURL(resolve(PAGE)).href);

@@ -13,6 +13,7 @@ extern const char* const kScratchDir;  ///< folder for files of tests
 extern const char* const kValidator;   ///< node script: glTF validator
 extern const char* const kChromium;    ///< browser
 extern const char* const kPageDriver;  ///< node script: drives a page in the browser
+extern const char* const kMeshReader;  ///< node script: loads meshes in three.js
 extern const char* const kPlayer;      ///< node script: plays an animation in three.js
 extern const char* const kRainPlayer;  ///< plays a windshield's models in a browser
 extern const char* const kThree;       ///< folder of three.js

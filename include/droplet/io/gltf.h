@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/io/compression.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
@@ -36,6 +37,7 @@ struct GltfOptions {
     Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
     std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
+    Compression compression = Compression::None;  ///< only of a GLB without a refill, droplets and texture
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -55,10 +57,14 @@ struct GltfOptions {
 /// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
 /// it, as KHR_materials_transmission says.
 ///
+/// A compressed file requires the extensions of its Compression, and its node has a scale and a translation. Meshopt
+/// gives vertices and triangles another order.
+///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
 /// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or has parts that `droplets` lacks;
-///               if Nodes::Each has no `droplets`; or if the file would reach 2 GiB
+///               if Nodes::Each has no `droplets`; if it cannot be compressed; or if the file would reach 2 GiB
+///               without compression
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "droplet/io/compression.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/mesh_files.h"
 #include "droplet/surface/surface.h"
@@ -17,7 +18,7 @@
 namespace droplet {
 
 /// File formats of a surface.
-enum class Format { Glb, Gltf, Obj, Ply, Stl };
+enum class Format { Glb, Gltf, Obj, Ply, Stl, Usda, Usdz };
 
 /// Format with a name (`glb`) or a file extension (`.GLB`).
 /// @throws Error InvalidArgument, listing the known names
@@ -28,13 +29,14 @@ const char* name(Format format);
 
 /// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {
-    Material material = Material::Water;            ///< glTF, and OBJ with material_file; without `droplets`
+    Material material = Material::Water;            ///< glTF, USD, and OBJ with material_file; without `droplets`
     std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
     LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
     Nodes nodes = Nodes::One;                       ///< glTF
     std::vector<FileDroplet> droplets = {};         ///< glTF as in GltfOptions; OBJ takes their looks
     std::string texture = {};                       ///< glTF
+    Compression compression = Compression::None;    ///< GLB
 };
 
 /// Looks of droplets, in their order.

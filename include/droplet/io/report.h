@@ -69,7 +69,9 @@ struct OutputReport {
     std::size_t vertices = 0;     ///< as the format counts them; glTF has copies where normals differ
     std::size_t triangles = 0;    ///< of the surface
     Topology topology;            ///< of the surface
-    TextureMap texture_map = TextureMap::Projection;  ///< of the surface
+    TextureMap texture_map = TextureMap::Projection;         ///< of the surface
+    Compression compression = Compression::None;             ///< of the file
+    std::optional<CompressionError> compression_error = {};  ///< empty without compression
 };
 
 /// Kind of ground.

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Compression of a GLB.
+enum class Compression {
+    None,      ///< floats, which every viewer reads
+    Quantize,  ///< KHR_mesh_quantization: integers of 16 bits
+    Meshopt,   ///< EXT_meshopt_compression of such integers, with vertices and triangles in another order
+};
+
+/// Finds a compression by its name: none, quantize or meshopt.
+/// @throws Error InvalidArgument
+Compression compressionNamed(std::string_view name);
+
+/// Name of a compression.
+const char* name(Compression compression);
+
+/// Largest changes by a compression.
+struct CompressionError {
+    double position = 0.0;  ///< distance of a vertex from its place [m]
+    double normal = 0.0;    ///< angle of a normal with its direction [rad]
+};
+
+/// Measures what a compression changes. Positions lie on a grid of 65536 steps along the longest side of the surface's
+/// box, so their error is below 0.87 steps. Vertices at one place stay at one place.
+/// @param surface  valid or empty
+/// @throws Error   InvalidArgument beyond float's range
+CompressionError compressionError(const Surface& surface, Compression compression);
+
+}  // namespace droplet
