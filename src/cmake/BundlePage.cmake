@@ -25,10 +25,17 @@ add_custom_command(
 
 file(GLOB page_files CONFIGURE_DEPENDS ${page_sources}/*.js ${page_sources}/*.mjs ${page_sources}/*.css
   ${page_sources}/*.html)
+# With Studio, the page holds its sources and solver, too.
+set(page_solver)
+if(DROPLET_STUDIO)
+  set(page_solver ${DROPLET_STUDIO}/droplet_shape.wasm)
+  file(GLOB studio_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/studio/* ${PROJECT_SOURCE_DIR}/npm/*.js)
+  list(APPEND page_files ${studio_files} ${page_solver})
+endif()
 set(page_parts ${page_dir}/page_parts.cpp)
 add_custom_command(
   OUTPUT ${page_parts}
-  COMMAND ${NODE} ${page_sources}/bundle.mjs ${page_sources} ${page_parts}
+  COMMAND ${NODE} ${page_sources}/bundle.mjs ${page_sources} ${page_parts} ${page_solver}
   WORKING_DIRECTORY ${page_dir}
   DEPENDS ${page_dir}/installed ${page_files}
   COMMENT "Bundling the page")
