@@ -33,6 +33,16 @@ export function isDry({ data }) {
     return true;
 }
 
+/** Whether a pixel is liquid in both. */
+export function overlap(a, b) {
+    for (let i = 0; i < a.data.length; ++i) {
+        if (a.data[i] >= 128 && b.data[i] >= 128) {
+            return true;
+        }
+    }
+    return false;
+}
+
 function put(data, at, coverage, removes) {
     data[at] = removes ? Math.min(data[at], 255 - coverage) : Math.max(data[at], coverage);
 }

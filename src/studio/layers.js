@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The list of layers, topmost first.
-import { inkOf, lookOf } from './materials.js';
+import { inkOf, lookOf } from './looks.js';
 
 const kEye = '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5z"/><circle cx="10" cy="10" r="2.3"/></svg>';
 const kPencil = '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="m4 16 .8-3.6L13.5 3.7l2.800 2.800-8.700 8.700z"/></svg>';

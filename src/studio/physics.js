@@ -58,7 +58,7 @@ export const kSceneFields = [
 
 function valid(field, value) {
     if (field.choices) {
-        return value in field.choices;
+        return Object.hasOwn(field.choices, value);
     }
     if (value === '') {
         return field.optional === true;

@@ -161,8 +161,9 @@ export class Sheet {
 
     #listen() {
         const { sheet, table } = this;
-        sheet.addEventListener('pointerdown', (event) => {
-            if (event.button !== 0) {
+        // On the whole table, so that a stroke may begin, and a finger rest, beside the sheet.
+        table.addEventListener('pointerdown', (event) => {
+            if (event.button !== 0 || event.target === this.fit) {
                 return;
             }
             event.preventDefault();
@@ -170,18 +171,18 @@ export class Sheet {
             if (event.pointerType === 'touch') {
                 this.touches.set(event.pointerId, event);
             }
+            table.setPointerCapture(event.pointerId);
             if (this.touches.size > 1 || (this.has_pen && event.pointerType === 'touch')) {
                 this.cancel();  // two fingers move the sheet; beside a pen, one does
                 this.drawing = undefined;
                 return;
             }
             this.has_pen ||= event.pointerType === 'pen';
-            sheet.setPointerCapture(event.pointerId);
             this.drawing = event.pointerId;
             this.by_keys = false;
             this.#begin(this.#point(event), event.timeStamp);
         });
-        sheet.addEventListener('pointermove', (event) => {
+        table.addEventListener('pointermove', (event) => {
             if (this.touches.has(event.pointerId) && this.drawing !== event.pointerId) {
                 this.#slide(event);
                 return;
@@ -206,15 +207,15 @@ export class Sheet {
                 this.#end();
             }
         };
-        sheet.addEventListener('pointerup', up);
-        sheet.addEventListener('pointercancel', (event) => {
+        table.addEventListener('pointerup', up);
+        table.addEventListener('pointercancel', (event) => {
             this.touches.delete(event.pointerId);
             if (this.drawing === event.pointerId) {
                 this.drawing = undefined;
                 this.cancel();
             }
         });
-        sheet.addEventListener('pointerleave', () => this.#showCursor());
+        table.addEventListener('pointerleave', () => this.#showCursor());
         table.addEventListener('wheel', (event) => {
             event.preventDefault();
             if (event.ctrlKey || event.metaKey) {

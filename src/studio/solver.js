@@ -99,11 +99,15 @@ export class Solver {
 
     #breakOff(id) {
         if (this.finishing?.id === id) {
-            this.finisher.stop();
-            this.finisher = new Servant(this.parts);
             this.finishing = undefined;
-            this.kept.clear();
+            this.#renewFinisher();
         }
+    }
+
+    #renewFinisher() {
+        this.finisher.stop();
+        this.finisher = new Servant(this.parts);
+        this.kept.clear();
     }
 
     async #draft() {
@@ -125,6 +129,10 @@ export class Solver {
                 await this.showed(job, answer, true);
             }
         } catch (error) {
+            if (error.code === 'Internal') {
+                this.drafter.stop();
+                this.drafter = new Servant(this.parts, true);
+            }
             if (this.jobs.get(job.id) === job) {
                 this.failed(job, error, true);
             }
@@ -155,6 +163,9 @@ export class Solver {
         }
         this.finishing = undefined;
         this.wholes.set(job.id, job);
+        if (outcome.error?.code === 'Internal') {
+            this.#renewFinisher();
+        }
         if (outcome.error) {
             this.kept.delete(job.id);
             this.failed(job, outcome.error, false);

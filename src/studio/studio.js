@@ -3,11 +3,11 @@
 import { complain, drawScale, find, offerGrounds, tabulate } from '../page/controls.js';
 import { length, rows, volume } from '../page/figures.js';
 import { roundLength } from '../page/stage.js';
-import { blank, isDry } from './coverage.js';
+import { blank, isDry, overlap } from './coverage.js';
 import { History } from './history.js';
 import { buildLayers } from './layers.js';
 import markup from './markup.html';
-import { inkOf, lookOf } from './materials.js';
+import { inkOf, lookOf } from './looks.js';
 import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
 import { fitted, levelsOf, maskOfLevels, readPicture, showMask } from './pictures.js';
@@ -191,7 +191,7 @@ class Studio {
     }
 
     async #showed(job, { shape, report, solve_ms }, draft) {
-        if (this.times.slow) {
+        if (this.times?.slow) {
             await this.frame;  // slow graphics fall behind if they are given more frames than they can draw
         }
         const known = this.known.get(job.id);
@@ -222,6 +222,13 @@ class Studio {
     }
 
     #settle() {
+        const { layers } = this.project;
+        if (!this.stroke && layers !== this.looked) {
+            this.looked = layers;
+            this.overlaps = layers.flatMap((upper, k) => layers.slice(0, k)
+                .filter((lower) => upper.visible && lower.visible && overlap(lower.mask, upper.mask))
+                .map((lower) => `${upper.name} overlaps ${lower.name}: their droplets go through each other.`));
+        }
         this.#showFigures();
         if (!this.stroke && this.solver.at_rest) {
             root.dataset.droplets = 'ready';
@@ -261,6 +268,7 @@ class Studio {
         this.solver.hold(false);
         this.sheet.paint();
         this.#solve(undefined);
+        this.#settle();
     }
 
     // Words and figures.
@@ -304,7 +312,7 @@ class Studio {
         const report = known?.report;
         tabulate(report ? [...rows(report), ...(known.draft ? [['Draft', `${report.output?.triangles ?? report.mesh.triangles} triangles`]] :
             [['Triangles', String(report.output?.triangles ?? report.mesh.triangles)]])] : [['Layer', 'no droplet']]);
-        find('warnings').replaceChildren(...(report && !known.draft ? report.warnings ?? [] : [])
+        find('warnings').replaceChildren(...[...report && !known.draft ? report.warnings ?? [] : [], ...this.overlaps ?? []]
             .map((warning) => Object.assign(document.createElement('li'), { textContent: warning })));
         find('command-line').hidden = !report;
         if (report) {

@@ -11,7 +11,7 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, PAGE } = process.env;
+const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 const kStudio = pathToFileURL(resolve(STUDIO)).href;
 const kDesktop = { viewport: { width: 1100, height: 640 } };
 const kPhone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
@@ -283,6 +283,11 @@ studio('layers have liquids of their own, and one GLB holds them', kDesktop, asy
     assert.match(await said(page), /^\S+\s\S+ of honey/);
     assert.equal(await opacity(page, 0.3, 0.3), 0);
     assert.equal(jsonOf((await saved(page, 'glb')).bytes).meshes.length, 1);
+    // Layers that overlap are told.
+    await page.locator('#undo').click();
+    await stroke(page, [0.3, 0.3], [0.35, 0.3]);
+    await settle(page);
+    assert.match(await page.locator('#warnings').textContent(), /Layer 2 overlaps Layer 1/);
     // Removing a layer can be undone.
     await page.locator('#layer-remove').click();
     assert.equal(await page.locator('#layers li').count(), 1);
@@ -386,7 +391,7 @@ if (DROPLET_SHAPE) {
             return JSON.parse(readFileSync(join(folder, 'made.json')));
         };
         const report = await command();
-        const { volume, length, rows } = await import(pathToFileURL(resolve(import.meta.dirname, '../../src/page/figures.js')).href);
+        const { volume, length, rows } = await import(pathToFileURL(resolve(SOURCES, 'page/figures.js')).href);
         assert.equal(await result(page), `${volume(report.shape.volume_m3)} of water, ${length(report.shape.height_max_m)} high`);
         const table = await page.locator('#figures table tr').evaluateAll((list) => list.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
         assert.deepEqual(table.slice(0, -1), rows(report));

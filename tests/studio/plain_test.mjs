@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What Studio computes without a browser: node --test plain_test.mjs
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const { SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
+const module = (path) => import(pathToFileURL(resolve(SOURCES, path)).href);
+const { blank, drawPiece, flood, isDry, overlap, shifted } = await module('studio/coverage.js');
+const { History } = await module('studio/history.js');
+const { kLooks } = await module('studio/looks.js');
+const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
+const { kTools } = await module('studio/tools.js');
+
+const area = ({ data }) => data.reduce((sum, value) => sum + value, 0) / 255;
+const layerWith = (given) => ({ liquid: settingsOf(kLayerFields, given) });
+const scene = settingsOf(kSceneFields);
+
+test('a stroke covers the area of its capsule, wherever it lies', () => {
+    for (const [x, y, dx, dy, radius] of [[40, 40, 20, 0, 9], [40.3, 40.7, 13, 17, 9], [50, 50, 0, 0, 20], [40, 50, 20, -7, 3.3]]) {
+        const mask = blank(100, 100);
+        drawPiece(mask, { x, y, radius }, { x: x + dx, y: y + dy, radius }, false);
+        const exact = Math.PI * radius ** 2 + 2 * radius * Math.hypot(dx, dy);
+        assert.ok(Math.abs(area(mask) / exact - 1) < 0.005, `${area(mask)} ${exact}`);
+    }
+});
+
+test('a stroke over itself changes nothing, and the same stroke taken away leaves at most its rim', () => {
+    const mask = blank(100, 100);
+    const [from, to] = [{ x: 30.2, y: 40, radius: 12 }, { x: 61, y: 55.5, radius: 12 }];
+    drawPiece(mask, from, to, false);
+    const once = mask.data.slice();
+    drawPiece(mask, from, to, false);
+    assert.deepEqual(mask.data, once);
+    drawPiece(mask, from, to, true);
+    once.forEach((before, i) => assert.ok(mask.data[i] <= Math.min(before, 255 - before)));
+});
+
+test('the eraser takes away what the brush draws, and the brush with "take away" too', () => {
+    const base = blank(64, 64);
+    base.data.fill(255);
+    const point = { x: 32, y: 32, pressure: 1 };
+    const erased = kTools.eraser.begin(base, false, { size: 20 }, point).mask;
+    assert.deepEqual(kTools.brush.begin(base, true, { size: 20 }, point).mask, erased);
+    assert.ok(Math.abs(64 * 64 - area(erased) - Math.PI * 100) < 2);
+    assert.ok(base.data.every((value) => value === 255));
+});
+
+test('a flood fills a ring\'s inside and not its outside', () => {
+    const mask = blank(100, 100);
+    drawPiece(mask, { x: 50, y: 50, radius: 30 }, { x: 50, y: 50, radius: 30 }, false);
+    const disc = area(mask);
+    drawPiece(mask, { x: 50, y: 50, radius: 20 }, { x: 50, y: 50, radius: 20 }, true);
+    flood(mask, 50, 50, false);
+    assert.ok(Math.abs(area(mask) - disc) < 1, `${area(mask)} ${disc}`);
+    flood(mask, 50, 50, true);
+    assert.ok(isDry(mask));
+});
+
+test('shifting there and back keeps what stays on the sheet', () => {
+    const mask = blank(50, 40);
+    drawPiece(mask, { x: 25, y: 20, radius: 8 }, { x: 27, y: 20, radius: 8 }, false);
+    const moved = shifted(mask, 9, -7);
+    assert.equal(area(moved), area(mask));
+    assert.deepEqual(shifted(moved, -9, 7), mask);
+    assert.ok(isDry(shifted(mask, 50, 0)));
+    assert.ok(isDry(shifted(mask, 0, -40)));
+    assert.ok(overlap(mask, moved));
+    assert.ok(!overlap(mask, blank(50, 40)));
+});
+
+test('history goes back and forth, joins runs and bounds its memory', () => {
+    const state = (name, mask) => ({ name, layers: [{ mask }] });
+    const masks = Array.from({ length: 8 }, () => blank(100, 100));
+    const history = new History(state('0', masks[0]), 45_000);
+    history.add(state('1', masks[0]));
+    history.add(state('2', masks[1]), 'slider');
+    history.add(state('3', masks[1]), 'slider');
+    assert.equal(history.undo().name, '1');
+    assert.equal(history.undo().name, '0');
+    assert.equal(history.undo().name, '0');
+    assert.equal(history.redo().name, '1');
+    assert.equal(history.redo().name, '3');
+    assert.equal(history.can_redo, false);
+    history.undo();
+    history.add(state('4', masks[2]));
+    assert.equal(history.can_redo, false);
+    masks.forEach((mask, k) => history.add(state(`m${k}`, mask)));
+    const held = new Set(history.states.map(({ layers: [{ mask }] }) => mask));
+    assert.ok(held.size <= 4 && held.has(masks[7]));
+    assert.equal(history.state.name, 'm7');
+    assert.equal(history.undo().name, 'm6');
+});
+
+test('options are those of the command, without its defaults', () => {
+    assert.deepEqual(optionsOf(layerWith({}), scene), { width: '20mm' });
+    assert.deepEqual(optionsOf(layerWith({ liquid: 'honey', by: 'volume', volume: 3, fill: 'total', model: 'exact' }), { ...scene, tilt: 30 }),
+        { width: '20mm', liquid: 'honey', volume: '3uL', fill: 'total', model: 'exact', tilt: '30deg', tiltDirection: '-90deg' });
+    assert.deepEqual(optionsOf(layerWith({ by: 'natural', on: 'wax' }), { ...scene, ground: 'gutter', radius: 33 }),
+        { width: '20mm', contactAngle: 'natural', on: 'wax', surface: 'cylinder:R=-33mm,axis=90deg' });
+    assert.equal(commandOf('a', { width: '20mm', contactAngle: '35deg', surface: 'cylinder:R=3mm,axis=90deg' }),
+        'droplet-shape \'a.png\' \'a.glb\' --width 20mm --contact-angle 35deg --surface \'cylinder:R=3mm,axis=90deg\'');
+});
+
+test('values that are not allowed become the first ones', () => {
+    const settings = settingsOf(kLayerFields, { liquid: 'lava', contactAngle: 400, volume: '3', density: 900, by: 'toString' });
+    assert.deepEqual(settings, { ...settingsOf(kLayerFields), density: 900 });
+    assert.deepEqual(settingsOf(kSceneFields, null), scene);
+});
+
+test('looks are those of the library', () => {
+    const source = readFileSync(resolve(SOURCES, 'surface/material.cpp'), 'utf8');
+    const number = '([\\d.]+)';
+    const entry = new RegExp(`\\{"(\\w+)", \\{${number}, ${number}, ${number}\\}, ${number}, ${number}, ${number}, ${number}, (true|false)\\}`, 'g');
+    const known = Object.fromEntries([...source.matchAll(entry)].map(([, name, ...values]) => {
+        const [red, green, blue, metalness, roughness, transmission, ior] = values.map(Number);
+        return [name, { colour: [red, green, blue], metalness, roughness, transmission, ior, tinted: values[7] === 'true' }];
+    }));
+    assert.deepEqual(Object.fromEntries(Object.entries(kLooks).map(([name, { ink, ...look }]) => [name, look])), known);
+});
