@@ -29,8 +29,9 @@ struct CompressionError {
 
 /// Measures what a compression changes. Positions lie on a grid of 65536 steps along the longest side of the surface's
 /// box, so their error is below 0.87 steps. Vertices at one place stay at one place.
-/// @param surface  valid or empty
-/// @throws Error   InvalidArgument beyond float's range
+/// @param surface      valid or empty
+/// @param compression  with None, nothing changes
+/// @throws Error       InvalidArgument beyond float's range
 CompressionError compressionError(const Surface& surface, Compression compression);
 
 }  // namespace droplet
