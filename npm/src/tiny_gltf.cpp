@@ -5,9 +5,10 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_INCLUDE_JSON
-#include <tiny_gltf.h>
-
+// clang-format off: the header needs what is before it
 #include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+// clang-format on
 
 namespace tinygltf {
 
