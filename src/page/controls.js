@@ -36,16 +36,20 @@ export function download(blob, name) {
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/** Draws a picture's file on a canvas, which is shrunk if it is too large. */
-export async function readPicture(file) {
+/**
+ * Draws a picture's file on a canvas, which is shrunk if it is too large.
+ * @param svg_side  longer side of a picture that is SVG [pixels]; undefined: its own
+ */
+export async function readPicture(file, svg_side) {
     const image = new Image();
     image.src = URL.createObjectURL(file);
     try {
         await image.decode();
-        const shrink = Math.min(1, kLargestPicture / Math.max(image.naturalWidth, image.naturalHeight));
+        const longer = Math.max(image.naturalWidth, image.naturalHeight);
+        const scale = svg_side && file.type === 'image/svg+xml' ? svg_side / longer : Math.min(1, kLargestPicture / longer);
         const canvas = document.createElement('canvas');
-        canvas.width = Math.max(1, Math.round(shrink * image.naturalWidth));
-        canvas.height = Math.max(1, Math.round(shrink * image.naturalHeight));
+        canvas.width = Math.max(1, Math.round(scale * image.naturalWidth));
+        canvas.height = Math.max(1, Math.round(scale * image.naturalHeight));
         canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
         return canvas;
     } finally {

@@ -3,7 +3,7 @@
 
 /**
  * Fields: name; label; the value at first; `choices` {value: label}, or `unit` and `range` [min, max, step] of a number;
- * `optional` numbers may be empty; `slider`; `when(settings)`: whether the field matters.
+ * `optional` numbers may be empty, which means `empty`; `slider`; `when(settings)`: whether the field matters.
  */
 export const kLayerFields = [
     {
@@ -32,10 +32,10 @@ export const kLayerFields = [
         name: 'model', label: 'Model', value: 'auto',
         choices: { auto: 'Automatic', linear: 'Linear', exact: 'Exact' }, more: true,
     },
-    { name: 'surfaceTension', label: 'Surface tension', value: '', unit: 'mN/m', range: [0.001, 1e6, 'any'], optional: true, more: true },
-    { name: 'density', label: 'Density', value: '', unit: 'kg/m³', range: [0, 1e6, 'any'], optional: true, more: true },
-    { name: 'advancing', label: 'Advancing angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, more: true },
-    { name: 'receding', label: 'Receding angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, more: true },
+    { name: 'surfaceTension', label: 'Surface tension', value: '', unit: 'mN/m', range: [0.001, 1e6, 'any'], optional: true, empty: 'own', more: true },
+    { name: 'density', label: 'Density', value: '', unit: 'kg/m³', range: [0, 1e6, 'any'], optional: true, empty: 'own', more: true },
+    { name: 'advancing', label: 'Advancing angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, empty: 'none', more: true },
+    { name: 'receding', label: 'Receding angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, empty: 'none', more: true },
 ];
 
 const curved = ({ ground }) => ground !== 'flat';

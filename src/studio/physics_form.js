@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Controls for a table of fields.
 
-/** Three digits, for a slider's bubble. */
 const shown = (field, value) => `${String(value).replace('-', '\u2212')}${field.unit === '°' ? '' : '\u00a0'}${field.unit}`;
 
 function choice(field, id) {
@@ -17,7 +16,7 @@ function number(field, id) {
     const [min, max, step] = field.range;
     return Object.assign(document.createElement('input'), {
         id, type: 'number', inputMode: 'decimal', min, max, step: 'any', required: !field.optional,
-        placeholder: field.optional ? 'the liquid\u2019s own' : '',
+        placeholder: field.empty ?? '',
         // Arrow keys change it by this much.
         onkeydown(event) {
             const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];

@@ -2,31 +2,6 @@
 // Pictures as footprints: which channel shows the liquid, and where it begins.
 import { blank } from './coverage.js';
 
-const kLargest = 2048;
-const kDrawn = 1024;  // longer side of an SVG [pixels]
-
-/** Draws a picture's file on a canvas; an SVG is drawn large. */
-export async function readPicture(file) {
-    const image = new Image();
-    image.src = URL.createObjectURL(file);
-    try {
-        await image.decode();
-        const longer = Math.max(image.naturalWidth, image.naturalHeight);
-        if (!(longer > 0)) {
-            throw new Error('the picture has no size');
-        }
-        const drawn = file.type === 'image/svg+xml' || /\.svg$/i.test(file.name ?? '');
-        const scale = drawn ? kDrawn / longer : Math.min(1, kLargest / longer);
-        const canvas = document.createElement('canvas');
-        canvas.width = Math.max(1, Math.round(scale * image.naturalWidth));
-        canvas.height = Math.max(1, Math.round(scale * image.naturalHeight));
-        canvas.getContext('2d', { willReadFrequently: true }).drawImage(image, 0, 0, canvas.width, canvas.height);
-        return canvas;
-    } finally {
-        URL.revokeObjectURL(image.src);
-    }
-}
-
 /**
  * The levels of a picture, 0 to 255: its transparency if it has transparent parts, else its brightness.
  * `inverted`: whether dark is liquid, since the border is bright. `photo`: whether most edges are soft.
@@ -112,14 +87,4 @@ export function fitted(mask, width, height) {
         result.data[i] = data[4 * i + 3];
     }
     return result;
-}
-
-/** Shows a mask in a colour. */
-export function showMask(canvas, { width, height, data }, [red, green, blue]) {
-    Object.assign(canvas, { width, height });
-    const image = new ImageData(width, height);
-    for (let i = 0; i < data.length; ++i) {
-        image.data.set([red, green, blue, data[i]], 4 * i);
-    }
-    canvas.getContext('2d').putImageData(image, 0, 0);
 }

@@ -20,7 +20,7 @@ class Servant {
             }
         });
         this.worker.addEventListener('error', (event) => {
-            const error = new Error(event.message || 'the solver stopped');
+            const error = Object.assign(new Error(event.message || 'the solver stopped'), { code: 'Internal' });
             this.waiting.forEach(({ reject }) => reject(error));
             this.waiting.clear();
         });
@@ -44,7 +44,7 @@ class Servant {
 
     stop() {
         this.worker.terminate();
-        this.waiting.forEach(({ reject }) => reject(new Error('broken off')));
+        this.waiting.forEach(({ reject }) => reject(Object.assign(new Error('broken off'), { code: 'BrokenOff' })));
         this.waiting.clear();
     }
 }
@@ -133,7 +133,9 @@ export class Solver {
                 this.drafter.stop();
                 this.drafter = new Servant(this.parts, true);
             }
-            if (this.jobs.get(job.id) === job) {
+            if (!error.code) {
+                console.error(error);  // not the solver's
+            } else if (this.jobs.get(job.id) === job) {
                 this.failed(job, error, true);
             }
         }

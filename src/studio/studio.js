@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Studio: wires the drawing, the solver and the view to one project.
-import { complain, drawScale, find, offerGrounds, tabulate } from '../page/controls.js';
+import { complain, drawScale, find, offerGrounds, readPicture, tabulate } from '../page/controls.js';
 import { length, rows, volume } from '../page/figures.js';
 import { roundLength } from '../page/stage.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { History } from './history.js';
+import { askPicture } from './import_dialog.js';
 import { buildLayers } from './layers.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
 import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
-import { fitted, levelsOf, maskOfLevels, readPicture, showMask } from './pictures.js';
+import { fitted } from './pictures.js';
 import { newLayer, newProject, projectOf, selectedLayer, withLayer } from './project.js';
 import { save } from './save.js';
 import { Sheet } from './sheet.js';
 import { Solver } from './solver.js';
 import { Times } from './times.js';
+import { buildTools } from './tool_buttons.js';
 import { kTools } from './tools.js';
 import { View } from './view.js';
 
+const kDrawnSide = 1024;  // longer side of an SVG [pixels]
 const root = document.documentElement;
-
-const kIcons = {
-    brush: 'M16.5 3.5c-4 2-7 5-8.5 8l1 1c3-1.5 6-4.5 8-8.5zM7 12.5c-2 0-2.5 1.5-2.5 2.5S3.5 16.5 3 16.5c1.5 1 5.5.5 6-2.5z',
-    eraser: 'm8 16-4.5-4.5 8-8 5 5L9 16zM7 16h9M7.5 7.5l5 5',
-    line: 'M4.5 15.5l11-11M4.5 15.5h.01M15.5 4.5h.01',
-    rectangle: 'M3.5 5.5h13v9h-13z',
-    ellipse: 'M3 10a7 5 0 1 0 14 0a7 5 0 1 0-14 0z',
-    lasso: 'M4 13c-2-5 2-9 7-9s7 4 4.5 7-5 1-7 3-1.5 3-2.5 2.5S4.5 14 4 13z',
-    text: 'M4.5 6V4h11v2M10 4v12M7.5 16h5',
-    fill: 'M9 3.5 3.5 9l6 6 6-6zM3.5 9h12M16.5 12.5c1 1.5 1.3 2.2 1.3 2.8a1.3 1.3 0 0 1-2.6 0c0-.6.3-1.3 1.3-2.8z',
-    move: 'M10 2.5v15M2.5 10h15M7.5 5 10 2.5 12.5 5M7.5 15l2.5 2.5 2.5-2.5M5 7.5 2.5 10 5 12.5M15 7.5l2.5 2.5L15 12.5',
-};
 
 /** Keys of shortcuts must not act while somebody writes. */
 const writes = (target) => target.matches?.('input:not([type=range], [type=checkbox], [type=radio]), select, textarea');
@@ -339,16 +330,7 @@ class Studio {
     // Controls.
 
     #offerTools() {
-        for (const [name, { name: text, key }] of Object.entries(kTools)) {
-            const label = document.createElement('label');
-            label.title = `${text} (${key.toUpperCase()})`;
-            const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'tool', value: name });
-            radio.setAttribute('aria-label', text);
-            radio.addEventListener('change', () => this.#choose(name));
-            label.append(radio);
-            label.insertAdjacentHTML('beforeend', `<svg viewBox="0 0 20 20" aria-hidden="true"><path d="${kIcons[name]}"/></svg>`);
-            find('tools').append(label);
-        }
+        this.show_tool = buildTools(find('tools'), (tool) => this.#choose(tool));
         find('size').addEventListener('input', () => this.#resize(Number(find('size').value)));
         find('text').addEventListener('input', () => { this.setting.text = find('text').value; });
         find('font').addEventListener('change', () => { this.setting.font = find('font').value; });
@@ -364,7 +346,7 @@ class Studio {
     #choose(tool) {
         this.sheet.cancel();
         this.tool = tool;
-        find('tools').querySelector(`[value=${tool}]`).checked = true;
+        this.show_tool(tool);
         find('sizing').hidden = !kTools[tool].sized;
         find('writing').hidden = !kTools[tool].written;
         find('subtracting').hidden = ['eraser', 'move'].includes(tool);
@@ -521,33 +503,19 @@ class Studio {
                 this.#replace(await projectOf(await file.text()));
                 this.#say(`${this.project.name} opened`);
             } else {
-                await this.#import(await readPicture(file), file.name);
+                await this.#import(await readPicture(file, kDrawnSide), file.name);
             }
         } catch (error) {
             complain(`${file.name} cannot be opened. ${error instanceof DOMException ? 'It is no picture that this browser can read' : plainly(error)}.`);
         }
     }
 
-    /** Asks what a picture shall be, and shows the footprint that it gives. */
     async #import(canvas, file_name) {
-        const levels = levelsOf(canvas);
-        const dialog = find('import');
-        find('threshold').value = levels.threshold;
-        find('invert').checked = levels.inverted;
-        let mask;
-        const show = () => {
-            mask = maskOfLevels(levels, Number(find('threshold').value), find('invert').checked);
-            showMask(find('preview'), mask, inkOf(lookOf(selectedLayer(this.project).liquid)));
-        };
-        show();
-        find('threshold').oninput = find('invert').oninput = show;
-        dialog.returnValue = '';
-        dialog.showModal();
-        await new Promise((done) => { dialog.addEventListener('close', done, { once: true }); });
-        if (dialog.returnValue === 'footprint') {
+        const { use, mask, photo } = await askPicture(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
+        if (use === 'footprint') {
             this.#take(mask, file_name);
-        } else if (dialog.returnValue === 'underlay') {
-            this.#change({ ...this.project, underlay: { picture: canvas.toDataURL(levels.photo ? 'image/jpeg' : 'image/png', 0.9), opacity: 0.5 } });
+        } else if (use === 'underlay') {
+            this.#change({ ...this.project, underlay: { picture: canvas.toDataURL(photo ? 'image/jpeg' : 'image/png', 0.9), opacity: 0.5 } });
         }
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tools: each turns the points of a gesture into a changed mask. Pointer and keyboard drive them the same way.
-import { copyOf, drawPiece, drawShape, flood, restore, shifted, whole } from './coverage.js';
+import { around, copyOf, drawPiece, drawShape, flood, restore, shifted, whole } from './coverage.js';
 
 /** Fonts of the text tool; every system has one of each kind. */
 export const kFonts = { sans: 'system-ui, sans-serif', serif: 'Georgia, "DejaVu Serif", serif', round: 'ui-rounded, "Arial Rounded MT Bold", cursive', mono: 'ui-monospace, monospace' };
@@ -35,10 +35,7 @@ function shaping(base, first, draw) {
                 restore(mask, base, old);
             }
             const now = draw(mask, first, point);
-            const changed = old && now ? {
-                left: Math.min(old.left, now.left), top: Math.min(old.top, now.top),
-                right: Math.max(old.right, now.right), bottom: Math.max(old.bottom, now.bottom),
-            } : now ?? old;
+            const changed = around(old, now);
             old = now;
             return changed;
         },

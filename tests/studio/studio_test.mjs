@@ -338,7 +338,7 @@ studio('a dropped picture becomes a footprint of its size, or lies below', kDesk
     const svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8" width="8" height="8"><path d="M1 1h6v2H1z"/></svg>';
     await drop(page, 'bar.svg', 'image/svg+xml', Buffer.from(svg));
     await page.locator('#import').waitFor();
-    await page.getByRole('button', { name: 'Lay below, to trace' }).click();
+    await page.getByRole('button', { name: 'Lay below to trace' }).click();
     await page.locator('#underlay').waitFor();
     await setValue(page, 'opacity', 0.2);
     assert.equal(await page.locator('#underlay').evaluate(({ style }) => style.opacity), '0.2');
