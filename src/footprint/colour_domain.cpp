@@ -575,8 +575,8 @@ public:
         }
         for (std::size_t s = 0; s < segments_.size(); ++s) {
             const Segment& segment = segments_[s];
-            const auto [left, right] = std::minmax(cellOf(segment.from.x), cellOf(segment.to.x));
-            const auto [top, bottom] = std::minmax(cellOf(segment.from.y), cellOf(segment.to.y));
+            const auto [left, right] = std::minmax({cellOf(segment.from.x), cellOf(segment.to.x)});
+            const auto [top, bottom] = std::minmax({cellOf(segment.from.y), cellOf(segment.to.y)});
             for (std::int64_t y = top; y <= bottom; ++y) {
                 for (std::int64_t x = left; x <= right; ++x) {
                     cells_.push_back({y * kRow + x, s});
