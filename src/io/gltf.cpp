@@ -400,7 +400,7 @@ std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOpt
         ByteStream bytes(buffer);
         writeBuffer(pieces, options.texture, bytes);
         bytes.finish();
-        return writeCompressed(out, jsonOf(model), buffer.view(), options.compression);
+        return writeCompressed(out, jsonOf(model), buffer.str(), options.compression);
     }
     if (options.binary) {
         return writeBinary(out, model, [&](ByteStream& bytes) { writeBuffer(pieces, options.texture, bytes); });
