@@ -23,7 +23,6 @@ namespace droplet {
 namespace {
 
 using Json = nlohmann::json;
-using nlohmann::literals::operator""_json_pointer;
 
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
@@ -149,10 +148,9 @@ private:
     void compressGroup(const std::vector<Json*>& primitives)
     {
         const std::size_t vertices = accessors_[(*primitives[0])["attributes"]["POSITION"].get<std::size_t>()]["count"];
-        std::vector<std::vector<unsigned>> lists;
-        for (const Json* const primitive : primitives) {
-            lists.push_back(indicesOf((*primitive)["indices"]));
-        }
+        std::vector<std::vector<unsigned>> lists(primitives.size());
+        std::transform(primitives.begin(), primitives.end(), lists.begin(),
+                       [this](const Json* primitive) { return indicesOf((*primitive)["indices"]); });
         const std::vector<unsigned> order = meshopt_ ? optimize(lists, vertices) : std::vector<unsigned>();
         Json attributes = Json::object();
         for (const auto& [name, index] : (*primitives[0])["attributes"].items()) {
@@ -208,10 +206,9 @@ private:
             column.octahedral = meshopt_;
         } else if (is_texture) {
             normalised(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-            std::vector<std::uint16_t> quantized;
-            for (const float number : numbers) {
-                quantized.push_back(static_cast<std::uint16_t>(std::lround(number * 65535.0F)));
-            }
+            std::vector<std::uint16_t> quantized(numbers.size());
+            std::transform(numbers.begin(), numbers.end(), quantized.begin(),
+                           [](float n) { return static_cast<std::uint16_t>(std::lround(n * 65535.0F)); });
             column.bytes = bytesOf(quantized);
         } else {
             accessor["componentType"] = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -308,7 +305,7 @@ private:
             }
         }
         for (Json& material : json_["materials"]) {
-            if (const auto path = "/extensions/KHR_materials_volume/thicknessFactor"_json_pointer;
+            if (const Json::json_pointer path("/extensions/KHR_materials_volume/thicknessFactor");
                 material.contains(path)) {
                 material[path] = material[path].get<double>() / cube_.side;
             }

@@ -504,6 +504,9 @@ TEST_F(BatchTest, RefusesWrongContactSheets)
         EXPECT_EQ(result.exit_code, 2);
         EXPECT_THAT(result.error, HasSubstr(words));
     }
+    const CommandResult usd = run({"batch", "masks", "-o", "{stem}.usdz", "--contact-sheet", "sheet.png"});
+    EXPECT_EQ(usd.exit_code, 2);
+    EXPECT_THAT(usd.error, HasSubstr("--contact-sheet: USD files are only written"));
 }
 
 }  // namespace

@@ -252,8 +252,19 @@ TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)
     }
     expectRefused({"--fill-range", "0..2", "--no-penetration"}, {"--fill-range and --no-penetration exclude"});
     expectRefused({"--fill-range", "0..2", "--onto", "can.glb"}, {"--fill-range and --onto exclude each other"});
-    for (const char* format : {"obj", "ply", "stl"}) {
+    for (const char* format : {"obj", "ply", "stl", "usda", "usdz"}) {
         expectRefused({"--fill-range", "0..2", "--format", format}, {"--fill-range", format, "glb and gltf"});
+    }
+}
+
+TEST_F(UsageTest, OnlyAGlbWithoutASliderIsCompressed)
+{
+    expectRefused({"--compress", "draco"}, {"--compress", "'draco'", "none, quantize, meshopt"});
+    for (const char* compress : {"quantize", "meshopt"}) {
+        for (const char* format : {"gltf", "obj", "ply", "stl", "usda", "usdz"}) {
+            expectRefused({"--compress", compress, "--format", format}, {"--compress", format, "only glb"});
+        }
+        expectRefused({"--compress", compress, "--fill-range", "0..2"}, {"--compress and --fill-range exclude"});
     }
 }
 
