@@ -5,7 +5,8 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_INCLUDE_JSON
-// clang-format off: the header needs what is before it
+// The second header needs the first one.
+// clang-format off
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 // clang-format on
