@@ -18,6 +18,8 @@
 #include "droplet/error.h"
 #include "footprint/faired_rim.h"
 #include "footprint/label_arcs.h"
+#include "footprint/pixels.h"
+#include "footprint/rgb.h"
 #include "require.h"
 
 namespace droplet {
@@ -25,23 +27,27 @@ namespace {
 
 constexpr double kFull = 65535.0;
 
-/// Index of a pixel.
+/// Pixels of a picture.
 class Grid {
 public:
     explicit Grid(const ColourRegions& regions) : width_(regions.width), height_(regions.height) {}
+
+    /// Column of the pixel with an index.
+    [[nodiscard]] int column(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(width_)); }
+    [[nodiscard]] int row(std::size_t i) const { return static_cast<int>(i / static_cast<std::size_t>(width_)); }
 
     [[nodiscard]] std::size_t at(int x, int y) const
     {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
 
-    /// Calls a function with the index of every pixel within a distance of one, along rows and columns.
+    /// Calls a function with column and row of every pixel within a distance of one, along rows and columns.
     template <class Visit>
     void around(int x, int y, int reach, const Visit& visit) const
     {
         for (int v = std::max(0, y - reach); v <= std::min(height_ - 1, y + reach); ++v) {
             for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u) {
-                visit(at(u, v));
+                visit(u, v);
             }
         }
     }
@@ -55,7 +61,7 @@ private:
 class SpeckAbsorber {
 public:
     SpeckAbsorber(const ColourRegions& regions, ColourDomain& report)
-        : labels_(regions.label), width_(regions.width), height_(regions.height), report_(report)
+        : labels_(regions.label), grid_(regions), report_(report)
     {
     }
 
@@ -83,28 +89,22 @@ private:
         seen[start] = 1;
         std::map<std::uint8_t, std::size_t> neighbours;
         for (std::size_t k = 0; k < region.size(); ++k) {
-            const int x = static_cast<int>(region[k] % static_cast<std::size_t>(width_));
-            const int y = static_cast<int>(region[k] / static_cast<std::size_t>(width_));
-            // Liquid is 8-connected, dry 4-connected.
-            for (int v = y - 1; v <= y + 1; ++v) {
-                for (int u = x - 1; u <= x + 1; ++u) {
-                    const bool is_beside = (u == x) != (v == y);
-                    if ((u == x && v == y) || (label == 0 && !is_beside)) {
-                        continue;
-                    }
-                    if (u < 0 || v < 0 || u >= width_ || v >= height_) {
-                        continue;
-                    }
-                    const std::size_t there =
-                        static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
-                    if (labels_[there] != label) {
-                        neighbours[labels_[there]] += is_beside ? 1 : 0;
-                    } else if (seen[there] == 0) {
-                        seen[there] = 1;
-                        region.push_back(there);
-                    }
+            const int x = grid_.column(region[k]);
+            const int y = grid_.row(region[k]);
+            grid_.around(x, y, 1, [&](int u, int v) {
+                const bool is_beside = (u == x) != (v == y);
+                // Liquid is 8-connected, dry 4-connected.
+                if ((u == x && v == y) || (label == 0 && !is_beside)) {
+                    return;
                 }
-            }
+                const std::size_t there = grid_.at(u, v);
+                if (labels_[there] != label) {
+                    neighbours[labels_[there]] += is_beside ? 1 : 0;
+                } else if (seen[there] == 0) {
+                    seen[there] = 1;
+                    region.push_back(there);
+                }
+            });
         }
         const auto area = static_cast<double>(region.size());
         if (area >= speck_size || neighbours.empty()) {
@@ -121,8 +121,7 @@ private:
     }
 
     std::vector<std::uint8_t> labels_;
-    int width_;
-    int height_;
+    Grid grid_;
     ColourDomain& report_;
 };
 
@@ -144,11 +143,7 @@ public:
 private:
     static std::uint16_t level(double share) { return static_cast<std::uint16_t>(std::lround(kFull * share)); }
 
-    [[nodiscard]] Vec3 colourOf(std::uint8_t label) const
-    {
-        const CssColour& c = regions_.palette[label - 1U].colour;
-        return {static_cast<double>(c.red), static_cast<double>(c.green), static_cast<double>(c.blue)};
-    }
+    [[nodiscard]] Vec3 colourOf(std::uint8_t label) const { return vectorOf(regions_.palette[label - 1U].colour); }
 
     /// Place of a pixel's colour on the line from one colour to another.
     [[nodiscard]] double between(std::size_t i, std::uint8_t left, Vec3 other, std::uint8_t right) const
@@ -156,8 +151,7 @@ private:
         if (regions_.is_blend[i] == 0 && (labels_[i] == left || labels_[i] == right)) {
             return labels_[i] == left ? 1.0 : 0.0;
         }
-        const auto& c = regions_.colour[i];
-        const Vec3 here{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+        const Vec3 here = vectorOf(regions_.colour[i]);
         const Vec3 step = colourOf(left) - other;
         const double square = dot(step, step);
         return square > 0.0 ? std::clamp(dot(here - other, step) / square, 0.0, 1.0) : 0.0;
@@ -174,15 +168,14 @@ private:
             return labels_[i] == 0 ? 0 : std::numeric_limits<std::uint16_t>::max();
         }
         bool is_near_dry = false;
-        grid_.around(x, y, 2, [&](std::size_t j) {
+        grid_.around(x, y, 2, [&](int u, int v) {
+            const std::size_t j = grid_.at(u, v);
             is_near_dry = is_near_dry || (labels_[j] == 0 && regions_.is_blend[j] == 0);
         });
         if (labels_[i] != 0 && !is_near_dry) {
             return std::numeric_limits<std::uint16_t>::max();
         }
-        const CssColour& dry = *regions_.background;
-        return level(between(
-            i, left, {static_cast<double>(dry.red), static_cast<double>(dry.green), static_cast<double>(dry.blue)}, 0));
+        return level(between(i, left, vectorOf(*regions_.background), 0));
     }
 
     const ColourRegions& regions_;
@@ -277,15 +270,13 @@ private:
         const Grid grid(regions_);
         for (const Border& border : borders) {
             for (const Crossing& at : border) {
-                for (int y = std::max(0, at.y - kReach); y <= std::min(mask.height - 1, at.y + kReach); ++y) {
-                    for (int x = std::max(0, at.x - kReach); x <= std::min(mask.width - 1, at.x + kReach); ++x) {
-                        const std::size_t i = grid.at(x, y);
-                        if (done[i] == 0) {
-                            done[i] = 1;
-                            mask.coverage[i] = coverage_.share(x, y, left, right);
-                        }
+                grid.around(at.x, at.y, kReach, [&](int x, int y) {
+                    const std::size_t i = grid.at(x, y);
+                    if (done[i] == 0) {
+                        done[i] = 1;
+                        mask.coverage[i] = coverage_.share(x, y, left, right);
                     }
-                }
+                });
             }
         }
         return mask;
@@ -693,9 +684,6 @@ void addTouching(const ColourRegions& regions, const Boundaries& boundaries, con
 {
     const std::vector<Line> lines =
         linesOf(boundaries, options.edge ? std::optional(*options.edge / result.pixel_size) : std::nullopt);
-    const auto place = [&](Vec2 p) {
-        return Vec2{(p.x - 0.5 * regions.width) * result.pixel_size, (0.5 * regions.height - p.y) * result.pixel_size};
-    };
     for (std::size_t k = 0; k < regions.palette.size(); ++k) {
         Outline outline;
         outline.extent = result.domain.extent;
@@ -706,7 +694,7 @@ void addTouching(const ColourRegions& regions, const Boundaries& boundaries, con
             Line line = joined(boundaries, lines, border);
             Loop loop{{}, std::move(line.corner)};
             for (const Vec2 p : line.points) {
-                loop.points.push_back(place(p));
+                loop.points.push_back(placeOf(p, regions.width, regions.height, result.pixel_size));
             }
             outline.loops.push_back(std::move(loop));
         }
@@ -782,7 +770,8 @@ void addApart(const ColourRegions& regions, const std::vector<std::uint8_t>& lab
                 const bool is_other = labels[i] != label && labels[i] != 0;
                 bool is_beside = labels[i] == label;
                 if (labels[i] == 0) {
-                    grid.around(x, y, 2, [&](std::size_t j) { is_beside = is_beside || labels[j] == label; });
+                    grid.around(x, y, 2,
+                                [&](int u, int v) { is_beside = is_beside || labels[grid.at(u, v)] == label; });
                 }
                 if (!is_beside && !(is_other && std::isfinite(away[i]))) {
                     continue;
@@ -816,8 +805,7 @@ void ColourTraceOptions::validate() const
 
 double pixelSize(const ColourRegions& regions, const TraceOptions& options)
 {
-    return options.pixel_size ? *options.pixel_size / regions.raster_scale.value_or(1.0)
-                              : options.width / regions.width;
+    return pixelSize(regions.width, regions.raster_scale, options);
 }
 
 ColourDomain traceColours(const ColourRegions& regions, const ColourTraceOptions& options)

@@ -15,13 +15,12 @@
 
 #include "droplet/error.h"
 #include "droplet/vector.h"
+#include "footprint/rgb.h"
 #include "image/image.h"
 #include "image/image_file.h"
 
 namespace droplet {
 namespace {
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr double kSame = 16.0;          ///< distance in Lab up to which colours of a picture become one
 constexpr double kSameAsBorder = 12.0;  ///< likewise for the background
@@ -34,28 +33,12 @@ constexpr int kEven = 8;  ///< range of a channel around a pixel of an even part
 
 Vec3 labOf(Vec3 rgb)
 {
-    const auto light = [](double level) {
-        const double share = level / 255.0;
-        return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-    };
-    const double r = light(rgb.x);
-    const double g = light(rgb.y);
-    const double b = light(rgb.z);
+    const auto [r, g, b] = linearLight(rgb);
     const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
     const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
     const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
     const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
     return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
-}
-
-Vec3 vectorOf(const Rgb& colour)
-{
-    return {static_cast<double>(colour[0]), static_cast<double>(colour[1]), static_cast<double>(colour[2])};
-}
-
-Vec3 vectorOf(const CssColour& colour)
-{
-    return vectorOf(Rgb{colour.red, colour.green, colour.blue});
 }
 
 double squared(Vec3 a)

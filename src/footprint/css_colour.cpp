@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 #include "droplet/error.h"
+#include "footprint/rgb.h"
 
 namespace droplet {
 namespace {
@@ -105,11 +105,7 @@ std::string fileName(const CssColour& colour)
 
 Vec3 linearLight(const CssColour& colour)
 {
-    const auto light = [](std::uint8_t level) {
-        const double share = level / 255.0;
-        return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-    };
-    return {light(colour.red), light(colour.green), light(colour.blue)};
+    return linearLight(vectorOf(colour));
 }
 
 }  // namespace droplet

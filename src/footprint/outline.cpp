@@ -15,6 +15,7 @@
 #include "footprint/borders.h"
 #include "footprint/corners.h"
 #include "footprint/faired_rim.h"
+#include "footprint/pixels.h"
 #include "footprint/slot.h"
 #include "number_text.h"
 #include "require.h"
@@ -57,7 +58,7 @@ double signedArea(const Loop& loop)
 
 double pixelSize(const Mask& mask, const TraceOptions& options)
 {
-    return options.pixel_size ? *options.pixel_size / mask.raster_scale.value_or(1.0) : options.width / mask.width;
+    return pixelSize(mask.width, mask.raster_scale, options);
 }
 
 Outline trace(const Mask& mask, const TraceOptions& options)
@@ -111,8 +112,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         loop.corner = std::move(pixels.corner);
         loop.points.reserve(pixels.points.size());
         for (const Vec2 p : pixels.points) {
-            loop.points.push_back(
-                {(p.x - 0.5 * mask.width) * outline.pixel_size, (0.5 * mask.height - p.y) * outline.pixel_size});
+            loop.points.push_back(placeOf(p, mask.width, mask.height, outline.pixel_size));
         }
         outline.loops.push_back(std::move(loop));
     }
