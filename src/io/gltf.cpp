@@ -236,31 +236,6 @@ void addNode(tinygltf::Model& model, std::vector<tinygltf::Primitive> primitives
     model.nodes.push_back(std::move(node));
 }
 
-/// Adds a picture at the end of the buffer, as the base colour of all materials.
-void addTexture(tinygltf::Model& model, std::size_t bytes)
-{
-    addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, bytes);
-    model.accessors.pop_back();  // pictures have a view, but no accessor
-    tinygltf::Image image;
-    image.name = "picture";
-    image.mimeType = "image/png";
-    image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-    model.images.push_back(std::move(image));
-    tinygltf::Sampler sampler;
-    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
-    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-    sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-    sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-    model.samplers.push_back(sampler);
-    tinygltf::Texture texture;
-    texture.sampler = 0;
-    texture.source = 0;
-    model.textures.push_back(std::move(texture));
-    for (tinygltf::Material& material : model.materials) {
-        material.pbrMetallicRoughness.baseColorTexture.index = 0;
-    }
-}
-
 tinygltf::Model makeModel(const Surface& surface, const Pieces& pieces, const GltfOptions& options)
 {
     tinygltf::Model model = makeEmptyModel();
@@ -281,7 +256,11 @@ tinygltf::Model makeModel(const Surface& surface, const Pieces& pieces, const Gl
         addNode(model, std::move(primitives), surface, {});
     }
     if (!options.texture.empty()) {
-        addTexture(model, options.texture.size());
+        const int texture = addTexture(model, "picture", options.texture.size(),
+                                       {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, TINYGLTF_TEXTURE_FILTER_LINEAR});
+        for (tinygltf::Material& material : model.materials) {
+            material.pbrMetallicRoughness.baseColorTexture.index = texture;
+        }
     }
     return model;
 }

@@ -107,6 +107,28 @@ int addArray(tinygltf::Model& model, int target, int component_type, int type, s
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
+int addTexture(tinygltf::Model& model, const char* name, std::size_t bytes, const TextureFilters& filters)
+{
+    addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, bytes);
+    model.accessors.pop_back();  // pictures have a view, but no accessor
+    tinygltf::Image image;
+    image.name = name;
+    image.mimeType = "image/png";
+    image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    tinygltf::Sampler sampler;
+    sampler.minFilter = filters.min;
+    sampler.magFilter = filters.mag;
+    sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    tinygltf::Texture texture;
+    texture.sampler = static_cast<int>(model.samplers.size());
+    texture.source = static_cast<int>(model.images.size());
+    model.images.push_back(std::move(image));
+    model.samplers.push_back(std::move(sampler));
+    model.textures.push_back(std::move(texture));
+    return static_cast<int>(model.textures.size()) - 1;
+}
+
 int addVertexArray(tinygltf::Model& model, int type, std::size_t count)
 {
     return addArray(model, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);

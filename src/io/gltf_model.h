@@ -42,6 +42,14 @@ std::size_t bufferBytes(const tinygltf::Model& model);
 /// Appends an array to the buffer, aligned to a word; returns the index of its accessor.
 /// @param target  target of the buffer view; 0: none
 int addArray(tinygltf::Model& model, int target, int component_type, int type, std::size_t count);
+/// Filters of a texture where it is smaller and larger than its picture: TINYGLTF_TEXTURE_FILTER_…
+struct TextureFilters {
+    int min = -1;
+    int mag = -1;
+};
+/// Appends the bytes of a PNG to the buffer, as a texture that is clamped at its edges; returns the texture's index.
+/// @param name  of the picture
+int addTexture(tinygltf::Model& model, const char* name, std::size_t bytes, const TextureFilters& filters);
 /// Appends an array of floats per vertex.
 int addVertexArray(tinygltf::Model& model, int type, std::size_t count);
 /// Appends indices of triangles, 16-bit or 32-bit depending on the number of vertices.

@@ -110,24 +110,9 @@ public:
         model.scenes.push_back(std::move(scene));
         model.defaultScene = 0;
 
-        addArray(model, 0, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, png_.size());
-        model.accessors.pop_back();  // pictures have a view, but no accessor
-        tinygltf::Image image;
-        image.name = "droplets";
-        image.mimeType = "image/png";
-        image.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-        model.images.push_back(std::move(image));
-        tinygltf::Sampler sampler;
-        sampler.minFilter = TINYGLTF_TEXTURE_FILTER_NEAREST;
-        sampler.magFilter = TINYGLTF_TEXTURE_FILTER_NEAREST;
-        sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        model.samplers.push_back(sampler);
-        tinygltf::Texture texture;
-        texture.name = "droplets";
-        texture.sampler = 0;
-        texture.source = 0;
-        model.textures.push_back(std::move(texture));
+        const int texture = addTexture(model, "droplets", png_.size(),
+                                       {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_NEAREST});
+        model.textures[static_cast<std::size_t>(texture)].name = "droplets";
         return writeBinary(out, model, [&](ByteStream& bytes) {
             writeMesh(pane_, bytes);
             writeMesh(cap_, bytes);
