@@ -50,6 +50,14 @@ bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, co
     return mask.physical_width && !footprint.sized && !settings.onto;
 }
 
+void invert(droplet::Mask& mask)
+{
+    for (std::uint16_t& coverage : mask.coverage) {
+        coverage = static_cast<std::uint16_t>(0xFFFF - coverage);
+    }
+    mask.inverted = !mask.inverted;
+}
+
 DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options)
 {
     DropletSettings settings = options.settings;
@@ -104,8 +112,7 @@ std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::str
     }
     return fmt::format(
         "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); {}, change it "
-        "with "
-        "--segment, --channel or --threshold",
+        "with --segment, --channel or --threshold",
         100.0 * mask.segment_confidence, name(mask.segment), advice);
 }
 

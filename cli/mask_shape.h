@@ -27,6 +27,9 @@ double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& optio
 /// Whether the picture's size is the one that its file states.
 bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint);
 
+/// Exchanges liquid and dry.
+void invert(droplet::Mask& mask);
+
 /// Settings completed by the picture's size, which may depend on an object or on the picture, and by the ground.
 /// @throws droplet::Error  InvalidInput: the picture states a size out of range; InvalidArgument
 DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& around, const ShapeOptions& options);

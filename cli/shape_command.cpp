@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -19,8 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "colour_shape.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_domain.h"
 #include "droplet/footprint/colour_regions.h"
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
@@ -319,61 +318,6 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
     return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, texture}, around, options, stages);
 }
 
-/// Mask of all liquid, without the places of its rims within pixels.
-droplet::Mask maskOf(const droplet::ColourRegions& regions)
-{
-    droplet::Mask mask;
-    mask.width = regions.width;
-    mask.height = regions.height;
-    mask.raster_scale = regions.raster_scale;
-    mask.physical_width = regions.physical_width;
-    for (const std::uint8_t label : regions.label) {
-        mask.coverage.push_back(label == 0 ? 0 : std::numeric_limits<std::uint16_t>::max());
-    }
-    return mask;
-}
-
-/// Edge of the triangles on a footprint [m].
-double triangleEdge(double area, const droplet::TriangulateOptions& mesh)
-{
-    return mesh.edge.value_or(std::sqrt(4.0 / std::sqrt(3.0) * area / static_cast<double>(mesh.triangles)));
-}
-
-/// Warnings of droplets by colour.
-std::vector<std::string> colourWarnings(const droplet::ColourRegions& regions, const droplet::ColourDomain& traced,
-                                        const ByColourOptions& options)
-{
-    std::vector<std::string> warnings;
-    if (options.colours && regions.palette.size() < *options.colours) {
-        warnings.push_back(fmt::format("--colours: the picture has only {} that stand out", regions.palette.size()));
-    }
-    for (const std::size_t lost : traced.lost) {
-        warnings.push_back(fmt::format("the colour {} has no droplet: its regions are too small",
-                                       droplet::text(regions.palette[lost].colour)));
-    }
-    return warnings;
-}
-
-/// Describes a picture that was divided by colour.
-droplet::InputReport describeInput(const droplet::ColourRegions& regions, const droplet::ColourDomain& traced,
-                                   const ShapeOptions& options)
-{
-    droplet::InputReport input;
-    input.path = options.input;
-    input.width_px = regions.width;
-    input.height_px = regions.height;
-    input.drawn = regions.raster_scale.has_value();
-    input.pixel_size = traced.pixel_size;
-    input.channel = regions.alpha.empty() ? droplet::Channel::Luma : droplet::Channel::Alpha;
-    input.segment = droplet::Segmentation::Colour;
-    input.anti_aliased = traced.anti_aliased;
-    input.specks_dropped = traced.specks_dropped;
-    input.largest_speck_px = traced.largest_speck_px;
-    input.palette = regions.palette;
-    input.background = regions.background;
-    return input;
-}
-
 /// Makes droplets from the regions of one colour.
 droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                              Stages& stages)
@@ -393,32 +337,12 @@ droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& ar
         settings = completeSettings(mask, around, options);
     }
     picture = {};
-    const double area = coveredArea(mask, settings.droplet.trace);
-    refuseTooShortEdge(area, settings.droplet);
     addPageSlider(settings.droplet, options);
-    stages.begin(Stage::Trace);
-    droplet::ColourDomain traced = forInput(options, [&] {
-        return droplet::traceColours(
-            regions, {settings.droplet.trace, by_colour.gap, triangleEdge(area, settings.droplet.mesh)});
-    });
-    Source source{describeInput(regions, traced, options)};
-    source.input.own_size = takesOwnSize(mask, settings, options.footprint);
-    for (const std::size_t colour : traced.colour) {
-        source.colours.push_back(regions.palette[colour].colour);
-    }
-    Droplet droplet = forInput(options, [&] {
-        return droplet::makeDroplet(std::move(traced.domain), settings.droplet,
-                                    [&](Stage stage) { stages.begin(stage); });
-    });
-    std::vector<std::string> warnings = colourWarnings(regions, traced, by_colour);
-    const bool leans = std::any_of(droplet.figures.begin(), droplet.figures.end(),
-                                   [](const droplet::ShapeFigures& figures) { return figures.overhang > 0.0; });
-    if (leans && by_colour.gap == 0.0 && droplet.figures.size() > 1) {
-        warnings.emplace_back(
-            "droplets hang over their rims, and may overlap their neighbours; use --gap, or ask for less liquid");
-    }
-    settings.warnings.insert(settings.warnings.begin(), warnings.begin(), warnings.end());
-    return finish(std::move(droplet), settings, source, around, options, stages);
+    const auto begin = [&](Stage stage) { stages.begin(stage); };
+    ColourShape made = forInput(options, [&] { return makeOfColours(regions, settings, options, begin); });
+    settings.warnings.insert(settings.warnings.begin(), made.warnings.begin(), made.warnings.end());
+    return finish(std::move(made.droplet), settings, {std::move(made.input), std::move(made.colours)}, around, options,
+                  stages);
 }
 
 droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,

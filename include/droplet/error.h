@@ -14,6 +14,22 @@ enum class ErrorCode {
     NoSuchDroplet,    ///< the requested droplet does not exist, or the solver failed
 };
 
+/// Name of a kind of error: `InvalidArgument`, `InvalidInput`, `OutputFailed` or `NoSuchDroplet`.
+constexpr const char* name(ErrorCode code) noexcept
+{
+    switch (code) {
+        case ErrorCode::InvalidArgument:
+            return "InvalidArgument";
+        case ErrorCode::InvalidInput:
+            return "InvalidInput";
+        case ErrorCode::OutputFailed:
+            return "OutputFailed";
+        case ErrorCode::NoSuchDroplet:
+            break;
+    }
+    return "NoSuchDroplet";
+}
+
 /// The only exception type that this library throws.
 /// Guarantees: the message is one line that names the field, its value and the constraint.
 class Error : public std::runtime_error {

@@ -11,6 +11,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.h"
@@ -47,6 +48,7 @@ struct Result {
     std::vector<float> uvs;
     std::string json;
     std::string file;
+    std::span<const std::byte> given_out;  ///< by the last droplet_array
     std::string message;
     std::string code;
 };
@@ -57,21 +59,6 @@ struct Given {
     int height = 0;
     MaskKind kind = MaskKind::Png;
 };
-
-const char* nameOf(ErrorCode code)
-{
-    switch (code) {
-        case ErrorCode::InvalidArgument:
-            return "InvalidArgument";
-        case ErrorCode::InvalidInput:
-            return "InvalidInput";
-        case ErrorCode::OutputFailed:
-            return "OutputFailed";
-        case ErrorCode::NoSuchDroplet:
-            break;
-    }
-    return "NoSuchDroplet";
-}
 
 void declare(cli::CommandLine& line)
 {
@@ -118,10 +105,7 @@ droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
         }
     }
     if (options.invert) {
-        for (std::uint16_t& coverage : mask.coverage) {
-            coverage = static_cast<std::uint16_t>(0xFFFF - coverage);
-        }
-        mask.inverted = true;
+        cli::invert(mask);
     }
     return mask;
 }
@@ -133,7 +117,6 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     const cli::ShapeOptions options = parse(arguments);
     const droplet::Mask mask = maskOf(given, options.footprint.mask);
     cli::DropletSettings settings = cli::completeSettings(mask, {}, options);
-    settings.droplet.fill_range = options.settings.droplet.fill_range;
     cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage) { clock.begin(stage); });
     if (auto warning = cli::maskWarning(mask, "look at it")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
@@ -174,7 +157,7 @@ void guarded(Result& result, const Function& function)
     try {
         function();
     } catch (const Error& error) {
-        result.code = nameOf(error.code());
+        result.code = name(error.code());
         result.message = error.what();
     } catch (const std::bad_alloc&) {
         result.code = "OutOfMemory";
@@ -183,6 +166,40 @@ void guarded(Result& result, const Function& function)
         result.code = "Internal";
         result.message = error.what();
     }
+}
+
+std::span<const std::byte> arrayOf(Result& result, Array array)
+{
+    const auto kept = [](auto& place, auto numbers) {
+        place = std::move(numbers);
+        return std::as_bytes(std::span(place));
+    };
+    switch (array) {
+        case Array::Positions:
+            return kept(result.positions, floats(result.surface.positions));
+        case Array::Normals:
+            return kept(result.normals, floats(result.surface.normals));
+        case Array::Uvs:
+            return kept(result.uvs, floats(result.surface.uvs));
+        case Array::ContactAngles:
+            return std::as_bytes(std::span(result.surface.contact_angle));
+        case Array::Triangles:
+            return std::as_bytes(std::span(result.surface.triangles));
+        case Array::Report:
+            guarded(result, [&] {
+                std::ostringstream out;
+                droplet::writeReport(out, result.report);
+                result.json = std::move(out).str();
+            });
+            return std::as_bytes(std::span(result.json));
+        case Array::File:
+            return std::as_bytes(std::span(result.file));
+        case Array::Message:
+            return std::as_bytes(std::span(result.message));
+        case Array::Code:
+            break;
+    }
+    return std::as_bytes(std::span(result.code));
 }
 
 }  // namespace
@@ -220,64 +237,17 @@ EMSCRIPTEN_KEEPALIVE void droplet_write(Result* result, const char* format)
     });
 }
 
-/// Array of a result: where it begins.
+/// Array of a result: where it begins. It stays until the result is deleted.
 EMSCRIPTEN_KEEPALIVE const void* droplet_array(Result* result, int array)
 {
-    switch (static_cast<Array>(array)) {
-        case Array::Positions:
-            result->positions = floats(result->surface.positions);
-            return result->positions.data();
-        case Array::Normals:
-            result->normals = floats(result->surface.normals);
-            return result->normals.data();
-        case Array::Uvs:
-            result->uvs = floats(result->surface.uvs);
-            return result->uvs.data();
-        case Array::ContactAngles:
-            return result->surface.contact_angle.data();
-        case Array::Triangles:
-            return result->surface.triangles.data();
-        case Array::Report:
-            guarded(*result, [&] {
-                std::ostringstream out;
-                droplet::writeReport(out, result->report);
-                result->json = std::move(out).str();
-            });
-            return result->json.data();
-        case Array::File:
-            return result->file.data();
-        case Array::Message:
-            return result->message.data();
-        case Array::Code:
-            return result->code.data();
-    }
-    return nullptr;
+    result->given_out = arrayOf(*result, static_cast<Array>(array));
+    return result->given_out.data();
 }
 
-/// Length of an array [byte], after droplet_array.
-EMSCRIPTEN_KEEPALIVE std::size_t droplet_array_bytes(const Result* result, int array)
+/// Length of the array that droplet_array gave last [byte].
+EMSCRIPTEN_KEEPALIVE std::size_t droplet_array_bytes(const Result* result)
 {
-    switch (static_cast<Array>(array)) {
-        case Array::Positions:
-            return result->positions.size() * sizeof(float);
-        case Array::Normals:
-            return result->normals.size() * sizeof(float);
-        case Array::Uvs:
-            return result->uvs.size() * sizeof(float);
-        case Array::ContactAngles:
-            return result->surface.contact_angle.size() * sizeof(float);
-        case Array::Triangles:
-            return result->surface.triangles.size() * sizeof(droplet::Triangle);
-        case Array::Report:
-            return result->json.size();
-        case Array::File:
-            return result->file.size();
-        case Array::Message:
-            return result->message.size();
-        case Array::Code:
-            return result->code.size();
-    }
-    return 0;
+    return result->given_out.size();
 }
 
 EMSCRIPTEN_KEEPALIVE void droplet_delete(const Result* result)

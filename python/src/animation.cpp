@@ -64,7 +64,7 @@ public:
     {
         droplet::SequenceReport& report = made_->report;
         if (options_.footprint.mask.invert) {
-            invert(mask);
+            cli::invert(mask);
         }
         if (report.frames.empty()) {
             sequence_ = cli::beginSequence(mask, options_, around_, made_->report);

@@ -11,21 +11,6 @@ namespace {
 
 namespace py = pybind11;
 
-const char* nameOf(droplet::ErrorCode code)
-{
-    switch (code) {
-        case droplet::ErrorCode::InvalidArgument:
-            return "InvalidArgument";
-        case droplet::ErrorCode::InvalidInput:
-            return "InvalidInput";
-        case droplet::ErrorCode::OutputFailed:
-            return "OutputFailed";
-        case droplet::ErrorCode::NoSuchDroplet:
-            break;
-    }
-    return "NoSuchDroplet";
-}
-
 }  // namespace
 
 void registerErrors()
@@ -38,7 +23,7 @@ void registerErrors()
             std::rethrow_exception(std::move(thrown));
         } catch (const droplet::Error& error) {
             const py::object made =
-                py::module_::import("droplet_shape._errors").attr("made")(nameOf(error.code()), error.what());
+                py::module_::import("droplet_shape._errors").attr("made")(name(error.code()), error.what());
             PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
         }
     });

@@ -118,14 +118,6 @@ Mask maskOf(const py::handle& from)
     return {fromArray(from.cast<py::array>()), "array", {}};
 }
 
-void invert(droplet::Mask& mask)
-{
-    for (std::uint16_t& coverage : mask.coverage) {
-        coverage = static_cast<std::uint16_t>(0xFFFF - coverage);
-    }
-    mask.inverted = !mask.inverted;
-}
-
 void bindMask(py::module_& module)
 {
     py::class_<Mask, std::shared_ptr<Mask>>(module, "Mask", py::buffer_protocol(),

@@ -23,9 +23,6 @@ struct Mask {
 /// @throws droplet::Error  InvalidArgument: other shape or type, an empty array, numbers out of range
 Mask maskOf(const pybind11::handle& from);
 
-/// Exchanges liquid and dry.
-void invert(droplet::Mask& mask);
-
 /// Adds masks to the module.
 void bindMask(pybind11::module_& module);
 

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape.h"
 
-#include <fmt/core.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "arguments.h"
-#include "droplet/error.h"
-#include "droplet/surface/onto.h"
 #include "droplet_report.h"
 #include "mask.h"
 #include "mask_shape.h"
-#include "option_values.h"
 #include "shape_options.h"
 #include "surroundings.h"
 #include "work.h"
@@ -25,9 +20,6 @@ namespace binding {
 namespace {
 
 namespace py = pybind11;
-
-using droplet::Error;
-using droplet::ErrorCode;
 
 std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
 {
@@ -43,7 +35,7 @@ std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
         options.footprint.trace.threshold = *from.threshold;
     }
     if (options.footprint.mask.invert) {
-        invert(mask);
+        cli::invert(mask);
     }
     const cli::Surroundings around = cli::readSurroundings(options.settings);
     cli::DropletSettings settings = cli::completeSettings(mask, around, options);
