@@ -72,7 +72,7 @@ export interface Options {
     grading?: 1 | 2 | 4 | 8 | 16 | 32 | 64;
     /** Leave out the base */
     open?: boolean;
-    /** Look in glTF, OBJ, previews and the page; does not change the shape [the liquid's own] */
+    /** Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own] */
     material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain';
     /** Unit of length in OBJ and STL [mm] */
     unit?: 'm' | 'cm' | 'mm';
@@ -101,7 +101,7 @@ export interface Droplet {
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
     /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl'): Uint8Array;
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz'): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }
@@ -111,6 +111,8 @@ export interface Option {
     group: string;
     /** name of the value in the help, or the allowed words; empty for a flag */
     value: string;
+    /** of a number; empty if it has none */
+    unit: string;
     text: string;
     default: string;
 }

@@ -16,7 +16,8 @@ export class DropletError extends Error {
 }
 
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
-const dashed = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+/** Name of an option on the command line. */
+export const dashed = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 /** The command's words for options, as this package has them. */
 const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelCase(name));
 
@@ -42,7 +43,7 @@ function optionsOf(help) {
     }
     return options.filter(({ name }) => !kNotHere.has(name)).map((option) => {
         const [, text, value] = /^(.*?)(?: \[([^[\]]*)\])?$/.exec(option.text);
-        return { ...option, name: camelCase(option.name), text: inScript(text), default: value ?? '' };
+        return { ...option, name: camelCase(option.name), unit: kUnits[option.value] ?? '', text: inScript(text), default: value ?? '' };
     });
 }
 
@@ -58,9 +59,9 @@ function textOf(option, value) {
         return value.join('..');
     }
     if (typeof value !== 'number') {
-        return refuse(option.value in kUnits ? 'a number or a text' : 'a text');
+        return refuse(option.unit !== '' ? 'a number or a text' : 'a text');
     }
-    return Number.isFinite(value) ? `${value}${kUnits[option.value] ?? ''}` : refuse('a finite number');
+    return Number.isFinite(value) ? `${value}${option.unit}` : refuse('a finite number');
 }
 
 function argumentsOf(options, known) {
@@ -165,7 +166,7 @@ export async function loadSolver(wasm) {
     };
     const take = (result, which, Items) => {
         const place = solver.droplet_array(result, which);
-        const bytes = solver.droplet_array_bytes(result, which);
+        const bytes = solver.droplet_array_bytes(result);
         return new Items(solver.memory.buffer.slice(place, place + bytes));
     };
     const text = (result, which) => decoder.decode(take(result, which, Uint8Array));

@@ -5,21 +5,15 @@ import { loadSolver } from './droplet_shape.js';
 
 const { options } = await loadSolver(readFileSync(process.argv[2]));
 
-const units = {
-    LENGTH: 'm', AREA: 'm²', VOLUME: 'm³', ANGLE: 'rad', S: 'N/m', G: 'm/s²', D: 'kg/m³',
-};
-function typeOf({ value }) {
+function typeOf({ value, unit }) {
     if (value === '') {
         return 'boolean';
     }
-    if (value in units) {
+    if (unit !== '' || value === 'N') {
         return 'string | number';
     }
     if (value === 'RANGE') {
         return 'string | [number, number]';
-    }
-    if (value === 'N') {
-        return 'string | number';
     }
     if (value === 'F') {
         return 'number';
@@ -31,7 +25,8 @@ function typeOf({ value }) {
     return words.every((word) => /^[a-z]+$/.test(word)) ? words.map((word) => `'${word}'`).join(' | ') : 'string';
 }
 const lines = options.map((option) => {
-    const unit = units[option.value] ? `; a number is in ${units[option.value]}` : '';
+    // With superscripts, as in texts.
+    const unit = option.unit === '' ? '' : `; a number is in ${option.unit.replace('2', '²').replace('3', '³')}`;
     const usual = option.default === '' ? '' : ` [${option.default}]`;
     return `    /** ${option.text}${unit}${usual} */\n    ${option.name}?: ${typeOf(option)};`;
 });
@@ -70,7 +65,7 @@ export interface Droplet {
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
     /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl'): Uint8Array;
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz'): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }
@@ -80,6 +75,8 @@ export interface Option {
     group: string;
     /** name of the value in the help, or the allowed words; empty for a flag */
     value: string;
+    /** of a number; empty if it has none */
+    unit: string;
     text: string;
     default: string;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packs pixels into a PNG without compressing them, so that the solver reads them by the rules of pictures.
+import { joined } from './bytes.js';
 
 const kTable = Uint32Array.from({ length: 256 }, (_, byte) => {
     let rest = byte;
@@ -30,16 +31,6 @@ function adler32(bytes) {
         b %= 65521;
     }
     return (b * 65536 + a) >>> 0;
-}
-
-function joined(parts) {
-    const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
-    let at = 0;
-    for (const part of parts) {
-        all.set(part, at);
-        at += part.length;
-    }
-    return all;
 }
 
 const bigEndian = (number) => Uint8Array.of(number >>> 24, number >>> 16, number >>> 8, number);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joins the files of several layers into one.
+import { joined } from '../../npm/bytes.js';
 
 const kJson = 0x4e4f534a;
 const kBinary = 0x004e4942;
@@ -60,16 +61,6 @@ function mergeGlb(files, names) {
         delete whole.extensionsUsed;
     }
     return glbOf(whole, joined(binaries));
-}
-
-function joined(arrays) {
-    const whole = new Uint8Array(arrays.reduce((sum, { length }) => sum + length, 0));
-    let at = 0;
-    for (const array of arrays) {
-        whole.set(array, at);
-        at += array.length;
-    }
-    return whole;
 }
 
 /** Joins OBJ files: indices of later files follow those of earlier ones. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The physics that Studio offers, as tables of fields; and a project's layer as options of the command.
+import { dashed } from '../../npm/droplet_shape.js';
 
 /**
  * Fields: name; label; the value at first; `choices` {value: label}, or `unit` and `range` [min, max, step] of a number;
@@ -117,6 +118,6 @@ export function optionsOf({ liquid }, scene) {
 /** The command that makes the same droplet of the footprint's picture. */
 export function commandOf(stem, options) {
     const words = Object.entries(options).map(([name, value]) =>
-        `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${/^[\w.+/-]+$/.test(value) ? value : `'${value}'`}`);
+        `--${dashed(name)} ${/^[\w.+/-]+$/.test(value) ? value : `'${value}'`}`);
     return ['droplet-shape', `'${stem}.png'`, `'${stem}.glb'`, ...words].join(' ');
 }

@@ -15,13 +15,14 @@ const folder = mkdtempSync(join(tmpdir(), 'droplet-npm-'));
 after(() => rmSync(folder, { recursive: true }));
 
 const { pngOf } = await import(join(process.env.PACKAGE, 'png.js'));
+const { dashed } = await import(join(process.env.PACKAGE, 'droplet_shape.js'));
 const { DropletError, makeDroplet, options, shapeDroplet } = await import(join(process.env.PACKAGE, 'index.js'));
 
 /** Report and bytes of the command for the same options. */
 function command(name, given) {
     const output = join(folder, 'droplet.glb');
     const words = Object.entries(given).map(([key, value]) => {
-        const option = `--${key.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`;
+        const option = `--${dashed(key)}`;
         return value === true ? option : `${option}=${value}`;
     });
     const report = execFileSync(process.env.PROGRAM, [data(name), output, '--quiet', '--json', '-', ...words],
@@ -142,7 +143,7 @@ test('makeDroplet gives the same GLB as the command', () => {
 
 test('every format is written', () => {
     const droplet = shapeDroplet(disc(64, 20), { triangles: 500 });
-    const begins = { glb: 'glTF', gltf: '{', obj: '#', ply: 'ply', stl: '' };
+    const begins = { glb: 'glTF', gltf: '{', obj: '#', ply: 'ply', stl: '', usda: '#usda', usdz: 'PK' };
     for (const [format, start] of Object.entries(begins)) {
         const bytes = droplet.file(format);
         assert.ok(bytes.length > 1000, format);
@@ -210,7 +211,7 @@ test('options are those of the command', () => {
     const help = execFileSync(process.env.PROGRAM, ['--help']).toString();
     assert.ok(options.length > 25);
     for (const { name } of options) {
-        assert.ok(help.includes(`--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}`), name);
+        assert.ok(help.includes(`--${dashed(name)}`), name);
     }
 });
 
