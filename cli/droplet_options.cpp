@@ -292,8 +292,9 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
         settings.droplet.mesh.edge = quantity(*edge, kLength);
     }
     if (const auto grading = line.value("--grading")) {
-        settings.droplet.mesh.grading =
-            choice<int>(*grading, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
+        settings.droplet.mesh.grading = choice<std::optional<int>>(
+            *grading,
+            {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
     }
     settings.droplet.open = line.flag("--open");
     const auto material = line.value("--material");
@@ -413,8 +414,9 @@ void declareSurface(CommandLine& line)
     constexpr const char* kGroup = "Surface";
     line.add(kGroup, "--triangles", "N", "Approximate number of triangles on the footprint: 5000, 5k, 1M [40k]");
     line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles");
-    line.add(kGroup, "--grading", "1|2|4|8|16|32|64",
-             "Largest edge length far from the rim, as a multiple of the length at the rim [1]");
+    line.add(kGroup, "--grading", "auto|1|2|4|8|16|32|64",
+             "Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles "
+             "where gravity flattens all but the rim [auto]");
     line.addFlag(kGroup, "--open", "Leave out the base");
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
              "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");

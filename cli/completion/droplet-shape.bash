@@ -62,7 +62,7 @@ _droplet_shape()
         *:--receding) return ;;
         *:--triangles) return ;;
         *:--edge) return ;;
-        *:--grading) choices='1 2 4 8 16 32 64' ;;
+        *:--grading) choices='auto 1 2 4 8 16 32 64' ;;
         flow:--material) return ;;
         *:--material) choices='water ink mercury honey plain' ;;
         *:--unit) choices='m cm mm' ;;

@@ -46,7 +46,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liqui
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l receding -x -d 'Receding contact angle, at most --advancing'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l triangles -x -d 'Approximate number of triangles on the footprint: 5000, 5k, 1M'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l edge -x -d 'Edge length of the triangles, instead of --triangles'
-complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l grading -x -a '1 2 4 8 16 32 64' -d 'Largest edge length far from the rim, as a multiple of the length at the rim'
+complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l grading -x -a 'auto 1 2 4 8 16 32 64' -d 'Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles where gravity flattens all but the rim'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l open -d 'Leave out the base'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l material -x -a 'water ink mercury honey plain' -d 'Look in glTF, OBJ, USD, previews and the page; does not change the shape'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l unit -x -a 'm cm mm' -d 'Unit of length in OBJ and STL'

@@ -107,7 +107,7 @@ _MAKE_DROPLET = {
     "receding": "rad",
     "triangles": "number",
     "edge": "m",
-    "grading": "number",
+    "grading": "text",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -146,7 +146,7 @@ def make_droplet(
     receding: str | float | None = None,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | int | None = None,
+    grading: str | None = None,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: str | None = None,
@@ -208,7 +208,8 @@ def make_droplet(
     Surface:
       triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
-      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
+        rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
       open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
@@ -251,7 +252,7 @@ _GLYPHS = {
     "receding": "rad",
     "triangles": "number",
     "edge": "m",
-    "grading": "number",
+    "grading": "text",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -289,7 +290,7 @@ def glyphs(
     receding: str | float | None = None,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | int | None = None,
+    grading: str | None = None,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: str | None = None,
@@ -346,7 +347,8 @@ def glyphs(
     Surface:
       triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
-      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
+        rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
       open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
@@ -390,7 +392,7 @@ _ANIMATE = {
     "no_penetration": "flag",
     "triangles": "number",
     "edge": "m",
-    "grading": "number",
+    "grading": "text",
     "open": "flag",
     "solver": "text",
     "threads": "number",
@@ -427,7 +429,7 @@ def animate(
     no_penetration: bool = False,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | int | None = None,
+    grading: str | None = None,
     open: bool = False,
     solver: str | None = None,
     threads: str | int | None = None,
@@ -488,7 +490,8 @@ def animate(
     Surface:
       triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
-      grading: Largest edge length far from the rim, as a multiple of the length at the rim (default: 1)
+      grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
+        rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
       open: Leave out the base
 
     Run:

@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "mesh/lattice.h"
@@ -20,6 +22,12 @@ constexpr double kClearance = 0.65;
 
 /// Layers of points between two halvings of the density. Edges then grow by about half their length per edge.
 constexpr int kLayersPerLevel = 2;
+
+/// Distance over which edges become twice as long, in widths of the layer. The linear model's surface flattens like
+/// exp(−d/layer), and its energy's error is least if edges grow like exp(½d/layer), doubling over 2 ln 2 = 1.4 layers.
+/// With few triangles faster growth is better: a disc 1 m wide, 40 000 triangles, contact angle 40°, is 1.2 % too low
+/// with 1.4 layers, 0.8 % with 1, 0.4 % with 0.5. But with 0.5 heights end 0.2 % too high as the number grows.
+constexpr double kDoubling = 1.0;
 
 void appendPoints(std::vector<Vec2>& points, const LatticeRegion& region, double edge)
 {
@@ -118,6 +126,23 @@ std::vector<Vec2> gradedPoints(const std::vector<std::vector<Vec2>>& polygons, d
         for (int layer = 0; layer < kLayersPerLevel; ++layer) {
             inside = eroded(inside);
         }
+        appendPoints(points, without(region, inside), edge);
+        region = everySecond(inside);
+        edge *= 2.0;
+    }
+    appendPoints(points, region, edge);
+    return points;
+}
+
+std::vector<Vec2> layeredPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest, double layer)
+{
+    std::vector<Vec2> points;
+    double distance = kClearance * edge;
+    LatticeRegion region = pointsInside(polygons, edge, distance);
+    for (; longest > 1; longest /= 2) {
+        const double row = 0.5 * std::numbers::sqrt3 * edge;
+        distance += std::max(kDoubling * layer, row);
+        const LatticeRegion inside = pointsInside(polygons, edge, distance);
         appendPoints(points, without(region, inside), edge);
         region = everySecond(inside);
         edge *= 2.0;

@@ -54,4 +54,7 @@ std::size_t countClearPoints(const std::vector<std::vector<Vec2>>& polygons, dou
 /// are `longest` times as long as at the rim.
 std::vector<Vec2> gradedPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest);
 
+/// The same for a surface that bends in a layer along the rim, whose width is given [m].
+std::vector<Vec2> layeredPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest, double layer);
+
 }  // namespace droplet

@@ -154,7 +154,7 @@ TEST(Documentation, DefaultsInTheHelpAreThoseOfTheLibrary)
     EXPECT_FALSE(options.solve.no_penetration);
     EXPECT_EQ(default_of("--triangles"), std::to_string(options.mesh.triangles / 1000) + "k");
     EXPECT_EQ(default_of("--channel"), "auto");
-    EXPECT_EQ(default_of("--grading"), std::to_string(options.mesh.grading));
+    EXPECT_EQ(default_of("--grading"), options.mesh.grading ? std::to_string(*options.mesh.grading) : "auto");
     EXPECT_EQ(default_of("--solver"), "auto");
     EXPECT_EQ(options.solve.solver, Solver::Auto);
 }

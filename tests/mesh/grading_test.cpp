@@ -125,6 +125,42 @@ TEST(Grading, ChangesNothingIfThereIsNoRoom)
     EXPECT_EQ(two.triangles, max.triangles);
 }
 
+TEST(Grading, IsChosenByTheLayer)
+{
+    const Domain disc = domainOf(ellipseLoop(1, 1));
+    const double edge = std::sqrt(4.0 * std::numbers::pi / (std::numbers::sqrt3 * 5000.0));
+    EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}}), 1);
+    EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}, .grading = {}, .layer = 6.01 * edge}), 1);
+    EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}, .grading = {}, .layer = 5.99 * edge}), 64);
+    EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}, .grading = 4, .layer = edge}), 4);
+    EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = edge, .grading = {}, .layer = edge}), 1);
+}
+
+TEST(Grading, WithinALayerTrianglesAreValidAndAsManyAsWanted)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        double total = 0.0;
+        for (const Footprint& footprint : domain.droplets) {
+            total += area(footprint);
+        }
+        for (const double share : {0.3, 0.05, 0.01}) {  // of the size of the footprint
+            SCOPED_TRACE(name + ", layer " + std::to_string(share));
+            const std::vector<PlanarMesh> meshes =
+                triangulate(domain, {.triangles = 5000, .edge = {}, .grading = {}, .layer = share * std::sqrt(total)});
+            ASSERT_EQ(meshes.size(), domain.droplets.size());
+            for (std::size_t k = 0; k < meshes.size(); ++k) {
+                ASSERT_NO_THROW(meshes[k].validate());
+                EXPECT_THAT(testing::brokenPromises(meshes[k], domain.droplets[k]), ::testing::IsEmpty());
+            }
+        }
+    }
+    for (const double layer : {0.1, 0.05, 0.03, 0.02, 0.01, 0.005, 0.002}) {
+        const auto mesh =
+            triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 5000, .edge = {}, .grading = {}, .layer = layer});
+        EXPECT_NEAR(static_cast<double>(mesh[0].triangles.size()) / 5000.0, 1.0, 0.1) << layer;
+    }
+}
+
 TEST(Grading, AcceptsOnlyPowersOfTwoUpTo64)
 {
     const Domain disc = domainOf(ellipseLoop(1, 1));

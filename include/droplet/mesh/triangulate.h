@@ -12,19 +12,26 @@ namespace droplet {
 
 /// Density of the triangles on a footprint.
 struct TriangulateOptions {
-    std::size_t triangles = 40'000;  ///< requested number in all droplets together, ≥ 1; ignored if edge is set
-    std::optional<double> edge;      ///< length of a triangle's edge [m], > 0; with grading, of edges along the rim
-    int grading = 1;                 ///< how many times longer edges may be far from the rim: 1, 2, 4, … 64
+    std::size_t triangles = 40'000;    ///< requested number in all droplets together, ≥ 1; ignored if edge is set
+    std::optional<double> edge;        ///< length of a triangle's edge [m], > 0; with grading, of edges along the rim
+    std::optional<int> grading = {};   ///< how many times longer edges may be far from the rim: 1, 2, 4, … 64. Empty:
+                                       ///< gradingOf() decides
+    std::optional<double> layer = {};  ///< width of the layer along the rim in which the surface bends, as the
+                                       ///< capillary length of a puddle [m], > 0; used if grading is empty
 
     /// @throws Error InvalidArgument if a value is out of its range
     void validate() const;
 };
 
+/// Grading that a footprint is triangulated with: options.grading if set. Otherwise 64 if a layer is given that is
+/// narrower than six of the edges that the number of triangles allows without grading, and 1 if not.
+int gradingOf(const Domain& domain, const TriangulateOptions& options);
+
 /// Triangulates every droplet's footprint: equilateral triangles inside, a Delaunay band along the rim.
 ///
 /// Without grading, PlanarMesh::lattice describes the equilateral part, which makes solving fast. With grading, fewer
 /// triangles are used inside. This pays where a droplet is wider than a few capillary lengths, and where only the rim
-/// matters (bench/RESULTS.md compares errors).
+/// matters (bench/RESULTS.md compares errors). With a layer, edges become twice as long over its width.
 ///
 /// Guarantees for every mesh: the invariants of PlanarMesh; angles of at least 20°, except near rim corners sharper
 /// than 40°: there, within two of the loop's own points, angles are at least half the corner. Corners stay in place.
