@@ -152,14 +152,18 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
                               : "triangles " + countText(enough));
 }
 
-std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options)
+std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options, bool is_stand_in)
 {
     constexpr double kVisible = 1e-6;  // of the height; less is round-off
     std::vector<std::string> warnings;
     const ShapeFigures& total = droplet.total;
     const double steep = total.steep_area / total.footprint_area;
     const Model model = droplet.solution.report.model;
-    if (model == Model::Linear && steep >= kVisiblySteep) {
+    if (is_stand_in) {
+        warnings.emplace_back(
+            "no exact shape was found for this amount; the linear model stands in, and is too high "
+            "where it is steep; ask for less liquid");
+    } else if (model == Model::Linear && steep >= kVisiblySteep) {
         warnings.push_back(percent(steep) +
                            " of the surface is too steep (over 50 degrees) for the linear model; use --model exact");
     }
@@ -424,7 +428,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
             droplet.surface.refill = std::move(refill);
         }
     }
-    droplet.warnings = warningsOf(droplet, options);
+    droplet.warnings = warningsOf(droplet, options, shapes.is_stand_in);
     if (!less.empty()) {
         droplet.warnings.push_back(less);
     }

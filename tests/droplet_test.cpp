@@ -810,6 +810,36 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
     }
 }
 
+// Refusals say what does not hold the liquid any more, and how much it does hold.
+TEST(Droplet, RefusalsNameReasonAndLimit)
+{
+    const double radius = 10.0 * kMillimetre;
+    const auto refusal = [&](SolveOptions solve) {
+        DropletOptions options;
+        options.trace.pixel_size = radius / 50.0;
+        options.mesh.triangles = 2'000;
+        options.solve = std::move(solve);
+        options.solve.fill = {FillBy::Volume, 5e3 * kMicrolitre, FillSharing::Each};
+        options.solve.model = Model::Auto;
+        try {
+            (void)makeDroplet(smoothMask(128, 128, disc({64.0, 64.0}, 50.0)), options);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    // Bond number 6: pendant drops of Bashforth and Adams' equation detach at 1.0970 radius³.
+    const double weight = 6.0 * 0.0728 / (998.2 * radius * radius);
+    const std::string pendant = refusal({.gravity = -weight});
+    EXPECT_THAT(pendant, HasSubstr("gravity pulls a droplet of more than 1"));
+    const double limit = std::stod(pendant.substr(pendant.find("than ") + 5));
+    EXPECT_NEAR(limit * kMicrolitre / (1.0970 * radius * radius * radius), 1.0, 0.01);
+    EXPECT_THAT(refusal({.tilt = 90.0 * kDegree}), HasSubstr("gravity pulls more over the rim"));
+    EXPECT_THAT(refusal({.tilt = 90.0 * kDegree, .no_penetration = true}),
+                HasSubstr("more liquid would hang over its rim"));
+}
+
 TEST(Droplet, WarnsOfATriangleCountOutOfReach)
 {
     DropletOptions options = plain();

@@ -22,6 +22,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "number_text.h"
+#include "shape/hanging.h"
 
 namespace droplet {
 namespace {
@@ -402,19 +403,15 @@ struct Advance {
     double residual = 0.0;
 };
 
-/// Whether droplets with one reservoir under a ceiling do not drain into each other: at most one of them is unstable at
-/// a constant pressure, and then all together are stable.
 bool isStable(const std::vector<Step>& steps)
 {
-    double compliance = 0.0;
-    std::size_t falling = 0;
+    std::vector<double> rises;
     for (const Step& step : steps) {
         if (!step.loss) {
-            compliance += 1.0 / step.pressure_rise;
-            falling += step.pressure_rise < 0.0 ? 1 : 0;
+            rises.push_back(step.pressure_rise);
         }
     }
-    return falling == 0 || (falling == 1 && compliance < 0.0);
+    return shareOnePressure(rises);
 }
 
 /// Tolerances of one step.

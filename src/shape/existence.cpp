@@ -192,7 +192,10 @@ private:
         outcome_.residual = settled.residual;
         outcome_.newton_steps = options_->model == Model::Linear ? settled.newton_steps : 0;
         if (!settled.stable) {
-            refuseAsUnstable(0, 0.0);
+            const auto area = [](const Member& member) { return member.energy->area(); };
+            const auto largest = std::max_element(members_->begin(), members_->end(),
+                                                  [&](const Member& a, const Member& b) { return area(a) < area(b); });
+            refuseAsUnstable(static_cast<std::size_t>(largest - members_->begin()), criticalSharedWeight(*members_));
         }
         return settled.converged;
     }
@@ -270,9 +273,10 @@ private:
                                [](double sum, const Member& member) { return sum + member.sheet->volume; });
     }
 
-    /// Solves for a small volume, the start of raiseVolume().
+    /// Solves for a volume at which no rim is upright, the start of raiseVolume().
     bool settleSmallVolume()
     {
+        constexpr int kMaxHalvings = 20;
         use(Model::Linear);
         for (const Member& member : *members_) {
             *member.sheet = emptySheet(*member.energy);
@@ -281,8 +285,14 @@ private:
         const Fill gentle{FillBy::ContactAngle, kStartAngle, wanted.sharing};
         const Settled start = settle(*members_, {.fill = gentle});
         use(Model::Exact);
-        const double small = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
-        return start.converged && settleExact({FillBy::Volume, small, wanted.sharing});
+        double small = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
+        bool settled = start.converged && settleExact({FillBy::Volume, small, wanted.sharing});
+        // Liquid that leaves ground dry stands upright elsewhere at small mean angles, too.
+        for (int k = 0; k < kMaxHalvings && settled && steepest() >= kReliableAngle; ++k) {
+            small *= 0.5;
+            settled = settleExact({FillBy::Volume, small, wanted.sharing});
+        }
+        return settled;
     }
 
     /// Raises the volume from small values to the fill.

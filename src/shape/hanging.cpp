@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape/hanging.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -71,6 +72,41 @@ double criticalWeight(const Energy& energy, const Operator& op, ConstrainedSolve
         }
     }
     return eigenvalue;
+}
+
+bool shareOnePressure(const std::vector<double>& pressure_rises)
+{
+    double compliance = 0.0;
+    for (const double rise : pressure_rises) {
+        compliance += 1.0 / rise;
+    }
+    const auto falling = std::count_if(pressure_rises.begin(), pressure_rises.end(), [](double r) { return r < 0.0; });
+    return falling == 0 || (falling == 1 && compliance < 0.0);
+}
+
+double criticalSharedWeight(const std::vector<Member>& droplets)
+{
+    constexpr double kTolerance = 1e-3;
+    double high = std::numeric_limits<double>::infinity();
+    for (const Member& droplet : droplets) {
+        high = std::min(high, criticalWeight(*droplet.energy, Operator{}, *droplet.solver));
+    }
+    double low = 0.0;
+    while (high - low > kTolerance * high) {
+        const double middle = 0.5 * (low + high);
+        std::vector<double> rises;
+        bool solved = true;
+        for (const Member& droplet : droplets) {
+            Operator op;
+            op.mass_weight = -middle;
+            droplet.solver->prepare(op);
+            const ConstrainedSolution solution = droplet.solver->solve({{}, 1.0});
+            rises.push_back(solution.multiplier);
+            solved = solved && solution.converged;
+        }
+        (solved && shareOnePressure(rises) ? low : high) = middle;
+    }
+    return low;
 }
 
 }  // namespace droplet

@@ -59,12 +59,30 @@ bool mustHang(const SolveOptions& options)
            options.fill.amount >= 0.5 * std::numbers::pi;
 }
 
-/// Whether the linear model stands in where no sheet is found: on footprints as ragged as noise, one droplet of many
-/// would refuse all that share its liquid, and none is lost on curved ground, either.
+/// Whether the linear model may stand in where no exact shape is found: on footprints as ragged as noise, one droplet
+/// of many would refuse all that share its liquid, and none is lost on curved ground, either.
 bool hasLinear(const SolveOptions& options)
 {
     const bool is_shared = options.fill.sharing == FillSharing::Total;
     return options.model == Model::Auto && (is_shared || !options.ground.flat()) && !mustHang(options);
+}
+
+/// Whether a limit is one of nature, not of the search.
+bool isProven(SheetEnd end, const SolveOptions& options)
+{
+    switch (end) {
+        case SheetEnd::NoAngle:
+        case SheetEnd::NoHeight:
+        case SheetEnd::Contact:
+        case SheetEnd::NotHeld:
+            return true;
+        case SheetEnd::Unstable:
+            return planeGravity(options).normal < 0.0;
+        case SheetEnd::OutOfWork:
+        case SheetEnd::Reached:
+            break;
+    }
+    return false;
 }
 
 /// Droplets that are solved together: all at one pressure, or each for itself.
@@ -89,9 +107,17 @@ std::string ofDroplet(std::size_t k, std::size_t count)
     return count == 1 ? "" : fmt::format("droplet {} of {}: ", k + 1, count);
 }
 
+/// Droplets that do not exist.
+struct Refused {
+    std::string which;         ///< beginning of the message
+    std::size_t droplets = 1;  ///< number at one pressure
+    PlaneGravity gravity;
+};
+
 /// Why there is no height field, and what to change.
-std::string refusal(const SolveReport& report, const std::string& which)
+std::string refusal(const SolveReport& report, const Refused& refused)
 {
+    const std::string& which = refused.which;
     switch (report.termination) {
         case Termination::NoHeightField:
             return which + "no such droplet is a height field on this footprint: the largest volume that exists is " +
@@ -102,8 +128,11 @@ std::string refusal(const SolveReport& report, const std::string& which)
                    numberText(report.largest_volume / kMicrolitre, 4) +
                    " uL on this footprint; ask for less, or smooth the footprint";
         case Termination::Unstable:
-            return which + "gravity pulls such a droplet off: its Bond number is " + numberText(report.bond_number, 4) +
-                   ", but at most " + numberText(report.critical_bond_number, 4) +
+            return which +
+                   (refused.droplets > 1
+                        ? "at one pressure such droplets drain into each other: the largest has a Bond number of "
+                        : "gravity pulls such a droplet off: its Bond number is ") +
+                   numberText(report.bond_number, 4) + ", but at most " + numberText(report.critical_bond_number, 4) +
                    " can hang on this footprint; use a smaller --gravity or --width";
         case Termination::NotConverged:
         case Termination::Converged:
@@ -136,9 +165,9 @@ Solution linearFields(const std::vector<PlanarMesh>& meshes, SolveOptions option
 }
 
 /// Why there is no sheet, and what to change.
-/// @param droplets  at one pressure
-std::string refusal(const SheetResult& result, const std::string& which, std::size_t droplets)
+std::string refusal(const SheetResult& result, const Refused& refused)
 {
+    const std::string& which = refused.which;
     const std::string at = numberText(result.volume / kMicrolitre, 4) + " uL";
     const std::string angle = numberText(result.contact_angle / kDegree, 3) + " degrees";
     switch (result.end) {
@@ -148,8 +177,8 @@ std::string refusal(const SheetResult& result, const std::string& which, std::si
         case SheetEnd::NoHeight:
             return which + "no such droplet exists on this footprint: it is highest at " + at + "; ask for less";
         case SheetEnd::Contact:
-            return (droplets > 1 ? "at one pressure the liquid would touch itself at x "
-                                 : which + "such a droplet would touch itself at x ") +
+            return (refused.droplets > 1 ? "at one pressure the liquid would touch itself at x "
+                                         : which + "such a droplet would touch itself at x ") +
                    numberText(result.contact->x / kMillimetre, 3) + " mm, y " +
                    numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
                    " (mean contact angle " + angle + "); ask for less";
@@ -163,8 +192,12 @@ std::string refusal(const SheetResult& result, const std::string& which, std::si
         case SheetEnd::Reached:
             break;
     }
-    return which + "no stable droplet was found on this footprint with more than " + at + " (mean contact angle " +
-           angle + "); ask for less";
+    const std::string most = at + " (mean contact angle " + angle + ")";
+    if (refused.gravity.normal < 0.0) {
+        return which + "gravity pulls a droplet of more than " + most + " off this footprint; ask for less";
+    }
+    return which + "no stable droplet was found on this footprint with more than " + most +
+           (refused.gravity.along == Vec2{} ? "" : ": gravity pulls more over the rim") + "; ask for less";
 }
 
 /// Shape of one droplet, or of all at one pressure.
@@ -394,21 +427,26 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                       const Progress& progress, std::vector<std::optional<SheetResult>> followed = {})
 {
     const std::size_t count = meshes.size();
+    const PlaneGravity gravity = planeGravity(options);
     LiquidShapes shapes;
     Solution& solution = shapes.solution;
     if (!mayHang(options)) {
         solution = solve(meshes, options, progress);
-        if (!solution.report.usable() && options.model == Model::Auto) {
-            // With no_penetration, the linear model is all there is then.
+        const Termination end = solution.report.termination;
+        const bool is_proven = end == Termination::NoHeightField || end == Termination::Unstable;
+        if (!solution.report.usable() && options.model == Model::Auto &&
+            (allow_less || (!is_proven && hasLinear(options)))) {
             if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
                 solution = std::move(flat);
+                shapes.is_stand_in = true;
             }
         }
         if (!solution.report.usable()) {
-            throw Error(ErrorCode::NoSuchDroplet,
-                        refusal(solution.report, options.fill.sharing == FillSharing::Each
-                                                     ? ofDroplet(solution.report.failed_droplet, count)
-                                                     : ""));
+            throw Error(
+                ErrorCode::NoSuchDroplet,
+                refusal(solution.report, options.fill.sharing == FillSharing::Each
+                                             ? Refused{ofDroplet(solution.report.failed_droplet, count), 1, gravity}
+                                             : Refused{"", count, gravity}));
         }
         return shapes;
     }
@@ -461,28 +499,28 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     shapes.least_angle = std::numbers::pi;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         Shape& shape = found[g];
-        const std::string which = groups.size() == 1 ? "" : ofDroplet(g, count);
+        const Refused refused{groups.size() == 1 ? "" : ofDroplet(g, count), groups[g].size(), gravity};
         report.residual = std::max(report.residual, shape.report.usable() ? shape.report.residual : 0.0);
         if (!shape.fields.empty()) {
             for (std::size_t i = 0; i < groups[g].size(); ++i) {
                 solution.droplets[groups[g][i]] = std::move(shape.fields[i]);
             }
         } else if (!shape.sheet) {
-            throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, which));
+            throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, refused));
         } else {
             if (shape.sheet->end != SheetEnd::Reached) {
-                if (has_linear) {
+                if (has_linear && (allow_less || !isProven(shape.sheet->end, options))) {
                     if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
-                        return {std::move(flat), {}};
+                        return {.solution = std::move(flat), .is_stand_in = true};
                     }
                 }
                 if (!allow_less) {
-                    throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, which, groups[g].size()));
+                    throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, refused));
                 }
                 if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
                     shape.sheet->contact_angle < kLeastShare * options.fill.amount) {
                     if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
-                        return {std::move(flat), {}};
+                        return {.solution = std::move(flat), .is_stand_in = true};
                     }
                 }
                 shapes.with_less += groups[g].size();

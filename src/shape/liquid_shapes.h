@@ -18,10 +18,11 @@ inline constexpr double kUpright = 89.0 * kDegree;
 
 /// Shapes of all droplets.
 struct LiquidShapes {
-    Solution solution;  ///< height fields; that of a sheet has a pressure and angles alone
-    std::vector<std::optional<ParametricSheet>> sheets;  ///< one per droplet, or empty if there are none
-    std::size_t with_less = 0;                           ///< number of droplets that have less liquid than was wanted
-    double least_angle = 0.0;                            ///< smallest mean contact angle of those [rad]
+    Solution solution = {};  ///< height fields; that of a sheet has a pressure and angles alone
+    std::vector<std::optional<ParametricSheet>> sheets = {};  ///< one per droplet, or empty if there are none
+    std::size_t with_less = 0;  ///< number of droplets that have less liquid than was wanted
+    double least_angle = 0.0;   ///< smallest mean contact angle of those [rad]
+    bool is_stand_in = false;   ///< whether the linear model stands in for an exact shape that was not found
 };
 
 /// Solves every droplet: by the linear system, by Newton's method, or, where the liquid hangs over its rim, as a sheet.

@@ -239,6 +239,24 @@ TEST(Hanging, NamesTheDropletThatFalls)
     EXPECT_TRUE(alone.report.usable());
 }
 
+// Droplets at one pressure drain into each other at J₀(k) = 0 if they are equal. A smaller one steadies a larger one.
+TEST(Hanging, EqualDropletsAtOnePressureDrainIntoEachOther)
+{
+    const double drains = 2.404825557695773;
+    const PlanarMesh one = discMeshes(0.05)[0];
+    for (const Model model : {Model::Linear, Model::Exact}) {
+        SolveOptions options = unitOptions(model, -0.98 * drains * drains, 0.05);
+        options.fill.sharing = FillSharing::Total;
+        EXPECT_TRUE(solve({one, one}, options).report.usable());
+        options.gravity = -1.5 * drains * drains;
+        const Solution above = solve({one, one}, options);
+        ASSERT_EQ(above.report.termination, Termination::Unstable);
+        EXPECT_NEAR(above.report.bond_number / (1.5 * drains * drains), 1.0, 2e-3);
+        EXPECT_NEAR(above.report.critical_bond_number / (drains * drains), 1.0, 0.01);
+        EXPECT_TRUE(solve({one}, options).report.usable());
+    }
+}
+
 // On the unit square the mode sin 2πx sin πy has no volume and falls first, at k² = 5π².
 TEST(Hanging, SquareFallsAtItsOwnBondNumber)
 {

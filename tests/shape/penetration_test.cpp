@@ -269,6 +269,36 @@ TEST(Penetration, DryRimHasNoContactAngle)
     EXPECT_GT(dry, 5U);
 }
 
+// On a wall the liquid stands upright at the lower end of a disc while most of the rim is flat. The mean angle says
+// nothing about it.
+TEST(Penetration, LiquidOnAWallIsRefusedWhereItWouldHangOver)
+{
+    const std::vector<PlanarMesh> meshes =
+        triangulate(domainOf(ellipseLoop(10 * kMillimetre, 10 * kMillimetre)), {.triangles = 10000, .edge = {}});
+    SolveOptions options;
+    options.tilt = 90 * kDegree;
+    options.no_penetration = true;
+    options.model = Model::Exact;
+    const auto at = [&](double volume) {
+        options.fill = {FillBy::Volume, volume * kMicrolitre, FillSharing::Each};
+        return solve(meshes, options);
+    };
+    const Solution flat = at(50.0);
+    ASSERT_TRUE(flat.report.usable());
+    const auto steepest = [](const Solution& solution) {
+        const std::vector<double>& angles = solution.droplets[0].contact_angle;
+        return *std::max_element(angles.begin(), angles.end());
+    };
+    EXPECT_LT(steepest(flat), 80 * kDegree);
+    EXPECT_GT(steepest(flat), 70 * kDegree);
+    for (const double volume : {75.0, 144.0, 165.0}) {
+        const Solution refused = at(volume);
+        EXPECT_EQ(refused.report.termination, Termination::NoHeightField) << volume;
+        EXPECT_GT(refused.report.largest_volume, 60 * kMicrolitre) << volume;
+        EXPECT_LT(refused.report.largest_volume, 68 * kMicrolitre) << volume;
+    }
+}
+
 TEST(Penetration, KktHoldOnAnyFootprintGroundAndTilt)
 {
     const BaseSurface flat;
