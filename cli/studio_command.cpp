@@ -35,7 +35,7 @@ const CommandText& commandText()
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage, or built without Studio;\n"
-                                  "  4 the page cannot be written, or no browser was found"};
+                                  "  4 the page cannot be written, or there is no browser or display"};
     return text;
 }
 
@@ -54,8 +54,12 @@ fs::path pageOfStudio()
 
 void open(const fs::path& page)
 {
-    const Started browser = start({"xdg-open", page.string()}, Piped::Output);
     const std::string advice = "; open " + page.string() + " in a browser";
+    // Without a display xdg-open may start a browser for text, which cannot show the page.
+    if (!hasDisplay()) {
+        throw Error(ErrorCode::OutputFailed, "there is no display" + advice);
+    }
+    const Started browser = start({"xdg-open", page.string()}, Piped::Output);
     if (browser.failure != 0) {
         throw Error(ErrorCode::OutputFailed, "xdg-open is missing" + advice);
     }

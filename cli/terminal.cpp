@@ -22,6 +22,12 @@ bool errorIsTerminal()
     return isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb";
 }
 
+bool hasDisplay()
+{
+    return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty() ||
+           !environment("BROWSER").empty();
+}
+
 std::string paint(std::string_view text, Colour colour)
 {
     std::string plain(text);

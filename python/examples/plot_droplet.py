@@ -43,10 +43,11 @@ shape = drop.report.shape
 print(f"{shape.volume_ul:.1f} µL, {1e3 * shape.height_max_m:.2f} mm high, {shape.pressure_pa:.1f} Pa")
 
 millimetres = 1e3 * drop.vertices
-figure = plt.figure(figsize=(7, 5))
-axes = figure.add_subplot(projection="3d")
-axes.plot_trisurf(*millimetres.T[:2], millimetres.T[2], triangles=drop.triangles, color="#7fb2e5")
-axes.set(xlabel="x [mm]", ylabel="y [mm]", zlabel="z [mm]", box_aspect=np.ptp(millimetres, axis=0) + [0, 0, 2])
+figure = plt.figure(figsize=(7, 4))
+axes = figure.add_axes((0, 0, 1, 1), projection="3d")
+axes.plot_trisurf(*millimetres.T[:2], millimetres.T[2], triangles=drop.triangles, color="#7fb2e5", linewidth=0)
+axes.set(xlabel="x [mm]", ylabel="y [mm]", zlabel="z [mm]", zticks=[0, 0.5])
+axes.set_box_aspect(np.ptp(millimetres, axis=0) + [0, 0, 2], zoom=1.3)
 figure.savefig(folder / "droplet.png")
 
 # %% [markdown]
@@ -56,12 +57,12 @@ figure.savefig(folder / "droplet.png")
 is_liquid = drop.normals[drop.triangles, 2].mean(axis=1) > 0  # the others are the base
 mesh = Triangulation(*millimetres.T[:2], triangles=drop.triangles[is_liquid])
 rim = drop.contact_angle > 0
-figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
+figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), sharex=True, sharey=True, layout="constrained")
 figure.colorbar(left.tricontourf(mesh, millimetres[:, 2], levels=12), ax=left, label="height [mm]")
 points = right.scatter(*millimetres[rim].T[:2], c=np.degrees(drop.contact_angle[rim]), s=6)
 figure.colorbar(points, ax=right, label="contact angle [°]")
 for axes in (left, right):
-    axes.set(aspect="equal", xlabel="x [mm]")
+    axes.set(aspect="equal", xlabel="x [mm]", xlim=(-9.8, 9.8), ylim=(-9.8, 9.8))
 left.set_ylabel("y [mm]")
 figure.savefig(folder / "heights.png")
 

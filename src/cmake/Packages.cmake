@@ -3,8 +3,6 @@
 # it is unpacked, with all libraries but the C library's.
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/droplet-shape)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/copyright DESTINATION ${documents} COMPONENT command)
-file(STRINGS CITATION.cff released REGEX "^date-released:")
-string(REGEX MATCH "[-0-9]+$" released "${released}")
 execute_process(COMMAND date --utc --rfc-email --date=${released} OUTPUT_VARIABLE package_date OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/package/changelog.in changelog @ONLY)
@@ -29,7 +27,10 @@ The command turns a mask, a logo, a glyph or a drawing into the mesh of the
 droplet that surface tension and gravity shape on it, as glTF, OBJ, PLY or STL.
 .
 It fills whole fonts and folders of masks, renders droplets, and animates
-droplets in wind tunnels, on windshields and over meshes.")
+droplets in wind tunnels, on windshields and over meshes.
+.
+Droplet Studio, an editor in the browser, shows the droplet of a footprint
+while it is drawn.")
 set(CPACK_PACKAGE_FILE_NAME droplet-shape-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
@@ -39,5 +40,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# xdg-open opens Studio.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS xdg-utils)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package/components.cmake)
 include(CPack)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Studio in a file of its own, which holds the solver.
-import { unpackSolver } from './unpack.js';
+import { Keeper } from './keeper.js';
 import { openStudio } from './studio.js';
+import { unpackSolver } from './unpack.js';
 
-unpackSolver().then(openStudio);
+Promise.all([unpackSolver(), Keeper.open()]).then(([parts, { keeper, project }]) =>
+    openStudio({ ...parts, project, keeper, kept: project !== undefined }));

@@ -163,7 +163,7 @@ export class Sheet {
         const { sheet, table } = this;
         // On the whole table, so that a stroke may begin, and a finger rest, beside the sheet.
         table.addEventListener('pointerdown', (event) => {
-            if (event.button !== 0 || event.target === this.fit) {
+            if (event.button !== 0 || event.target.closest('button')) {
                 return;
             }
             event.preventDefault();

@@ -28,11 +28,13 @@ const root = document.documentElement;
 const writes = (target) => target.matches?.('input:not([type=range], [type=checkbox], [type=radio]), select, textarea');
 
 class Studio {
-    constructor({ wasm, worker_url, project }) {
+    constructor({ wasm, worker_url, project, keeper, kept }) {
         document.body.className = 'studio';
         document.body.dataset.part = 'draw';
         document.body.innerHTML = markup;
         this.history = new History(project);
+        this.keeper = keeper;
+        this.unsaved = kept;
         this.known = new Map();    // layer → {job, report, draft, error}: what is known of its droplet
         this.strokes = 0;
         this.tool = 'brush';
@@ -63,12 +65,13 @@ class Studio {
         this.#offerKeys();
         this.#offerView();
         this.#update(undefined);
+        find('kept').hidden = !kept;
         this.solver.ready.then(() => { root.dataset.solver = 'ready'; }, (error) => {
             complain('The solver does not run in this browser. Drawings can be saved all the same.');
             console.error(error);
         });
         addEventListener('beforeunload', (event) => {
-            if (this.unsaved) {
+            if (this.unsaved && !this.keeper?.keeps(this.project)) {
                 event.preventDefault();
             }
         });
@@ -91,8 +94,15 @@ class Studio {
     #change(project, run) {
         const before = this.project;
         this.history.add(project, run);
-        this.unsaved = true;
+        this.#altered();
         this.#update(before);
+    }
+
+    /** The project is not as it was saved. */
+    #altered(unsaved = true) {
+        this.unsaved = unsaved;
+        this.keeper?.keep(this.project);
+        find('kept').hidden = true;
     }
 
     /** Shows the project, of which what is the same as before is shown already. */
@@ -233,8 +243,10 @@ class Studio {
     #began() {
         ++this.strokes;
         this.solver.hold(true);
+        this.keeper?.wait();
         this.history.rest();
         find('hint').hidden = true;
+        find('kept').hidden = true;
     }
 
     #drew(mask, rect, time) {
@@ -257,6 +269,7 @@ class Studio {
     #gaveUp() {
         this.stroke = undefined;
         this.solver.hold(false);
+        this.keeper?.keep(this.project);
         this.sheet.paint();
         this.#solve(undefined);
         this.#settle();
@@ -418,6 +431,7 @@ class Studio {
         this.sheet.cancel();
         this.history.rest();
         this.history.replace({ ...before, selected });
+        this.keeper?.keep(this.project);
         this.#update(before);
     }
 
@@ -429,7 +443,7 @@ class Studio {
         const before = this.project;
         const moved = this.history[step]();
         if (moved !== before) {
-            this.unsaved = true;
+            this.#altered();
             this.#update(before);
         }
     }
@@ -437,7 +451,7 @@ class Studio {
     #replace(project) {
         const before = this.project;
         this.history.reset(project);
-        this.unsaved = false;
+        this.#altered(false);
         this.#update(before);
         this.choose_ground?.(project.ground);
     }
@@ -458,13 +472,15 @@ class Studio {
         for (const button of find('saves').querySelectorAll('[data-save]')) {
             button.addEventListener('click', () => this.#save(button.dataset.save));
         }
-        find('new').addEventListener('click', () => {
-            const before = this.project;
-            const fresh = newProject();
-            this.history.add(fresh);  // it can be undone, so nothing is asked
-            this.#update(before);
-            this.#say('New project');
-        });
+        for (const button of [find('new'), find('afresh')]) {
+            button.addEventListener('click', () => {
+                const before = this.project;
+                this.history.add(newProject());  // it can be undone, so nothing is asked
+                this.#altered(this.unsaved);
+                this.#update(before);
+                this.#say('New project');
+            });
+        }
         find('open').addEventListener('click', () => find('file').click());
         find('file').addEventListener('change', (event) => {
             const [file] = event.target.files;
@@ -599,7 +615,7 @@ class Studio {
         this.times.learn(() => stage.renderer.render(stage.scene, stage.camera));
         this.choose_ground = offerGrounds(stage, this.project.ground, (ground) => {
             this.history.replace({ ...this.project, ground });
-            this.unsaved = true;
+            this.#altered();
         });
         find('reset').addEventListener('click', () => stage.reset());
         find('times').addEventListener('toggle', () => this.#showTimes());
@@ -615,7 +631,10 @@ function plainly({ message }) {
  * Opens Studio in this document.
  * @param wasm        the solver: bytes, or the compiled module
  * @param worker_url  of solver_worker.js
+ * @param project     the first one
+ * @param keeper      keeps the project in the browser; undefined: it is not kept
+ * @param kept        whether the keeper had the first project
  */
-export function openStudio({ wasm, worker_url, project = newProject() }) {
-    return new Studio({ wasm, worker_url, project });
+export function openStudio({ wasm, worker_url, project = newProject(), keeper, kept = false }) {
+    return new Studio({ wasm, worker_url, project, keeper, kept });
 }

@@ -2,7 +2,7 @@
 // Uses the npm package as its users do, and compares it with the command: PROGRAM=… PACKAGE=… node --test package_test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { after, test } from 'node:test';
@@ -218,4 +218,21 @@ test('options are those of the command', () => {
 test('the types are current', () => {
     const made = execFileSync('node', [join(root, 'npm/make_types.mjs'), join(process.env.PACKAGE, 'droplet_shape.wasm')]);
     assert.equal(made.toString(), readFileSync(join(root, 'npm/droplet_shape.d.ts'), 'utf8'));
+});
+
+test('npm packs it, and installs the archive elsewhere without a network', () => {
+    const npm = (words, cwd) => execFileSync('npm', [...words, '--offline', '--silent', '--no-audit', '--no-fund'], { cwd, encoding: 'utf8' });
+    const user = join(folder, 'user');
+    mkdirSync(user);
+    const archive = npm(['pack', process.env.PACKAGE], folder).trim();
+    writeFileSync(join(user, 'package.json'), '{"private": true}');
+    npm(['install', join(folder, archive)], user);
+    const installed = readdirSync(join(user, 'node_modules/droplet-shape')).sort();
+    assert.deepEqual(installed, readdirSync(process.env.PACKAGE).sort());
+    for (const file of ['LICENSE', 'README.md', 'droplet_shape.d.ts', 'droplet_shape.wasm']) {
+        assert.ok(installed.includes(file), file);
+    }
+    writeFileSync(join(user, 'use.mjs'), `import { makeDroplet } from 'droplet-shape';
+        process.stdout.write(makeDroplet({ width: 8, height: 8, data: new Uint8Array(64).fill(255, 18, 46) }, { triangles: 300 }).subarray(0, 4));`);
+    assert.equal(execFileSync('node', ['use.mjs'], { cwd: user, encoding: 'utf8' }), 'glTF');
 });

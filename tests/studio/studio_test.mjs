@@ -29,6 +29,9 @@ after(async () => {
     rmSync(folder, { recursive: true });
 });
 
+/** Waits until Studio runs in a page. */
+const started = (page) => page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
+
 /** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
 function studio(name, options, run, url = kStudio) {
     test(name, async () => {
@@ -42,22 +45,22 @@ function studio(name, options, run, url = kStudio) {
             complaints.push(`request of ${asked}`);
             return route.abort();
         });
-        const page = await context.newPage();
-        page.setDefaultTimeout(120_000);  // enough when many tests share the processor
-        page.on('console', (message) => {
+        context.setDefaultTimeout(120_000);  // enough when many tests share the processor
+        context.on('console', (message) => {
             // Chromium's messages about software rendering are expected, no others.
             if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
                 complaints.push(message.text());
             }
         });
-        page.on('pageerror', (error) => complaints.push(error.message));
-        page.on('dialog', (dialog) => {
+        context.on('weberror', (error) => complaints.push(error.error().message));
+        context.on('dialog', (dialog) => {
             if (dialog.type() === 'beforeunload') {
                 return dialog.accept();
             }
             complaints.push(`dialog ${dialog.message()}`);
             return dialog.dismiss();
         });
+        const page = await context.newPage();
         page.on('popup', () => complaints.push('popup'));
         await page.goto(url);
         await page.waitForFunction((alone) => document.documentElement.dataset[alone ? 'solver' : 'state'] !== (alone ? undefined : 'loading'), url === kStudio);
@@ -324,6 +327,92 @@ studio('a saved project opens as it was', kDesktop, async (page) => {
     assert.match(await page.locator('#trouble').textContent(), /wrong\.json cannot be opened\. Its version is 99/);
     assert.deepEqual(await drawing(page), before_it.drawing);
 });
+
+/** Whether the project as it is now is in the browser's store. */
+const kept = (page) => page.waitForFunction(() => document.documentElement.dataset.kept === 'yes');
+
+/** Opens Studio in another window of the same browser. */
+async function openAgain(page) {
+    const other = await page.context().newPage();
+    await other.goto(kStudio);
+    await started(other);
+    return other;
+}
+
+studio('the drawing is there again at the next opening, until a new one is begun', kDesktop, async (page) => {
+    assert.equal(await page.locator('#kept').isVisible(), false);
+    await stroke(page, [0.2, 0.3], [0.5, 0.3]);
+    await page.locator('#layer-add').click();
+    await setValue(page, 'liquid-liquid', 'honey');
+    await stroke(page, [0.2, 0.7], [0.5, 0.7]);
+    await page.locator('#name').fill('Tea');
+    await settle(page);
+    await kept(page);
+    const before_it = { drawing: await drawing(page), said: await result(page), layers: await page.locator('#layers').innerText() };
+    // A second window at the same time has a drawing of its own, and does not touch the kept one.
+    const second = await openAgain(page);
+    assert.equal((await drawing(second)).count, 0);
+    await stroke(second, [0.5, 0.5], [0.6, 0.6]);
+    await settle(second);
+    await second.close();
+    await page.close();
+
+    const again = await openAgain(page);
+    assert.equal(await again.locator('#kept').isVisible(), true);
+    assert.equal(await again.locator('#name').inputValue(), 'Tea');
+    await settle(again);
+    assert.deepEqual({ drawing: await drawing(again), said: await result(again), layers: await again.locator('#layers').innerText() }, before_it);
+    await again.reload();
+    await started(again);
+    assert.deepEqual(await drawing(again), before_it.drawing);
+    await again.locator('#afresh').click();
+    assert.equal(await again.locator('#kept').isVisible(), false);
+    await settle(again);
+    assert.equal((await drawing(again)).count, 0);
+    await kept(again);
+    await again.close();
+
+    const blank = await openAgain(page);
+    assert.equal(await blank.locator('#kept').isVisible(), false);
+    assert.equal((await drawing(blank)).count, 0);
+    assert.equal(await blank.locator('#name').inputValue(), 'Droplet');
+});
+
+studio('a drawing that is kept is closed without a question', kDesktop, async (page) => {
+    let asked = 0;
+    page.on('dialog', () => ++asked);
+    await stroke(page, [0.2, 0.3], [0.5, 0.3]);
+    await page.reload();
+    assert.equal(asked, 1);  // the hand has only just left
+    await started(page);
+    await stroke(page, [0.2, 0.6], [0.5, 0.6]);
+    await kept(page);
+    await page.reload();
+    assert.equal(asked, 1);
+    await started(page);
+    assert.ok(await opacity(page, 0.3, 0.6) > 200);
+});
+
+for (const [what, spoil] of [
+    ['refuses to store', () => { IDBFactory.prototype.open = () => { throw new DOMException('no', 'SecurityError'); }; }],
+    ['does not answer', () => { IDBFactory.prototype.open = () => ({}); }],
+    ['has no room', () => { IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); }; }],
+]) {
+    studio(`where the browser ${what}, Studio works and says nothing`, kDesktop, async (page) => {
+        await page.addInitScript(spoil);
+        await page.reload();
+        await started(page);
+        await stroke(page, [0.2, 0.5], [0.5, 0.5]);
+        await settle(page);
+        assert.match(await said(page), /of water/);
+        await page.waitForTimeout(1500);
+        assert.notEqual(await page.evaluate(() => document.documentElement.dataset.kept), 'yes');
+        assert.equal(await page.locator('#trouble').isVisible(), false);
+        await page.reload();
+        await started(page);
+        assert.equal((await drawing(page)).count, 0);
+    });
+}
 
 studio('a dropped picture becomes a footprint of its size, or lies below', kDesktop, async (page) => {
     await drop(page, 'disc.png', 'image/png', await discPicture(page, 'image/png'));

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG PHONE_PNG
+import { pathToFileURL } from 'node:url';
+
+const [executablePath, playwright, studio, desktop, phone] = process.argv.slice(2);
+const { chromium } = await import(pathToFileURL(`${playwright}/index.mjs`));
+const browser = await chromium.launch({
+    executablePath,
+    args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+});
+
+/** Opens Studio in a window of its own. */
+async function opened(options) {
+    const page = await browser.newPage({ reducedMotion: 'reduce', ...options });
+    page.setDefaultTimeout(120_000);
+    page.on('pageerror', (error) => { throw error; });
+    await page.goto(pathToFileURL(studio).href);
+    await page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
+    return page;
+}
+
+/** Points of a curve, for t from 0 to 1. */
+const curve = (count, at) => Array.from({ length: count + 1 }, (_, k) => at(k / count));
+
+/** Moves a pen through points, as parts of the sheet's sides, and takes it away; no cursor stays on the sheet. */
+async function stroke(page, points) {
+    const box = await page.locator('#sheet').boundingBox();
+    const pen = await page.context().newCDPSession(page);
+    const touch = (type, ...at) => pen.send('Input.dispatchTouchEvent',
+        { type, touchPoints: at.map(([x, y]) => ({ x: box.x + x * box.width, y: box.y + y * box.height })) });
+    await touch('touchStart', points[0]);
+    for (const point of points.slice(1)) {
+        await touch('touchMove', point);
+    }
+    await touch('touchEnd');
+}
+
+const choose = (page, tool) => page.locator(`#tools [value=${tool}]`).check({ force: true });
+
+const set = (page, id, value) => page.locator(`#${id}`).evaluate((control, to) => {
+    control.value = to;
+    control.dispatchEvent(new Event('input', { bubbles: true }));
+    control.dispatchEvent(new Event('change', { bubbles: true }));
+}, String(value));
+
+/** Takes the picture when the whole meshes are shown and nothing moves. */
+async function take(page, path) {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await page.waitForFunction(() => document.documentElement.dataset.droplets === 'ready' && document.documentElement.dataset.state === 'resting');
+    await page.screenshot({ path });
+    await page.close();
+}
+
+// A flower: petals of ink around a drop of honey.
+const flower = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light', hasTouch: true });
+await flower.locator('#name').fill('Flower');
+await set(flower, 'liquid-material', 'ink');
+await choose(flower, 'lasso');
+await stroke(flower, curve(240, (t) => {
+    const angle = 2 * Math.PI * t;
+    const radius = 0.32 + 0.115 * Math.cos(6 * angle);
+    return [0.5 + radius * Math.sin(angle), 0.5 - radius * Math.cos(angle)];
+}));
+await choose(flower, 'ellipse');
+await flower.locator('#subtract').check();
+await stroke(flower, [[0.36, 0.36], [0.64, 0.64]]);
+await flower.locator('#subtract').uncheck();
+await flower.locator('#layer-add').click();
+await set(flower, 'liquid-liquid', 'honey');
+await stroke(flower, [[0.385, 0.385], [0.615, 0.615]]);
+await choose(flower, 'brush');
+await take(flower, desktop);
+
+// Handwriting in water.
+const loops = await opened({ viewport: { width: 390, height: 760 }, deviceScaleFactor: 1.5, colorScheme: 'dark', hasTouch: true, isMobile: true });
+await set(loops, 'size', 78);
+await stroke(loops, curve(160, (t) => {
+    const angle = 2 * Math.PI * 2.5 * t;
+    return [0.19 + 0.62 * t - 0.12 * Math.sin(angle), 0.5 + 0.26 * Math.cos(angle)];
+}));
+await take(loops, phone);
+await browser.close();
