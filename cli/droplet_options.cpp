@@ -338,6 +338,11 @@ void declareFootprint(CommandLine& line)
     line.exclude({"--width", "--pixel-size"});
 }
 
+void declareGap(CommandLine& line, const char* group)
+{
+    line.add(group, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
+}
+
 void declareByColour(CommandLine& line)
 {
     constexpr const char* kGroup = "Footprint";
@@ -347,7 +352,7 @@ void declareByColour(CommandLine& line)
         "what is transparent, else the border's colour if 95 % of the border has it; --channel alpha: only what "
         "is transparent; --channel luma: the border's most common colour");
     line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]");
-    line.add(kGroup, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
+    declareGap(line, kGroup);
     for (const char* other :
          {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep"}) {
         if (line.knows(other)) {
@@ -485,21 +490,20 @@ FootprintOptions readFootprint(const CommandLine& line)
 
 std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings)
 {
+    const auto given = [&](const char* name) { return line.knows(name) ? line.value(name) : std::nullopt; };
     ByColourOptions options;
-    const auto colours = line.value("--colours");
-    if (colours && colours->text != "auto") {
+    if (const auto colours = given("--colours"); colours && colours->text != "auto") {
         options.colours = count(*colours, droplet::kMaxColours, "64, or auto");
     }
-    const auto gap = line.value("--gap");
-    if (gap) {
+    if (const auto gap = given("--gap")) {
         options.gap = quantity(*gap, kLength);
     }
     if (line.flag("--by-colour")) {
         return options;
     }
-    for (const auto& given : {colours, gap}) {
-        if (given) {
-            warnings.push_back(given->subject + " has no effect without --by-colour");
+    for (const char* name : {"--colours", "--gap", "--palette", "--text-colour"}) {
+        if (const auto useless = given(name)) {
+            warnings.push_back(useless->subject + " has no effect without --by-colour");
         }
     }
     return std::nullopt;

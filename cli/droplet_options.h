@@ -79,6 +79,8 @@ struct RunOptions {
 void declareFootprint(CommandLine& line);
 /// Declares --by-colour, --colours and --gap.
 void declareByColour(CommandLine& line);
+/// Declares --gap.
+void declareGap(CommandLine& line, const char* group);
 /// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line);
@@ -92,7 +94,7 @@ void declareRun(CommandLine& line);
 bool isPreviewColour(const std::string& text);
 
 FootprintOptions readFootprint(const CommandLine& line);
-/// Reads the options of declareByColour; nothing without --by-colour.
+/// Reads --by-colour and the options that go with it, as far as the command has them; nothing without --by-colour.
 /// @param warnings  receives warnings about options without effect
 std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings);
 /// Reads the options of liquid, ground and surface.

@@ -15,6 +15,7 @@
 #include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/surface/onto.h"
+#include "droplet/type/colour_glyph.h"
 #include "droplet/units.h"
 #include "files.h"
 #include "glyph_names.h"
@@ -125,6 +126,48 @@ void equaliseHeights(const Font& font, const std::vector<GlyphRequest>& glyphs, 
     solve.fill.amount = droplet::makeDroplet(outline, reference).total.height_max;
 }
 
+/// Checks the font for --by-colour.
+/// @throws Error InvalidInput: the font's colours are not in layers
+void requireColourLayers(const Font& font, GlyphsOptions& options)
+{
+    if (!options.shape.footprint.by_colour || font.hasColourLayers()) {
+        return;
+    }
+    if (const std::string table = font.otherColours(); !table.empty()) {
+        throw Error(ErrorCode::InvalidInput,
+                    options.font + ": the font has its colours in the table " + table +
+                        ", and --by-colour reads only colour layers (COLR); without it, the font's outlines are used");
+    }
+    options.shape.footprint.by_colour.reset();
+    options.shape.settings.warnings.emplace_back("--by-colour has no effect: the font has no colour layers (COLR)");
+}
+
+droplet::TypeReport describeGlyph(const Font& font, const GlyphRequest& request, const GlyphsOptions& options)
+{
+    droplet::TypeReport type = describe(font, options);
+    type.glyph = request.glyph;
+    type.glyph_name = font.nameOf(request.glyph);
+    type.character = request.character;
+    return type;
+}
+
+droplet::TypeReport describeText(const Font& font, const std::vector<char32_t>& missing, const GlyphsOptions& options)
+{
+    droplet::TypeReport type = describe(font, options);
+    type.text = options.text;
+    type.missing = missing;
+    return type;
+}
+
+/// Areas of colour, with what the report needs.
+DrawnColours drawnColours(droplet::ColourLayout layout, droplet::TypeReport type, const GlyphsOptions& options)
+{
+    const droplet::GlyphOptions& glyph = options.type.glyph;
+    DrawnColours drawn{std::move(layout.drawing), {}, glyph.speck_size * glyph.em * glyph.em};
+    drawn.input.type = std::move(type);
+    return drawn;
+}
+
 /// Em at which a text on an object is as large as a picture would be.
 double emOnObject(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
 {
@@ -133,9 +176,20 @@ double emOnObject(const droplet::TexturedMesh& object, const Font& font, const G
     return options.type.glyph.em * width / extent.x;
 }
 
+/// @throws Error InvalidInput, unless there is ink
+void requireInk(bool has_ink, const std::vector<char32_t>& missing, const GlyphsOptions& options)
+{
+    if (!has_ink) {
+        throw Error(ErrorCode::InvalidInput,
+                    options.font + ": " +
+                        (missing.empty() ? "the text has no ink" : missingGlyphs(missing) + ", and nothing is left"));
+    }
+}
+
 int makeText(const Font& font, GlyphsOptions options)
 {
     checkShape(options.shape, "--font");
+    requireColourLayers(font, options);
     makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read);
         const Surroundings around =
@@ -143,13 +197,25 @@ int makeText(const Font& font, GlyphsOptions options)
         if (around.object && !options.sized) {
             options.type.glyph.em = emOnObject(*around.object, font, options);
         }
-        droplet::TextLayout set = droplet::layOutText(font, *options.text, options.type);
-        if (set.outline.loops.empty()) {
-            throw Error(ErrorCode::InvalidInput,
-                        options.font + ": " +
-                            (set.missing.empty() ? "the text has no ink"
-                                                 : missingGlyphs(set.missing) + ", and nothing is left"));
+        std::vector<std::string>& warnings = options.shape.settings.warnings;
+        const auto leave_out = [&](const std::vector<char32_t>& missing) {
+            if (!missing.empty()) {
+                warnings.push_back(missingGlyphs(missing) + "; left out");
+            }
+        };
+        if (options.shape.footprint.by_colour) {
+            droplet::ColourLayout colours = droplet::layOutColours(font, *options.text, options.type);
+            requireInk(!colours.drawing.areas.empty(), colours.missing, options);
+            if (colours.has_layers) {
+                leave_out(colours.missing);
+                droplet::TypeReport type = describeText(font, colours.missing, options);
+                return makeShape(options.shape, around, drawnColours(std::move(colours), std::move(type), options),
+                                 progress);
+            }
+            warnings.emplace_back("--by-colour has no effect: no glyph of the text has colour layers");
         }
+        droplet::TextLayout set = droplet::layOutText(font, *options.text, options.type);
+        requireInk(!set.outline.loops.empty(), set.missing, options);
         std::vector<GlyphRequest> letters;
         for (const char32_t character : droplet::charactersOf(*options.text)) {
             if (const auto glyph = font.glyphOf(character)) {
@@ -159,12 +225,8 @@ int makeText(const Font& font, GlyphsOptions options)
         equaliseHeights(font, letters, options);
         DrawnFootprint footprint{std::move(set.outline), {}};
         footprint.input.path = options.font;
-        footprint.input.type = describe(font, options);
-        footprint.input.type->text = options.text;
-        footprint.input.type->missing = set.missing;
-        if (!set.missing.empty()) {
-            options.shape.settings.warnings.push_back(missingGlyphs(set.missing) + "; left out");
-        }
+        footprint.input.type = describeText(font, set.missing, options);
+        leave_out(set.missing);
         return makeShape(options.shape, around, std::move(footprint), progress);
     });
     return 0;
@@ -203,8 +265,30 @@ std::string settingsFingerprint(const GlyphsOptions& options)
     return fingerprintOf(parts);
 }
 
+/// Makes the droplets of one glyph.
+/// @param shape  options with the glyph's outputs
+droplet::Report makeGlyph(const Font& font, const GlyphRequest& request, const GlyphsOptions& options,
+                          ShapeOptions shape, const Surroundings& around)
+{
+    const auto ignore = [](droplet::Stage) {};
+    droplet::TypeReport type = describeGlyph(font, request, options);
+    if (shape.footprint.by_colour && droplet::hasColourLayers(font, request.glyph)) {
+        droplet::ColourLayout colours = droplet::glyphColours(font, request.glyph, options.type.glyph);
+        if (colours.drawing.areas.empty()) {
+            throw Error(ErrorCode::InvalidInput, "the colour layers have no ink");
+        }
+        return makeShape(shape, around, drawnColours(std::move(colours), std::move(type), options), ignore);
+    }
+    shape.footprint.by_colour.reset();
+    DrawnFootprint footprint{droplet::glyphOutline(font, request.glyph, options.type.glyph), {}};
+    footprint.input.path = options.font;
+    footprint.input.type = std::move(type);
+    return makeShape(shape, around, std::move(footprint), ignore);
+}
+
 int makeGlyphs(const Font& font, GlyphsOptions options)
 {
+    requireColourLayers(font, options);
     GlyphSetOptions& set = *options.set;
     Selection selection = select(font, set.choice);
     if (selection.glyphs.empty()) {
@@ -231,7 +315,8 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         // A broken glyph stays an item, which fails with a message.
         bool blank = false;
         try {
-            blank = !droplet::hasInk(font, request.glyph, options.type.glyph);
+            blank = !droplet::hasInk(font, request.glyph, options.type.glyph) &&
+                    !(options.shape.footprint.by_colour && droplet::hasColourLayers(font, request.glyph));
         } catch (const Error&) {
         }
         if (blank) {
@@ -249,20 +334,14 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         if (const auto material = materialFile(item.output, options.shape.format)) {
             item.others.push_back(*material);
         }
-        item.open = [&, request, name, output = item.output, others = item.others] {
+        item.open = [&, request, output = item.output, others = item.others] {
             BatchWork work;
             work.fingerprint = fingerprintOf({settings, std::to_string(request.glyph)});
-            work.make = [&, request, name, output, others] {
+            work.make = [&, request, output, others] {
                 ShapeOptions job = options.shape;
                 job.output = output;
                 job.json = set.json ? std::optional(others.front()) : std::nullopt;
-                DrawnFootprint footprint{droplet::glyphOutline(font, request.glyph, options.type.glyph), {}};
-                footprint.input.path = options.font;
-                footprint.input.type = describe(font, options);
-                footprint.input.type->glyph = request.glyph;
-                footprint.input.type->glyph_name = name;
-                footprint.input.type->character = request.character;
-                return figuresOf(makeShape(job, around, std::move(footprint), [](droplet::Stage) {}));
+                return figuresOf(makeGlyph(font, request, options, std::move(job), around));
             };
             return work;
         };

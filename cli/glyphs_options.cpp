@@ -27,6 +27,7 @@ const CommandText& commandText()
             "Examples:\n"
             "  droplet-shape glyphs --font Serif.ttf --text Water -o water.glb\n"
             "  droplet-shape glyphs --font Serif.ttf --charset A-Za-z -o 'out/{name}.glb'\n"
+            "  droplet-shape glyphs --font Colour.ttf --text Sun -o sun.glb --by-colour\n"
             "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all \\\n"
             "    -o 'out/{name}.glb' --equal-height\n"
             "\n"
@@ -59,8 +60,16 @@ void declare(CommandLine& line)
     line.addFlag(
         kGroup, "--equal-height",
         "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
+    line.addFlag(kGroup, "--by-colour",
+                 "Make one droplet for each area of one colour, in that colour, of glyphs with colour layers (COLR); "
+                 "neighbours share their boundary");
+    line.add(kGroup, "--palette", "N", "Palette of the font for --by-colour [0]");
+    line.add(kGroup, "--text-colour", "COLOUR",
+             "Colour for --by-colour of glyphs and layers that have none of their own; white is clear liquid [white]");
+    declareGap(line, kGroup);
     line.add(kGroup, "--json", "FILE", "Write a report; for many glyphs a pattern such as 'out/{name}.json'");
     line.exclude({"--text", "--charset", "--all", "--list"});
+    line.exclude({"--by-colour", "--equal-height"});
     declareBatch(line);
     declareDroplets(line);
     declarePreview(line);
@@ -77,17 +86,26 @@ double number(const Given& given, double min, double max, const std::string& all
     return *value;
 }
 
+std::size_t index(const Given& given)
+{
+    constexpr double kMax = 65535.0;  // limit of FreeType
+    const std::string allowed = "a whole number from 0 to 65535";
+    const double value = number(given, 0.0, kMax, allowed);
+    const auto whole = static_cast<std::size_t>(value);
+    if (static_cast<double>(whole) != value) {
+        refuse(given, allowed);
+    }
+    return whole;
+}
+
 droplet::FontOptions readFace(const CommandLine& line)
 {
     droplet::FontOptions face;
-    if (const auto index = line.value("--face-index")) {
-        constexpr double kMax = 65535.0;  // limit of FreeType
-        const std::string allowed = "a whole number from 0 to 65535";
-        const double value = number(*index, 0.0, kMax, allowed);
-        face.face_index = static_cast<std::size_t>(value);
-        if (static_cast<double>(face.face_index) != value) {
-            refuse(*index, allowed);
-        }
+    if (const auto given = line.value("--face-index")) {
+        face.face_index = index(*given);
+    }
+    if (const auto given = line.value("--palette"); given && line.flag("--by-colour")) {
+        face.palette = index(*given);
     }
     for (const Given& axis : line.values("--axis")) {
         const auto equals = axis.text.find('=');
@@ -109,6 +127,9 @@ droplet::TextOptions readType(const CommandLine& line)
     }
     if (const auto tolerance = line.value("--tolerance")) {
         type.glyph.tolerance = quantity(*tolerance, kLength);
+    }
+    if (const auto colour = line.value("--text-colour")) {
+        type.glyph.text_colour = forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
     }
     if (const auto align = line.value("--align")) {
         type.align = choice<droplet::TextAlign>(*align, {{"start", droplet::TextAlign::Start},
@@ -245,6 +266,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         options.shape.preview = readPreview(line, warnings);
     }
     options.shape = readDroplets(line, std::move(options.shape), "--output");
+    options.shape.footprint.by_colour = readByColour(line, warnings);
     options.shape.settings.warnings.insert(options.shape.settings.warnings.end(), warnings.begin(), warnings.end());
     const auto json = line.value("--json");
     if (text) {

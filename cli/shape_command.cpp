@@ -318,37 +318,57 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
     return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, texture}, around, options, stages);
 }
 
+/// Input by colour: a picture, or type.
+struct ColourSource {
+    /// Reads the regions; drawings without pixels get so many on their longer side.
+    std::function<droplet::ColourRegions(std::optional<int> long_side)> read;
+    std::optional<double> speck_size = {};  ///< as in DrawnColours, if larger than that of the options
+    std::optional<droplet::TypeReport> type = {};
+};
+
 /// Makes droplets from the regions of one colour.
-droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
+droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around, const ColourSource& source,
                              Stages& stages)
 {
-    const ByColourOptions& by_colour = *options.footprint.by_colour;
-    droplet::ColourOptions colour_options;
-    colour_options.colours = by_colour.colours;
-    colour_options.channel = options.footprint.mask.channel;
-    const auto decode = [&] { return droplet::decodeColours(picture, colour_options); };
-    droplet::ColourRegions regions = forInput(options, decode);
+    droplet::ColourRegions regions = forInput(options, [&] { return source.read(std::nullopt); });
     droplet::Mask mask = maskOf(regions);
     DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
     if (const auto side = finerSide(mask, settings.droplet)) {
-        colour_options.vector_long_side = *side;
-        regions = forInput(options, decode);
+        regions = forInput(options, [&] { return source.read(*side); });
         mask = maskOf(regions);
         settings = completeSettings(mask, around, options);
     }
-    picture = {};
+    if (source.speck_size) {
+        const double pixel = droplet::pixelSize(mask, settings.droplet.trace);
+        double& speck_size = settings.droplet.trace.speck_size;
+        speck_size = std::max(speck_size, *source.speck_size / (pixel * pixel));
+    }
     addPageSlider(settings.droplet, options);
     const auto begin = [&](Stage stage) { stages.begin(stage); };
     ColourShape made = forInput(options, [&] { return makeOfColours(regions, settings, options, begin); });
+    made.input.type = source.type;
     settings.warnings.insert(settings.warnings.begin(), made.warnings.begin(), made.warnings.end());
     return finish(std::move(made.droplet), settings, {std::move(made.input), std::move(made.colours)}, around, options,
                   stages);
 }
 
+droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around,
+                             const std::vector<std::byte>& picture, Stages& stages)
+{
+    droplet::ColourOptions colour_options;
+    colour_options.colours = options.footprint.by_colour->colours;
+    colour_options.channel = options.footprint.mask.channel;
+    return makeByColour(options, around, {[&](std::optional<int> long_side) {
+                            colour_options.vector_long_side = long_side.value_or(colour_options.vector_long_side);
+                            return droplet::decodeColours(picture, colour_options);
+                        }},
+                        stages);
+}
+
 droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                      Stages& stages)
 {
-    return options.footprint.by_colour ? makeByColour(options, around, std::move(picture), stages)
+    return options.footprint.by_colour ? makeByColour(options, around, picture, stages)
                                        : makeFromMask(options, around, std::move(picture), stages);
 }
 
@@ -408,6 +428,16 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     Stages stages{{}, [](Stage) {}};
     stages.begin(Stage::Read);
     return make(options, around, std::move(picture), stages);
+}
+
+droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, const DrawnColours& drawn,
+                          const droplet::Progress& progress)
+{
+    Stages stages{{}, progress};
+    const auto draw = [&](std::optional<int> long_side) {
+        return long_side ? droplet::drawColours(drawn.drawing, *long_side) : droplet::drawColours(drawn.drawing);
+    };
+    return makeByColour(options, around, {draw, drawn.speck_size, drawn.input.type}, stages);
 }
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/footprint/colour_drawing.h"
 #include "droplet/footprint/outline.h"
 #include "droplet/io/report.h"
 #include "droplet/progress.h"
@@ -40,6 +41,19 @@ struct DrawnFootprint {
     droplet::Outline outline;
     droplet::InputReport input;
 };
+
+/// Areas of colour that do not come from a picture.
+struct DrawnColours {
+    droplet::ColourDrawing drawing;
+    droplet::InputReport input;
+    double speck_size = 0.0;  ///< smallest area of a region [m²]
+};
+
+/// Makes one droplet for each region of one colour.
+/// @param around    result of readSurroundings
+/// @param progress  called at every stage, from Read to Write
+droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, const DrawnColours& drawn,
+                          const droplet::Progress& progress);
 
 /// Makes one droplet from an outline.
 /// @param around    result of readSurroundings

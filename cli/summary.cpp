@@ -107,6 +107,9 @@ std::string type(const droplet::InputReport& input)
         text += ", " + oneLine(tag) + " " + digits(value);
     }
     text += ", em " + millimetres(type.em);
+    if (!input.palette.empty()) {
+        text += ", " + counted(input.palette.size(), "colour") + " (--by-colour)";
+    }
     if (input.specks_dropped > 0) {
         text += "; " + counted(input.specks_dropped, "speck") + " dropped";
     }

@@ -265,7 +265,10 @@ text: one line or more, separated by line feeds.
 2
 """,
         "_core.glyphs(font, text, {tokens})",
-        leave_out={"font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes", "materials", "compress"},
+        leave_out={
+            "font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes",
+            "materials", "compress", "by_colour", "palette", "text_colour", "gap",
+        },
     ),
     Function(
         "animate",

@@ -137,7 +137,10 @@ public:
     [[nodiscard]] std::uint16_t share(int x, int y, std::uint8_t left, std::uint8_t right) const
     {
         const std::size_t i = grid_.at(x, y);
-        return right == 0 ? ofLiquid(x, y, left) : level(between(i, left, colourOf(right), right));
+        if (right == 0) {
+            return ofLiquid(x, y, left);
+        }
+        return level(regions_.mixture.empty() ? between(i, left, colourOf(right), right) : mixed(i, left, right));
     }
 
 private:
@@ -155,6 +158,19 @@ private:
         const Vec3 step = colourOf(left) - other;
         const double square = dot(step, step);
         return square > 0.0 ? std::clamp(dot(here - other, step) / square, 0.0, 1.0) : 0.0;
+    }
+
+    /// Share of one colour beside another one, from their exact areas.
+    [[nodiscard]] double mixed(std::size_t i, std::uint8_t left, std::uint8_t right) const
+    {
+        constexpr double kFull = 255.0;
+        if (labels_[i] != left && labels_[i] != right) {
+            return 0.5;
+        }
+        const PixelMixture& mixture = regions_.mixture[i];
+        const bool is_mixed = labels_[i] == regions_.label[i] && mixture.other == (labels_[i] == left ? right : left);
+        const double own = is_mixed ? mixture.share / kFull : 1.0;
+        return labels_[i] == left ? own : 1.0 - own;
     }
 
     /// Share of all liquid.

@@ -136,16 +136,22 @@ Json colourOrNull(const std::optional<CssColour>& colour)
     return colour ? Json(text(*colour)) : Json();
 }
 
-/// Keys that describe a picture; all are null for a font.
+template <typename Number>
+Json unlessZero(Number number)
+{
+    return number == Number{} ? Json() : Json(number);
+}
+
+/// Keys that describe a picture are null for a font, but for those of the pixels with which its colours are drawn.
 Json inputSection(const InputReport& input)
 {
     if (input.type) {
         return {{"path", input.path},
-                {"width_px", nullptr},
-                {"height_px", nullptr},
+                {"width_px", unlessZero(input.width_px)},
+                {"height_px", unlessZero(input.height_px)},
                 {"drawn", nullptr},
                 {"own_size", nullptr},
-                {"pixel_size_m", nullptr},
+                {"pixel_size_m", unlessZero(input.pixel_size)},
                 {"channel", nullptr},
                 {"inverted", nullptr},
                 {"segment", nullptr},
@@ -156,7 +162,7 @@ Json inputSection(const InputReport& input)
                 {"anti_aliased", nullptr},
                 {"specks_dropped", input.specks_dropped},
                 {"largest_speck_px2", nullptr},
-                {"palette", nullptr},
+                {"palette", paletteSection(input.palette)},
                 {"background", nullptr},
                 {"type", typeSection(*input.type)}};
     }

@@ -103,17 +103,23 @@ bool touchAnywhere(const Paths& loops)
     return false;
 }
 
-Paths united(const Paths& contours)
+Paths combined(ClipperLib::ClipType how, const Paths& contours, const Paths& others = {})
 {
     ClipperLib::Clipper clipper;
     Paths result;
     if (!clipper.AddPaths(contours, ClipperLib::ptSubject, true)) {
         return result;  // there are only points and lines
     }
-    if (!clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) {
+    clipper.AddPaths(others, ClipperLib::ptClip, true);
+    if (!clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) {
         throw Error(ErrorCode::InvalidInput, "the contours cannot be united");
     }
     return result;
+}
+
+Paths united(const Paths& contours)
+{
+    return combined(ClipperLib::ctUnion, contours);
 }
 
 /// Area that contours wind around, from the lengths of horizontal lines in it.
@@ -177,27 +183,48 @@ Paths rotated(Paths paths)
     return paths;
 }
 
-/// Best of four unions in different directions: Clipper may fail in some of them if many sides touch or coincide.
+/// Results of Clipper with their area, in one of four directions: it may fail in some of them if many sides touch or
+/// coincide.
+/// @param sets     paths that an operation takes
+/// @param area     area of all results together
+/// @param enough   error of the area that ends the search; otherwise, the best of four results is returned
+/// @param operate  makes results from sets of paths
+template <typename Operation>
+std::vector<Paths> bestDirection(std::vector<Paths> sets, double area, double enough, const Operation& operate)
+{
+    double min = std::numeric_limits<double>::infinity();
+    std::vector<Paths> best;
+    for (int quarters = 0; quarters < 4 && min > enough; ++quarters) {
+        std::vector<Paths> results = operate(sets);
+        double sum = 0.0;
+        for (const Paths& result : results) {
+            sum += areaOf(result);
+        }
+        const double off = std::abs(sum - area);
+        for (int back = quarters; back % 4 != 0; ++back) {
+            std::transform(results.begin(), results.end(), results.begin(), rotated);
+        }
+        if (off < 0.999 * min) {
+            min = off;
+            best = std::move(results);
+        }
+        std::transform(sets.begin(), sets.end(), sets.begin(), rotated);
+    }
+    return best;
+}
+
+/// Best of four unions in different directions.
 Paths bestUnion(Paths contours)
 {
     contours.erase(std::remove_if(contours.begin(), contours.end(), [](const Path& path) { return path.empty(); }),
                    contours.end());
-    const double area = areaInside(contours);
-    double min = std::numeric_limits<double>::infinity();
-    Paths best;
-    for (int quarters = 0; quarters < 4; ++quarters) {
-        Paths result = united(contours);
-        const double off = std::abs(areaOf(result) - area);
-        for (int back = quarters; back % 4 != 0; ++back) {
-            result = rotated(std::move(result));
-        }
-        if (off < 0.999 * min) {
-            min = off;
-            best = std::move(result);
-        }
-        contours = rotated(std::move(contours));
+    if (contours.empty()) {
+        return contours;
     }
-    return best;
+    const double area = areaInside(contours);
+    return bestDirection({std::move(contours)}, area, 0.0,
+                         [](const std::vector<Paths>& sets) { return std::vector<Paths>{united(sets[0])}; })
+        .front();
 }
 
 bool isNear(const IntPoint& a, const IntPoint& b, double merge)
@@ -257,6 +284,12 @@ Paths offset(Paths loops, double by)
     return result;
 }
 
+/// Parts of an area that are wider than twice a length.
+Paths wide(const Paths& loops, double half)
+{
+    return offset(offset(loops, -half), half);
+}
+
 /// Separates loops: closes gaps of rounding, then shrinks all loops by half the gap.
 Paths separated(const Paths& loops)
 {
@@ -286,6 +319,22 @@ Paths rounded(const std::vector<Contour>& contours)
     return paths;
 }
 
+Contour contourOf(const Path& path)
+{
+    Contour contour;
+    for (const IntPoint& p : path) {
+        contour.push_back({static_cast<double>(p.X) / kGrid, static_cast<double>(p.Y) / kGrid});
+    }
+    return contour;
+}
+
+std::vector<Contour> contoursOf(const Paths& paths)
+{
+    std::vector<Contour> contours;
+    std::transform(paths.begin(), paths.end(), std::back_inserter(contours), contourOf);
+    return contours;
+}
+
 }  // namespace
 
 United unite(const std::vector<Contour>& contours, double speck)
@@ -308,18 +357,46 @@ United unite(const std::vector<Contour>& contours, double speck)
         const auto first = std::min_element(loop.begin(), loop.end(), [](const IntPoint& a, const IntPoint& b) {
             return std::tie(a.X, a.Y) < std::tie(b.X, b.Y);
         });
-        Contour contour;
-        const auto add = [&](const IntPoint& p) {
-            contour.push_back({static_cast<double>(p.X) / kGrid, static_cast<double>(p.Y) / kGrid});
-        };
-        std::for_each(first, loop.end(), add);
-        std::for_each(loop.begin(), first, add);
-        result.loops.push_back(std::move(contour));
+        Path turned(first, loop.end());
+        turned.insert(turned.end(), loop.begin(), first);
+        result.loops.push_back(contourOf(turned));
     }
     std::sort(result.loops.begin(), result.loops.end(), [](const Contour& a, const Contour& b) {
         return std::tie(a.front().x, a.front().y) < std::tie(b.front().x, b.front().y);
     });
     return result;
+}
+
+std::vector<Contour> enclosed(const std::vector<Contour>& contours)
+{
+    return contoursOf(bestUnion(rounded(contours)));
+}
+
+Parts divide(const std::vector<Contour>& area, const std::vector<Contour>& by, double narrow)
+{
+    constexpr double kRounding = 1e-6 * kGrid * kGrid;  // crossings are rounded, which changes areas a little
+    constexpr double kTooMuch = 1e-4 * kGrid * kGrid;
+    const Paths paths = rounded(area);
+    const double whole = areaOf(paths);
+    std::vector<Paths> parts =
+        bestDirection({paths, rounded(by)}, whole, kRounding, [](const std::vector<Paths>& sets) {
+            return std::vector<Paths>{combined(ClipperLib::ctIntersection, sets[0], sets[1]),
+                                      combined(ClipperLib::ctDifference, sets[0], sets[1])};
+        });
+    if (std::abs(areaOf(parts[0]) + areaOf(parts[1]) - whole) > kTooMuch) {
+        throw Error(ErrorCode::InvalidInput, "areas of colour overlap and cannot be divided");
+    }
+    Paths slivers;
+    if (narrow > 0.0 && !parts[0].empty()) {
+        const double half = 0.5 * narrow * kGrid;
+        slivers = combined(ClipperLib::ctDifference, parts[1], wide(parts[1], half));
+        slivers = combined(ClipperLib::ctIntersection, slivers, wide(paths, half));
+        std::erase_if(slivers, [](const Path& path) { return std::abs(ClipperLib::Area(path)) < kRounding; });
+        if (!slivers.empty()) {
+            parts[1] = combined(ClipperLib::ctDifference, parts[1], slivers);
+        }
+    }
+    return {contoursOf(parts[0]), contoursOf(slivers), contoursOf(parts[1])};
 }
 
 }  // namespace droplet

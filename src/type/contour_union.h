@@ -27,4 +27,22 @@ struct United {
 /// @throws Error    InvalidInput: loops cannot be separated
 United unite(const std::vector<Contour>& contours, double speck);
 
+/// Area that contours wind around, by the non-zero rule, with points on the same grid. Unlike loops of unite(), those
+/// of the result may touch, so nothing moves.
+std::vector<Contour> enclosed(const std::vector<Contour>& contours);
+
+/// Parts of an area.
+struct Parts {
+    std::vector<Contour> inside;   ///< inside of another area
+    std::vector<Contour> slivers;  ///< outside of it, but narrow there, where the whole area is wide
+    std::vector<Contour> outside;  ///< the rest
+};
+
+/// Divides an area by another one.
+/// @param area    result of enclosed() or divide()
+/// @param by      the same
+/// @param narrow  width up to which a part is a sliver [em], ≥ 0
+/// @throws Error  InvalidInput: the parts cannot be found
+Parts divide(const std::vector<Contour>& area, const std::vector<Contour>& by, double narrow);
+
 }  // namespace droplet

@@ -6,11 +6,13 @@
 #include "type/font_face.h"
 
 #include <ft2build.h>
+#include FT_COLOR_H
 #include FT_FREETYPE_H
 #include FT_MULTIPLE_MASTERS_H
 #include FT_OUTLINE_H
 #include FT_SFNT_NAMES_H
 #include FT_TRUETYPE_IDS_H
+#include FT_TRUETYPE_TABLES_H
 #include <hb-ft.h>
 #include <hb.h>
 
@@ -133,6 +135,25 @@ std::string plainName(const FT_String* name)
     return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7f; }) ? text : "";
 }
 
+bool hasTable(FT_Face face, FT_ULong tag)
+{
+    FT_ULong size = 0;
+    return FT_Load_Sfnt_Table(face, tag, 0, nullptr, &size) == 0 && size > 0;
+}
+
+/// Tag of the first table with colours that are not layers; empty if there is none.
+std::string otherColoursOf(FT_Face face)
+{
+    for (const FT_ULong tag :
+         {FT_MAKE_TAG('S', 'V', 'G', ' '), FT_MAKE_TAG('s', 'b', 'i', 'x'), FT_MAKE_TAG('C', 'B', 'D', 'T')}) {
+        if (hasTable(face, tag)) {
+            const std::string text = tagText(tag);
+            return text.substr(0, text.find(' '));
+        }
+    }
+    return {};
+}
+
 /// Limit of a font file. The largest fonts have 30 MB; an endless device must not be read for ever.
 constexpr std::size_t kLargestFile = std::size_t{1} << 28;
 
@@ -194,9 +215,12 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
         throw Error(ErrorCode::InvalidInput, "its font " + std::to_string(options.face_index) + " is damaged");
     }
     if (!FT_IS_SCALABLE(face_.get()) || face_->units_per_EM == 0 || face_->num_glyphs <= 0) {
-        throw Error(ErrorCode::InvalidInput, "the font has bitmaps of its glyphs, not outlines");
+        const std::string table = otherColoursOf(face_.get());
+        throw Error(ErrorCode::InvalidInput, "the font has bitmaps of its glyphs" +
+                                                 (table.empty() ? table : " (" + table + ")") + ", not outlines");
     }
     setAxes(options.axes);
+    setPalette(options.palette);
     if (FT_Set_Pixel_Sizes(face_.get(), 0, face_->units_per_EM) != 0) {
         throw Error(ErrorCode::InvalidInput, "the font cannot be scaled");
     }
@@ -262,6 +286,25 @@ void FontFace::setAxes(const std::vector<AxisSetting>& settings)
     }
 }
 
+void FontFace::setPalette(std::size_t palette)
+{
+    FT_Palette_Data data{};
+    const std::size_t count = FT_Palette_Data_Get(face_.get(), &data) == 0 ? data.num_palettes : 0;
+    if (palette >= std::max<std::size_t>(count, 1)) {
+        throw Error(ErrorCode::InvalidArgument, fmt::format("palette {} does not exist: the font has {}", palette,
+                                                            count == 0   ? "no palettes"
+                                                            : count == 1 ? "one palette, 0"
+                                                                         : fmt::format("palettes 0 to {}", count - 1)));
+    }
+    FT_Color* colours = nullptr;
+    if (count == 0 || FT_Palette_Select(face_.get(), static_cast<FT_UShort>(palette), &colours) != 0) {
+        return;
+    }
+    for (FT_UShort i = 0; i < data.num_palette_entries; ++i) {
+        palette_.push_back({{colours[i].red, colours[i].green, colours[i].blue}, colours[i].alpha / 255.0});
+    }
+}
+
 std::string FontFace::family() const
 {
     return plainName(face_->family_name);
@@ -318,11 +361,38 @@ DrawnGlyph FontFace::draw(GlyphId glyph, const Flatness& flatness) const
         std::rethrow_exception(drawing.thrown);
     }
     if (!good) {
-        throw Error(ErrorCode::InvalidInput, "glyph " + std::to_string(glyph) + " ('" +
-                                                 plainName(nameOf(glyph).c_str()) + "') is damaged in the font");
+        throw glyphError(glyph, "is damaged in the font");
     }
     drawn.contours = std::move(drawing.contours);
     return drawn;
+}
+
+Error FontFace::glyphError(GlyphId glyph, const std::string& what) const
+{
+    return {ErrorCode::InvalidInput,
+            "glyph " + std::to_string(glyph) + " ('" + plainName(nameOf(glyph).c_str()) + "') " + what};
+}
+
+bool FontFace::hasColourLayers() const
+{
+    const std::lock_guard lock(mutex_);
+    return hasTable(face_.get(), FT_MAKE_TAG('C', 'O', 'L', 'R'));
+}
+
+std::string FontFace::otherColours() const
+{
+    const std::lock_guard lock(mutex_);
+    return otherColoursOf(face_.get());
+}
+
+std::vector<ColourLayer> FontFace::layersOf(GlyphId glyph, const CssColour& text_colour) const
+{
+    try {
+        const std::lock_guard lock(mutex_);
+        return readLayers(face_.get(), glyph, palette_, text_colour);
+    } catch (const Unreadable& problem) {
+        throw glyphError(glyph, problem.what());
+    }
 }
 
 std::vector<ShapedGlyph> FontFace::shape(const std::u32string& text, const TextRun& run) const
@@ -388,6 +458,16 @@ std::optional<char32_t> Font::characterOf(GlyphId glyph) const
 std::string Font::nameOf(GlyphId glyph) const
 {
     return face_->nameOf(glyph);
+}
+
+bool Font::hasColourLayers() const
+{
+    return face_->hasColourLayers();
+}
+
+std::string Font::otherColours() const
+{
+    return face_->otherColours();
 }
 
 Font decodeFont(std::span<const std::byte> encoded, const FontOptions& options)

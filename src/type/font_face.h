@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "droplet/error.h"
+#include "droplet/footprint/css_colour.h"
 #include "droplet/type/font.h"
+#include "type/colour_layers.h"
 #include "type/contour_union.h"
 #include "type/flatten.h"
 
@@ -71,6 +74,14 @@ public:
     /// @throws Error InvalidInput: the font is damaged there
     [[nodiscard]] DrawnGlyph draw(GlyphId glyph, const Flatness& flatness) const;
 
+    [[nodiscard]] bool hasColourLayers() const;
+    [[nodiscard]] std::string otherColours() const;
+
+    /// Layers of a colour glyph, the lowest first; none if the glyph has no layers.
+    /// @param text_colour  for layers that have the text's colour
+    /// @throws Error       InvalidInput: the font is damaged there, or the glyph is painted by COLR version 1
+    [[nodiscard]] std::vector<ColourLayer> layersOf(GlyphId glyph, const CssColour& text_colour) const;
+
     /// Shapes a run: returns its glyphs from left to right.
     [[nodiscard]] std::vector<ShapedGlyph> shape(const std::u32string& text, const TextRun& run) const;
 
@@ -82,6 +93,9 @@ private:
     };
 
     void setAxes(const std::vector<AxisSetting>& settings);
+    void setPalette(std::size_t palette);
+    /// Name of a glyph in messages, and what is wrong with it.
+    [[nodiscard]] Error glyphError(GlyphId glyph, const std::string& what) const;
 
     std::vector<std::byte> encoded_;  ///< FreeType reads from it while the face is open
     std::unique_ptr<FT_LibraryRec_, Close> library_;
@@ -89,6 +103,7 @@ private:
     std::unique_ptr<hb_font_t, Close> shaper_;
     std::vector<FontAxis> axes_;
     LineMetrics lines_;
+    std::vector<PaletteEntry> palette_;
     double unit_ = 0.0;  ///< unit of FreeType's 26.6 fixed-point numbers in ems
     std::map<char32_t, GlyphId> glyph_of_;
     std::map<GlyphId, char32_t> character_of_;

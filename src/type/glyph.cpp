@@ -13,19 +13,11 @@
 #include "type/contour_union.h"
 #include "type/flatten.h"
 #include "type/font_face.h"
+#include "type/glyph_frame.h"
 #include "type/text_layout.h"
-#include "utf8.h"
 
 namespace droplet {
 namespace {
-
-/// Default tolerance of curves [em]. With a fiftieth of it, droplets of 5000 triangles change by at most 0.1 % in
-/// volume, and their normals by 0.1° rms.
-constexpr double kTolerance = 1.0 / 20'000.0;
-
-/// Largest distance between points of an outline [em]: meshing reads the detail of a loop from the spacing of its
-/// points.
-constexpr double kSpacing = 1.0 / 256.0;
 
 /// Smallest turn at a corner, as in traced outlines; pieces of curves turn by about 10° at most.
 constexpr double kCornerTurn = 25.0 * std::numbers::pi / 180.0;
@@ -35,21 +27,6 @@ void requirePositive(double value, const char* name)
     if (!(value > 0.0 && std::isfinite(value))) {
         throw Error(ErrorCode::InvalidArgument, std::string(name) + " is " + numberText(value) + ", must be > 0");
     }
-}
-
-void requireGlyph(const Font& font, GlyphId glyph)
-{
-    if (glyph >= font.glyphCount()) {
-        throw Error(ErrorCode::InvalidArgument, "glyph " + std::to_string(glyph) + " must be less than " +
-                                                    std::to_string(font.glyphCount()) +
-                                                    ", the font's number of glyphs");
-    }
-}
-
-Flatness flatnessOf(const GlyphOptions& options)
-{
-    constexpr double kFinest = 0x1p-26;  // points are rounded to this
-    return {options.tolerance ? std::max(*options.tolerance / options.em, kFinest) : kTolerance, kSpacing};
 }
 
 /// Loop with its corners; straight sides are divided.
@@ -71,56 +48,17 @@ Loop loopOf(const Contour& contour, double em)
     return loop;
 }
 
-/// Rectangle in ems.
-struct Box {
-    Vec2 low;
-    Vec2 high;
-};
-
-/// Outline in metres around the middle of a box, which grows equally on opposite sides to contain the loops.
+/// Outline in metres in the frame of a box.
 Outline outlineOf(const United& united, const Box& box, double em)
 {
-    const Vec2 middle = 0.5 * (box.low + box.high);
-    Vec2 half = 0.5 * (box.high - box.low);
+    GlyphFrame frame(box);
     Outline outline;
     outline.specks_dropped = united.specks;
-    for (Contour loop : united.loops) {
-        for (Vec2& p : loop) {
-            p = p - middle;
-            half = {std::max(half.x, std::abs(p.x)), std::max(half.y, std::abs(p.y))};
-        }
-        outline.loops.push_back(loopOf(loop, em));
+    for (const Contour& loop : united.loops) {
+        outline.loops.push_back(loopOf(frame.place(loop), em));
     }
-    outline.extent = 2.0 * em * half;
+    outline.extent = em * frame.extent();
     return outline;
-}
-
-/// Splits a text into its lines.
-std::vector<std::u32string> linesOf(std::string_view text)
-{
-    std::vector<std::u32string> lines(1);
-    for (const char32_t c : decodeUtf8(text, "the text")) {
-        if (c == '\n') {
-            lines.emplace_back();
-        } else if (c != '\r') {
-            lines.back() += c == '\t' ? U' ' : c;
-        }
-    }
-    return lines;
-}
-
-double startOf(const TextLine& line, double width, TextAlign align)
-{
-    const double room = width - line.advance;
-    switch (align) {
-        case TextAlign::Start:
-            return line.leftward ? room : 0.0;
-        case TextAlign::Centre:
-            return 0.5 * room;
-        case TextAlign::End:
-            break;
-    }
-    return line.leftward ? 0.0 : room;
 }
 
 /// Draws glyphs and unites their contours; each glyph once.
@@ -168,9 +106,7 @@ Outline glyphOutline(const Font& font, GlyphId glyph, const GlyphOptions& option
     requireGlyph(font, glyph);
     const FontFace& face = font.face();
     const DrawnGlyph drawn = face.draw(glyph, flatnessOf(options));
-    const Box box{{std::min(0.0, drawn.advance), face.lines().descender},
-                  {std::max(0.0, drawn.advance), face.lines().ascender}};
-    return outlineOf(unite(drawn.contours, options.speck_size), box, options.em);
+    return outlineOf(unite(drawn.contours, options.speck_size), boxOf(drawn, face.lines()), options.em);
 }
 
 bool hasInk(const Font& font, GlyphId glyph, const GlyphOptions& options)
@@ -197,49 +133,16 @@ TextLayout layOutText(const Font& font, std::string_view text, const TextOptions
 {
     options.validate();
     const FontFace& face = font.face();
-    const std::vector<std::u32string> texts = linesOf(text);
-    TextLayout result;
-    result.lines = texts.size();
-    std::vector<TextLine> lines;
-    double width = 0.0;
-    for (const std::u32string& line : texts) {
-        TextLine laid_out = layOutLine(face, line);
-        // Glyph 0 replaces characters that the font lacks.
-        for (const ShapedGlyph& glyph : laid_out.glyphs) {
-            const char32_t character = line[glyph.character];
-            if (glyph.glyph == 0) {
-                laid_out.advance -= glyph.advance;
-                if (std::find(result.missing.begin(), result.missing.end(), character) == result.missing.end()) {
-                    result.missing.push_back(character);
-                }
-            }
-        }
-        std::erase_if(laid_out.glyphs, [](const ShapedGlyph& glyph) { return glyph.glyph == 0; });
-        width = std::max(width, laid_out.advance);
-        lines.push_back(std::move(laid_out));
-    }
-
+    PlacedText placed = placeText(face, text, options);
     Drawer drawer(face, flatnessOf(options.glyph));
     std::vector<Contour> contours;
-    const double pitch = options.line_spacing * face.lines().pitch;
-    Vec2 pen;
-    for (const TextLine& line : lines) {
-        pen.x = startOf(line, width, options.align);
-        for (const ShapedGlyph& glyph : line.glyphs) {
-            for (Contour contour : drawer(glyph.glyph)) {
-                for (Vec2& p : contour) {
-                    p = p + pen + glyph.offset;
-                }
-                contours.push_back(std::move(contour));
-            }
-            pen.x += glyph.advance;
+    for (const PlacedGlyph& glyph : placed.glyphs) {
+        for (const Contour& contour : drawer(glyph.glyph)) {
+            contours.push_back(moved(contour, glyph.origin));
         }
-        pen.y -= pitch;
     }
-    const double last = -pitch * static_cast<double>(lines.size() - 1);
-    const Box box{{0.0, last + face.lines().descender}, {width, face.lines().ascender}};
-    result.outline = outlineOf(unite(contours, options.glyph.speck_size), box, options.glyph.em);
-    return result;
+    return {outlineOf(unite(contours, options.glyph.speck_size), placed.box, options.glyph.em),
+            std::move(placed.missing), placed.lines};
 }
 
 }  // namespace droplet

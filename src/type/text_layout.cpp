@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "droplet/error.h"
+#include "utf8.h"
 
 namespace droplet {
 namespace {
@@ -97,6 +99,34 @@ void reorder(std::vector<LeveledRun>& runs)
     }
 }
 
+/// Splits a text into its lines.
+std::vector<std::u32string> linesOf(std::string_view text)
+{
+    std::vector<std::u32string> lines(1);
+    for (const char32_t c : decodeUtf8(text, "the text")) {
+        if (c == '\n') {
+            lines.emplace_back();
+        } else if (c != '\r') {
+            lines.back() += c == '\t' ? U' ' : c;
+        }
+    }
+    return lines;
+}
+
+double startOf(const TextLine& line, double width, TextAlign align)
+{
+    const double room = width - line.advance;
+    switch (align) {
+        case TextAlign::Start:
+            return line.leftward ? room : 0.0;
+        case TextAlign::Centre:
+            return 0.5 * room;
+        case TextAlign::End:
+            break;
+    }
+    return line.leftward ? 0.0 : room;
+}
+
 }  // namespace
 
 TextLine layOutLine(const FontFace& face, const std::u32string& text)
@@ -117,6 +147,52 @@ TextLine layOutLine(const FontFace& face, const std::u32string& text)
         line.advance += glyph.advance;
     }
     return line;
+}
+
+PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options)
+{
+    const std::vector<std::u32string> texts = linesOf(text);
+    PlacedText result;
+    result.lines = texts.size();
+    std::vector<TextLine> lines;
+    double width = 0.0;
+    for (const std::u32string& line : texts) {
+        TextLine laid_out = layOutLine(face, line);
+        // Glyph 0 replaces characters that the font lacks.
+        for (const ShapedGlyph& glyph : laid_out.glyphs) {
+            const char32_t character = line[glyph.character];
+            if (glyph.glyph == 0) {
+                laid_out.advance -= glyph.advance;
+                if (std::find(result.missing.begin(), result.missing.end(), character) == result.missing.end()) {
+                    result.missing.push_back(character);
+                }
+            }
+        }
+        std::erase_if(laid_out.glyphs, [](const ShapedGlyph& glyph) { return glyph.glyph == 0; });
+        width = std::max(width, laid_out.advance);
+        lines.push_back(std::move(laid_out));
+    }
+    const double pitch = options.line_spacing * face.lines().pitch;
+    Vec2 pen;
+    for (const TextLine& line : lines) {
+        pen.x = startOf(line, width, options.align);
+        for (const ShapedGlyph& glyph : line.glyphs) {
+            result.glyphs.push_back({glyph.glyph, pen + glyph.offset});
+            pen.x += glyph.advance;
+        }
+        pen.y -= pitch;
+    }
+    const double last = -pitch * static_cast<double>(lines.size() - 1);
+    result.box = {{0.0, last + face.lines().descender}, {width, face.lines().ascender}};
+    return result;
+}
+
+Contour moved(Contour contour, Vec2 by)
+{
+    for (Vec2& p : contour) {
+        p = p + by;
+    }
+    return contour;
 }
 
 }  // namespace droplet

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "droplet/type/glyph.h"
 #include "type/font_face.h"
+#include "type/glyph_frame.h"
 
 namespace droplet {
 
@@ -18,5 +22,26 @@ struct TextLine {
 /// Sets one line of text.
 /// @param text  without line feeds
 TextLine layOutLine(const FontFace& face, const std::u32string& text);
+
+/// Glyph in its place.
+struct PlacedGlyph {
+    GlyphId glyph = 0;
+    Vec2 origin;
+};
+
+/// Glyphs of a text; lengths in ems.
+struct PlacedText {
+    std::vector<PlacedGlyph> glyphs;  ///< in the order in which they are drawn
+    Box box;                          ///< of the lines
+    std::vector<char32_t> missing;    ///< as in TextLayout
+    std::size_t lines = 0;            ///< as in TextLayout
+};
+
+/// Places all glyphs of a text, as layOutText() describes it.
+/// @throws Error  InvalidArgument: text that is not UTF-8
+PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options);
+
+/// A contour, moved.
+Contour moved(Contour contour, Vec2 by);
 
 }  // namespace droplet

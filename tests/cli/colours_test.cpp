@@ -13,6 +13,7 @@
 
 #include "support/colour_pictures.h"
 #include "support/command.h"
+#include "support/fonts.h"
 
 namespace droplet {
 namespace {
@@ -122,6 +123,103 @@ TEST_F(ColoursTest, TintIsTheRegionsColour)
             EXPECT_NEAR(volume["attenuationColor"][2].get<double>(), 0.0, 1e-9);
         }
     }
+}
+
+std::vector<std::string> typeOf(const std::string& text, std::vector<std::string> more)
+{
+    more.insert(more.begin(), {"glyphs", "--font", testing::colourFont(), "--text", text});
+    return more;
+}
+
+TEST_F(ColoursTest, LayersOfFontsAreDroplets)
+{
+    const CommandResult result =
+        made(typeOf("O", {"-o", "o.glb", "--by-colour", "--nodes", "each", "--json", "o.json"}));
+    EXPECT_THAT(result.error, HasSubstr("'O' in Droplet Colours Regular, em 20 mm, 2 colours (--by-colour)"));
+    const json report = reportOf("o.json");
+    EXPECT_EQ(report["input"]["path"], testing::colourFont());
+    EXPECT_EQ(report["input"]["type"]["text"], "O");
+    EXPECT_EQ(report["input"]["palette"][0]["colour"], "#ff0000");
+    EXPECT_EQ(report["input"]["palette"][1]["colour"], "#0066cc");
+    EXPECT_GT(report["input"]["width_px"], 0);
+    ASSERT_EQ(report["droplets"].size(), 2U);
+    double volume = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_EQ(report["droplets"][k]["colour"], report["input"]["palette"][k]["colour"]);
+        volume += report["droplets"][k]["volume_m3"].get<double>();
+    }
+    EXPECT_NEAR(volume, report["shape"]["volume_m3"].get<double>(), 1e-9 * volume);
+    EXPECT_TRUE(report["output"]["closed"]);
+    EXPECT_EQ(report["output"]["components"], 2);
+    const json scene = sceneOf("o.glb");
+    EXPECT_EQ(namesOf(scene["nodes"]), (std::set<std::string>{"red_1", "0066cc_1"}));
+    EXPECT_EQ(namesOf(scene["materials"]), (std::set<std::string>{"red", "0066cc"}));
+}
+
+TEST_F(ColoursTest, PaletteTextColourAndGapAreOptionsOfType)
+{
+    made(typeOf("OP", {"-o", "p.glb", "--by-colour", "--palette", "1", "--text-colour", "navy"}));
+    EXPECT_EQ(namesOf(sceneOf("p.glb")["materials"]), (std::set<std::string>{"009933", "666666", "navy"}));
+    const auto area = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"-o", "g.glb", "--by-colour", "--json", "g.json"});
+        made(typeOf("O", more));
+        return reportOf("g.json")["mesh"]["footprint_area_m2"].get<double>();
+    };
+    const double boundary = (128.0 + 256.0) / 1024.0 * 20e-3;
+    EXPECT_NEAR(area({}) - area({"--gap", "0.2mm"}), boundary * 0.2e-3, 0.05 * boundary * 0.2e-3);
+    EXPECT_THAT(run(typeOf("O", {"-o", "x.glb", "--by-colour", "--palette", "2"})).error,
+                HasSubstr("palette 2 does not exist: the font has palettes 0 to 1"));
+    EXPECT_EQ(run(typeOf("O", {"-o", "x.glb", "--by-colour", "--palette", "few"})).exit_code, 2);
+    EXPECT_EQ(run(typeOf("O", {"-o", "x.glb", "--by-colour", "--text-colour", "few"})).exit_code, 2);
+    EXPECT_EQ(run(typeOf("O", {"-o", "x.glb", "--by-colour", "--equal-height"})).exit_code, 2);
+    for (const std::vector<std::string>& useless :
+         {std::vector<std::string>{"--palette", "1"}, {"--text-colour", "red"}, {"--gap", "1mm"}}) {
+        EXPECT_THAT(made(typeOf("O", {"-o", "x.glb", useless[0], useless[1]})).error,
+                    HasSubstr(useless[0] + " has no effect without --by-colour"));
+    }
+}
+
+// Bytes of the file are those without --by-colour.
+TEST_F(ColoursTest, GlyphsWithoutLayersStayAsTheyAre)
+{
+    made(typeOf("P", {"-o", "without.glb"}));
+    EXPECT_THAT(made(typeOf("P", {"-o", "with.glb", "--by-colour"})).error,
+                HasSubstr("--by-colour has no effect: no glyph of the text has colour layers"));
+    EXPECT_EQ(readFile(at("without.glb")), readFile(at("with.glb")));
+    EXPECT_THAT(made({"glyphs", "--font", testing::kSans, "--text", "o", "-o", "o.glb", "--by-colour"}).error,
+                HasSubstr("--by-colour has no effect: the font has no colour layers (COLR)"));
+}
+
+TEST_F(ColoursTest, SetsOfGlyphsHaveColoursToo)
+{
+    const std::vector<std::string> set{"glyphs",      "--font",      testing::colourFont(), "--charset",
+                                       "OCP01",       "-o",          "{name}.glb",          "--json",
+                                       "{name}.json", "--by-colour", "--keep-going"};
+    const CommandResult result = run(set);
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(result.error, AllOf(HasSubstr("made       3 of 5, 2 failed"),
+                                    HasSubstr("('gradient') has gradients or other paints of COLR version 1"),
+                                    HasSubstr("the colour layers have no ink")));
+    EXPECT_EQ(reportOf("curved.json")["input"]["palette"].size(), 2U);
+    EXPECT_EQ(reportOf("curved.json")["input"]["type"]["glyph_name"], "curved");
+    EXPECT_TRUE(reportOf("plain.json")["input"]["palette"].is_null());
+    made(typeOf("C", {"-o", "text.glb", "--by-colour"}));
+    EXPECT_EQ(readFile(at("text.glb")), readFile(at("curved.glb")));
+}
+
+TEST_F(ColoursTest, RefusesColoursThatAreNotLayers)
+{
+    std::string font = readFile(testing::colourFont());
+    const std::size_t tag = font.find("COLR");
+    for (const std::string other : {"SVG ", "sbix"}) {
+        writeFile(at("other.ttf"), font.replace(tag, 4, other));
+        const CommandResult result =
+            run({"glyphs", "--font", "other.ttf", "--text", "O", "-o", "x.glb", "--by-colour"});
+        EXPECT_EQ(result.exit_code, 3);
+        EXPECT_THAT(result.error, HasSubstr("other.ttf: the font has its colours in the table " + other.substr(0, 3)));
+    }
+    EXPECT_EQ(run(typeOf("1", {"-o", "x.glb", "--by-colour"})).exit_code, 3);
+    EXPECT_EQ(run(typeOf("0", {"-o", "x.glb", "--by-colour"})).exit_code, 3);
 }
 
 TEST_F(ColoursTest, NumberAndGapAreOptions)

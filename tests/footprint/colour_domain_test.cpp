@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "support/colour_footprints.h"
 #include "support/colour_pictures.h"
 #include "support/loops.h"
 
@@ -27,8 +28,11 @@ using testing::kGold;
 using testing::kRed;
 using testing::kWhite;
 using testing::labelled;
+using testing::loopsOf;
+using testing::outerEdges;
 using testing::pie;
 using testing::pixmap;
+using testing::totalArea;
 
 /// A pixel is one millimetre.
 ColourTraceOptions inPixels(std::optional<double> edge = std::nullopt)
@@ -54,49 +58,6 @@ ColourRegions noise(int width, int height, std::uint8_t colours, std::uint8_t dr
         labels.push_back(static_cast<std::uint8_t>(random() % (colours + dry) + 1 - dry));
     }
     return labelled(width, height, std::move(labels), colours);
-}
-
-std::vector<Loop> loopsOf(const ColourDomain& traced)
-{
-    std::vector<Loop> loops;
-    for (const Footprint& footprint : traced.domain.droplets) {
-        loops.push_back(footprint.rim);
-        loops.insert(loops.end(), footprint.holes.begin(), footprint.holes.end());
-    }
-    return loops;
-}
-
-double totalArea(const ColourDomain& traced)
-{
-    double sum = 0.0;
-    for (const Footprint& footprint : traced.domain.droplets) {
-        sum += area(footprint);
-    }
-    return sum;
-}
-
-using Edge = std::tuple<double, double, double, double>;
-
-/// Edges that no neighbour has in the other direction.
-std::vector<Edge> outerEdges(const ColourDomain& traced)
-{
-    std::map<Edge, int> edges;
-    for (const Loop& loop : loopsOf(traced)) {
-        for (std::size_t i = 0; i < loop.points.size(); ++i) {
-            const Vec2 a = loop.points[i];
-            const Vec2 b = loop.points[(i + 1) % loop.points.size()];
-            ++edges[{a.x, a.y, b.x, b.y}];
-        }
-    }
-    std::vector<Edge> outer;
-    for (const auto& [edge, count] : edges) {
-        EXPECT_EQ(count, 1) << "an edge of two droplets on the same side";
-        const auto& [ax, ay, bx, by] = edge;
-        if (edges.count({bx, by, ax, ay}) == 0) {
-            outer.push_back(edge);
-        }
-    }
-    return outer;
 }
 
 /// Largest distance of a free edge from the picture's border [m].

@@ -18,11 +18,17 @@
 #include "droplet/footprint/mask.h"
 #include "droplet/type/font.h"
 #include "droplet/vector.h"
+#include "support/paths.h"
 
 namespace droplet::testing {
 
 inline constexpr const char* kSans = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 inline constexpr const char* kSerif = "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf";
+/// Squares and discs with colour layers, made by tests/type/make_colour_font.py.
+inline std::string colourFont()
+{
+    return inSource("tests/type/colour.ttf");
+}
 inline constexpr const char* kVariable = "/usr/share/fonts/truetype/inter-vf/Inter.var.ttf";
 
 inline std::vector<std::byte> bytesOf(const char* path)

@@ -30,10 +30,10 @@ Contour backward(Contour contour)
     return {contour.rbegin(), contour.rend()};
 }
 
-double totalArea(const United& united)
+double totalArea(const std::vector<Contour>& loops)
 {
     double sum = 0.0;
-    for (const Contour& loop : united.loops) {
+    for (const Contour& loop : loops) {
         sum += polygonArea(loop);
     }
     return sum;
@@ -53,6 +53,53 @@ TEST(ContourUnion, OverlappingContoursAreOneLoop)
     EXPECT_EQ(unite({b, a, a}, 0.0).loops, united.loops);
 }
 
+TEST(ContourUnion, EnclosedLoopsMayTouch)
+{
+    const Contour a = square({0, 0}, 1.0);
+    EXPECT_EQ(totalArea(enclosed({a, square({1, 1}, 1.0), square({0.5, 0.5}, 0.5)})), 2.0);
+    EXPECT_TRUE(enclosed({}).empty());
+    EXPECT_TRUE(enclosed({{}, {{0, 0}, {1, 0}}}).empty());
+}
+
+TEST(ContourUnion, PartsAddUpToTheWhole)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    for (int round = 0; round < 50; ++round) {
+        const auto star = [&] {
+            Contour contour;
+            for (int i = 0; i < 12; ++i) {
+                contour.push_back({place(random), place(random)});
+            }
+            return enclosed({contour});
+        };
+        const std::vector<Contour> a = star();
+        const std::vector<Contour> b = star();
+        const Parts parts = divide(a, b, 0.0);
+        EXPECT_NEAR(totalArea(parts.inside) + totalArea(parts.outside), totalArea(a), 1e-6);
+        EXPECT_NEAR(totalArea(parts.inside), totalArea(divide(b, a, 0.0).inside), 1e-6);
+        EXPECT_NEAR(totalArea(divide(parts.outside, b, 0.0).inside), 0.0, 1e-6);
+        EXPECT_TRUE(parts.slivers.empty());
+    }
+}
+
+// A hairline beside the edge of what covers a square is a sliver; a line that was drawn as thin is not.
+TEST(ContourUnion, SliversAreNarrowOnlyWhereTheWholeIsWide)
+{
+    const double narrow = 1.0 / 64.0;
+    const std::vector<Contour> whole = enclosed({square({0, 0}, 1.0)});
+    const Parts hairline = divide(whole, enclosed({square({1.0 / 128.0, -1.0}, 3.0)}), narrow);
+    EXPECT_NEAR(totalArea(hairline.slivers), 1.0 / 128.0, 1e-6);
+    EXPECT_TRUE(hairline.outside.empty());
+    const Parts stripe = divide(whole, enclosed({square({1.0 / 32.0, -1.0}, 3.0)}), narrow);
+    EXPECT_TRUE(stripe.slivers.empty());
+    EXPECT_NEAR(totalArea(stripe.outside), 1.0 / 32.0, 1e-6);
+    const Contour line{{0, 0}, {1, 0}, {1, 1.0 / 128.0}, {0, 1.0 / 128.0}};
+    const Parts drawn = divide(enclosed({line}), enclosed({square({0.5, -1.0}, 3.0)}), narrow);
+    EXPECT_TRUE(drawn.slivers.empty());
+    EXPECT_NEAR(totalArea(drawn.outside), 0.5 / 128.0, 1e-6);
+}
+
 TEST(ContourUnion, HolesAreContoursInTheOppositeDirection)
 {
     const Contour outer = square({0, 0}, 1.0);
@@ -62,7 +109,7 @@ TEST(ContourUnion, HolesAreContoursInTheOppositeDirection)
     EXPECT_EQ(polygonArea(ring.loops[0]), 1.0);
     EXPECT_EQ(polygonArea(ring.loops[1]), -0.25);
     EXPECT_EQ(unite({backward(outer), inner}, 0.0).loops, ring.loops);
-    EXPECT_EQ(totalArea(unite({outer, inner}, 0.0)), 1.0) << "twice around is inside";
+    EXPECT_EQ(totalArea(unite({outer, inner}, 0.0).loops), 1.0) << "twice around is inside";
     EXPECT_EQ(unite({outer, backward(outer)}, 0.0).loops, std::vector<Contour>{});
 }
 
@@ -97,8 +144,8 @@ TEST(ContourUnion, LoopsThatTouchAreSeparatedByASmallGap)
         const United united = unite(contours, 0.0);
         EXPECT_EQ(united.loops.size(), loops);
         EXPECT_GT(minGap(united.loops), 0.5 * kGap);
-        EXPECT_LT(totalArea(united), area);
-        EXPECT_GT(totalArea(united), area - 10.001 * kGap) << "at most half a gap on all sides";
+        EXPECT_LT(totalArea(united.loops), area);
+        EXPECT_GT(totalArea(united.loops), area - 10.001 * kGap) << "at most half a gap on all sides";
     }
 }
 
@@ -129,7 +176,7 @@ TEST(ContourUnion, SpecksAreDroppedAndCounted)
     const United united = unite(contours, 5e-4);
     EXPECT_EQ(united.loops.size(), 2U);
     EXPECT_EQ(united.specks, 2U);
-    EXPECT_NEAR(totalArea(united), 1.01, 1e-6) << "a dry speck is filled";
+    EXPECT_NEAR(totalArea(united.loops), 1.01, 1e-6) << "a dry speck is filled";
 }
 
 TEST(ContourUnion, PointsAreInsideWhereContoursWindAroundThem)

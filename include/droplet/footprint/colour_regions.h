@@ -40,15 +40,22 @@ struct PaletteColour {
     std::size_t pixels = 0;  ///< number of its pixels
 };
 
+/// Two colours of a pixel whose areas are known.
+struct PixelMixture {
+    std::uint8_t other = 0;    ///< label of the second colour; 0 for none
+    std::uint8_t share = 255;  ///< of the pixel's label, beside the second colour; 255 all
+};
+
 /// Picture whose pixels are sorted by colour.
-/// Invariants: label, is_blend and colour have width · height entries; alpha too, or none; a label is 0 for dry, or 1 +
-/// index in the palette.
+/// Invariants: label has width · height entries; alpha too, or none; either is_blend and colour, or mixture and alpha
+/// have as many. A label is 0 for dry, or 1 + index in the palette.
 struct ColourRegions {
     int width = 0;                                    ///< [px]
     int height = 0;                                   ///< [px]
     std::vector<std::uint8_t> label;                  ///< row by row from the top left
     std::vector<std::uint8_t> is_blend;               ///< 1 for a pixel at a rim that mixes the colours on both sides
     std::vector<std::array<std::uint8_t, 3>> colour;  ///< of every pixel, sRGB
+    std::vector<PixelMixture> mixture;                ///< of every pixel of a drawing, whose areas are exact
     std::vector<std::uint16_t> alpha;                 ///< where that says what is dry; 65535 opaque
     std::vector<PaletteColour> palette;               ///< colours of the liquid, the one with most pixels first
     std::optional<CssColour> background;              ///< colour of what is dry, if it has one

@@ -41,7 +41,8 @@ struct TypeReport {
 /// Input: a picture and how it was read, or a font with its text.
 struct InputReport {
     std::string path;                 ///< as given
-    std::optional<TypeReport> type;   ///< for a font; of the members below, only specks_dropped then has a meaning
+    std::optional<TypeReport> type;   ///< for a font; of the members below, only specks_dropped then has a meaning, and
+                                      ///< for droplets by colour the palette and the number and size of pixels
     int width_px = 0;                 ///< as in Mask [px]
     int height_px = 0;                ///< as in Mask [px]
     bool drawn = false;               ///< SVG image; it was drawn with the pixels above

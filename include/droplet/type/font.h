@@ -37,6 +37,7 @@ struct AxisSetting {
 struct FontOptions {
     std::size_t face_index = 0;     ///< index of the font in a collection, from 0
     std::vector<AxisSetting> axes;  ///< if a tag occurs twice, the later one counts
+    std::size_t palette = 0;        ///< index of the palette of a colour font, from 0
 };
 
 /// Open font: an immutable value that is cheap to copy. Several threads may use copies at the same time.
@@ -59,6 +60,13 @@ public:
     /// Name of a glyph in the font, such as `ampersand`; `glyph` and its index if it has no name.
     [[nodiscard]] std::string nameOf(GlyphId glyph) const;
 
+    /// Whether glyphs may have layers in flat colours: table COLR.
+    [[nodiscard]] bool hasColourLayers() const;
+
+    /// Tag of the first table with colours that are not layers, and are not read: `SVG`, `sbix`, `CBDT`; empty if there
+    /// is none.
+    [[nodiscard]] std::string otherColours() const;
+
     /// Face behind the font; for the library alone.
     [[nodiscard]] const FontFace& face() const { return *face_; }
 
@@ -68,10 +76,9 @@ private:
 
 /// Opens a font with outlines: TrueType, OpenType, collections of them, WOFF, Type 1.
 /// @param encoded  bytes of a font file
-/// @param options  font of a collection, values of axes
-/// @throws Error   InvalidInput: not such a font, or a bitmap font; InvalidArgument: a face or axis that the font does
-/// not
-///                 have, or a value out of range; the message lists what exists
+/// @param options  font of a collection, values of axes, palette
+/// @throws Error   InvalidInput: not such a font, or a bitmap font; InvalidArgument: a face, axis or palette that the
+///                 font does not have, or a value out of range; the message lists what exists
 Font decodeFont(std::span<const std::byte> encoded, const FontOptions& options = {});
 
 /// Opens a font file as decodeFont() does. Errors name the file.

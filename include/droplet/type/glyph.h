@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "droplet/footprint/css_colour.h"
 #include "droplet/footprint/outline.h"
 #include "droplet/type/font.h"
 
@@ -13,10 +14,12 @@ namespace droplet {
 
 /// Options for outlines of glyphs.
 struct GlyphOptions {
-    double em = 20e-3;                ///< edge of the em square (the font size) [m], > 0
-    std::optional<double> tolerance;  ///< largest distance of a polyline from its curve [m], > 0; empty: em/20000.
-                                      ///< Smaller values than em/2²⁶ count as that
-    double speck_size = 1e-5;         ///< smallest area of a loop that is kept [em²], ≥ 0
+    double em = 20e-3;                     ///< edge of the em square (the font size) [m], > 0
+    std::optional<double> tolerance;       ///< largest distance of a polyline from its curve [m], > 0; empty: em/20000.
+                                           ///< Smaller values than em/2²⁶ count as that
+    double speck_size = 1e-5;              ///< smallest area of a loop that is kept [em²], ≥ 0
+    CssColour text_colour{255, 255, 255};  ///< of glyphs and layers without a colour of their own, where areas of
+                                           ///< colour are made
 
     /// Checks all options.
     /// @throws Error InvalidArgument
