@@ -204,7 +204,8 @@ std::string refusal(const SheetResult& result, const Refused& refused)
 struct Shape {
     std::vector<HeightField> fields;  ///< one per droplet, or empty
     std::optional<SheetResult> sheet;
-    SolveReport report;  ///< of the height fields
+    SolveReport report;                 ///< of the height fields
+    std::optional<double> lesser = {};  ///< mean contact angle, if they have less liquid than was wanted [rad]
 };
 
 /// Height fields of droplets, and how they were found.
@@ -216,6 +217,35 @@ Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
         shape.fields = std::move(solution.droplets);
     }
     return shape;
+}
+
+/// Whether height fields go on where the work for a sheet ended.
+bool reachesFurther(const Shape& shape)
+{
+    return shape.sheet->end == SheetEnd::OutOfWork && shape.report.largest_volume > shape.sheet->volume;
+}
+
+/// Height fields with the most liquid that was reached, if there are any.
+Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, Shape shape)
+{
+    constexpr double kSurely = 0.95;  // of the last equilibrium: Newton's method starts anew
+    SolveOptions less = options;
+    less.volumes.clear();
+    less.fill.by = FillBy::Volume;
+    less.fill.amount = kSurely * shape.report.largest_volume;
+    Shape lesser = solveFields(meshes, less);
+    if (lesser.fields.empty()) {
+        return shape;
+    }
+    double turned = 0.0;
+    double rim_length = 0.0;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const ShapeFigures figures = measure(meshes[k], lesser.fields[k], options);
+        turned += figures.contact_angle.mean * figures.rim_length;
+        rim_length += figures.rim_length;
+    }
+    lesser.lesser = turned / rim_length;
+    return lesser;
 }
 
 /// Shape of droplets at one pressure, which may hang over their rims.
@@ -240,10 +270,16 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {
         SolveOptions limited = options;
-        limited.max_work = options.max_work.value_or(kMaxWork);
+        // Where a mask full of holes takes too many triangles for a sheet, height fields are all there is.
+        const bool is_lost = shape.sheet->end == SheetEnd::OutOfWork && shape.sheet->volume == 0.0;
+        if (!is_lost) {
+            limited.max_work = options.max_work.value_or(kMaxWork);
+        }
         Shape upright = solveFields(meshes, limited);
         upright.sheet = std::move(shape.sheet);
-        return upright;
+        return upright.fields.empty() && reachesFurther(upright) && effort != SheetEffort::Full
+                   ? lesserFields(meshes, options, std::move(upright))
+                   : upright;
     }
     return shape;
 }
@@ -505,6 +541,10 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             for (std::size_t i = 0; i < groups[g].size(); ++i) {
                 solution.droplets[groups[g][i]] = std::move(shape.fields[i]);
             }
+            if (shape.lesser) {
+                shapes.with_less += groups[g].size();
+                shapes.least_angle = std::min(shapes.least_angle, *shape.lesser);
+            }
         } else if (!shape.sheet) {
             throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, refused));
         } else {
@@ -515,7 +555,8 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                     }
                 }
                 if (!allow_less) {
-                    throw Error(ErrorCode::NoSuchDroplet, refusal(*shape.sheet, refused));
+                    throw Error(ErrorCode::NoSuchDroplet, reachesFurther(shape) ? refusal(shape.report, refused)
+                                                                                : refusal(*shape.sheet, refused));
                 }
                 if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
                     shape.sheet->contact_angle < kLeastShare * options.fill.amount) {

@@ -40,6 +40,8 @@ constexpr double kWork = 1500.0;
 /// a cock of 8000 took 1.4e9.
 constexpr double kLeastFullWork = 1e10;
 constexpr double kLeastWork = 2e8;
+/// Most work of a full effort, one and a half minutes: masks full of holes take a hundred thousand triangles and more.
+constexpr double kMostWork = 4e10;
 /// Turn of the rim at a corner [rad].
 constexpr double kCorner = 0.5;
 /// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
@@ -193,7 +195,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     SheetOptions sheet_options{weightOf(options),
                                kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
-    const double work = kWork * std::pow(triangles, 1.5);
+    const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
     sheet_options.max_work = effort == SheetEffort::Full ? std::max(kLeastFullWork, work)
                                                          : (effort == SheetEffort::Modest ? kModestWork : kSlightWork) *
                                                                std::max(kLeastWork, work);

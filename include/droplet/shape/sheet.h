@@ -62,7 +62,7 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited, to about half a minute at 40 000 triangles. An end is confirmed on the final triangles,
+/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number. An end is confirmed on the final triangles,
 /// that of a footprint of up to 10 000 triangles on edges half as long.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
