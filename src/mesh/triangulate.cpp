@@ -44,6 +44,9 @@ constexpr int kMaxGrading = 64;
 /// Edges per layer from which even triangles do: heights of wide puddles are then 0.25 % too low at 40°.
 constexpr double kEdgesPerLayer = 6.0;
 
+/// Layers that fit into the area over the length of the rim from which on liquid is wide: a disc of a radius of 4.
+constexpr double kWide = 2.0;
+
 /// Growth of the edges, from the rim inward.
 struct Growth {
     int longest = 1;     ///< times the edges along the rim
@@ -215,7 +218,13 @@ int gradingOf(const Domain& domain, const TriangulateOptions& options)
     if (options.grading || options.edge || !options.layer) {
         return options.grading.value_or(1);
     }
-    return kEdgesPerLayer * evenEdge(areaOf(domain), options.triangles) > *options.layer ? kMaxGrading : 1;
+    const double total_area = areaOf(domain);
+    double rim_length = 0.0;
+    for (const Footprint& footprint : domain.droplets) {
+        rim_length += rimLength(footprint);
+    }
+    const bool is_wide = total_area > kWide * *options.layer * rim_length;
+    return is_wide && kEdgesPerLayer * evenEdge(total_area, options.triangles) > *options.layer ? kMaxGrading : 1;
 }
 
 std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptions& options)

@@ -277,7 +277,7 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         }
         Shape upright = solveFields(meshes, limited);
         upright.sheet = std::move(shape.sheet);
-        return upright.fields.empty() && reachesFurther(upright) && effort != SheetEffort::Full
+        return upright.fields.empty() && reachesFurther(upright) && effort == SheetEffort::Modest
                    ? lesserFields(meshes, options, std::move(upright))
                    : upright;
     }

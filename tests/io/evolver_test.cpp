@@ -639,7 +639,7 @@ INSTANTIATE_TEST_SUITE_P(Situations, EvolverAndUs,
                                            Situation{"Standing", 9.81, 0.0, {}, 40e-9},
                                            Situation{"OnASlope", 9.81, 50.0, {}, 30e-9},
                                            Situation{"Hanging", 9.81, 180.0, {}, 20e-9},
-                                           Situation{"OnWavesOnAWall", 9.81, 90.0, kWavyGround, 30e-9},
+                                           Situation{"OnWavesOnAWall", 9.81, 90.0, kWavyGround, 28e-9},
                                            Situation{"Sharing", 9.81, 20.0, kWavyGround, 50e-9, FillSharing::Total}),
                          [](const ::testing::TestParamInfo<Situation>& info) { return info.param.name; });
 

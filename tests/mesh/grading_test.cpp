@@ -129,6 +129,8 @@ TEST(Grading, IsChosenByTheLayer)
 {
     const Domain disc = domainOf(ellipseLoop(1, 1));
     const double edge = std::sqrt(4.0 * std::numbers::pi / (std::numbers::sqrt3 * 5000.0));
+    const double few = std::sqrt(4.0 * std::numbers::pi / (std::numbers::sqrt3 * 50.0));
+    EXPECT_EQ(gradingOf(disc, {.triangles = 50, .edge = {}, .grading = {}, .layer = few}), 1);  // narrow
     EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}}), 1);
     EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}, .grading = {}, .layer = 6.01 * edge}), 1);
     EXPECT_EQ(gradingOf(disc, {.triangles = 5000, .edge = {}, .grading = {}, .layer = 5.99 * edge}), 64);
