@@ -197,8 +197,8 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--nodes", "one|each",
-             "Nodes in glTF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its figures "
-             "[one]");
+             "Nodes in glTF and USD: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
+             "figures [one]");
     line.add("Surface", "--materials", "FILE",
              "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",

@@ -197,6 +197,20 @@ TEST_F(ColoursTest, MaterialsComeFromAFile)
                 HasSubstr("--materials m.toml has no effect: ply files have no material"));
 }
 
+TEST_F(ColoursTest, UsdHasNodesAndMaterials)
+{
+    const auto warned = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"two.pgm", "m.usda"});
+        EXPECT_THAT(made(options).error, ::testing::Not(HasSubstr("warning")));
+        return readFile(at("m.usda"));
+    };
+    writeFile(at("m.toml"), "[[droplet]]\nindex = 2\nmaterial = \"plain\"\nior = 1.4\n");
+    EXPECT_THAT(warned({"--materials", "m.toml"}),
+                AllOf(HasSubstr("def GeomSubset \"water\""), HasSubstr("def GeomSubset \"plain_ior_1_4\"")));
+    EXPECT_THAT(warned({"--nodes", "each"}), AllOf(HasSubstr("def Mesh \"droplet_1\""),
+                                                   HasSubstr("def Mesh \"droplet_2\""), HasSubstr("volume_m3 = ")));
+}
+
 TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
 {
     const auto refused = [&](const std::string& text, const std::string& why) {
@@ -230,8 +244,12 @@ TEST_F(ColoursTest, PictureTintsTheLiquid)
     const json& view = scene["bufferViews"][scene["images"][0]["bufferView"].get<std::size_t>()];
     const std::string bytes = readFile(at("map.glb"));
     EXPECT_EQ(bytes.substr(bytes.find("BIN") + 4 + view["byteOffset"].get<std::size_t>(), 4), "\x89PNG");
+    made({"pie.ppm", "map.usdz", "--colour-map"});
+    EXPECT_THAT(readFile(at("map.usdz")), AllOf(HasSubstr("picture.png@"), HasSubstr("\x89PNG")));
     EXPECT_THAT(made({"pie.ppm", "map.stl", "--colour-map"}).error,
                 HasSubstr("--colour-map has no effect: stl files have no texture"));
+    EXPECT_THAT(made({"pie.ppm", "map.usda", "--colour-map"}).error,
+                HasSubstr("--colour-map has no effect: usda files have no texture; usdz files have one"));
 }
 
 TEST_F(ColoursTest, PreviewShowsTheColours)

@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "droplet/io/compression.h"
+#include "droplet/io/file_droplet.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
-
-/// Name, look and figures of a droplet in a file.
-struct FileDroplet {
-    std::string name;            ///< of its node in glTF
-    Look look;                   ///< of its liquid; droplets with the same look share a material
-    double volume = 0.0;         ///< [m³]
-    double contact_angle = 0.0;  ///< mean along the rim [rad]
-    double height_max = 0.0;     ///< [m]
-    double pressure = 0.0;       ///< at height 0 [Pa]
-};
-
-/// Nodes of a glTF file.
-enum class Nodes {
-    One,  ///< all droplets are one mesh
-    Each  ///< every droplet has a mesh and a node
-};
 
 /// Options of a glTF file.
 struct GltfOptions {
