@@ -176,15 +176,6 @@ void readCompression(const CommandLine& line, ShapeOptions& options)
     if (options.settings.droplet.fill_range) {
         refuse("--compress and --fill-range exclude each other: the changes of a slider are not compressed");
     }
-    const auto clash = [&](bool is_given, const std::string& option) {
-        if (is_given) {
-            refuse("--compress and " + option + " exclude each other: only a file of one look is compressed");
-        }
-    };
-    clash(options.settings.nodes == droplet::Nodes::Each, "--nodes each");
-    clash(options.settings.materials.has_value(), "--materials");
-    clash(options.settings.colour_map, "--colour-map");
-    clash(line.knows("--by-colour") && line.flag("--by-colour"), "--by-colour");
 }
 
 }  // namespace

@@ -85,10 +85,6 @@ void checkCompression(const Surface& surface, const GltfOptions& options)
                     std::string("options.compression = ") + name(options.compression) + " needs " +
                         (options.binary ? "a surface without a refill: its changes are floats" : "a GLB"));
     }
-    if (options.compression != Compression::None && (!options.droplets.empty() || !options.texture.empty())) {
-        throw Error(ErrorCode::InvalidArgument, std::string("options.compression = ") + name(options.compression) +
-                                                    " needs a surface of one look, without droplets and texture");
-    }
 }
 
 // Checks the range of floats before the first byte is written. Bounds cover positions; normals are unit vectors.

@@ -211,6 +211,38 @@ TEST_F(ColoursTest, UsdHasNodesAndMaterials)
                                                    HasSubstr("def Mesh \"droplet_2\""), HasSubstr("volume_m3 = ")));
 }
 
+// All that reads a GLB reads a compressed one, within the error that the report states.
+TEST_F(ColoursTest, FilesOfSeveralLooksAreCompressed)
+{
+    writeFile(at("m.toml"), "[[droplet]]\nindex = 2\nmaterial = \"honey\"\n");
+    const std::vector<std::vector<std::string>> kinds{{"pie.ppm", "f.glb", "--by-colour"},
+                                                      {"pie.ppm", "f.glb", "--by-colour", "--nodes", "each"},
+                                                      {"two.pgm", "f.glb", "--materials", "m.toml"},
+                                                      {"two.pgm", "f.glb", "--colour-map"}};
+    for (std::vector<std::string> kind : kinds) {
+        SCOPED_TRACE(kind.back());
+        made(kind);
+        for (const char* compression : {"quantize", "meshopt"}) {
+            kind[1] = "compressed.glb";
+            kind.insert(kind.end(), {"--compress", compression, "--json", "r.json"});
+            made(kind);
+            kind.resize(kind.size() - 4);
+            EXPECT_EQ(namesOf(sceneOf("compressed.glb")["nodes"]), namesOf(sceneOf("f.glb")["nodes"]));
+            EXPECT_EQ(namesOf(sceneOf("compressed.glb")["materials"]), namesOf(sceneOf("f.glb")["materials"]));
+            EXPECT_LT(readFile(at("compressed.glb")).size(), readFile(at("f.glb")).size());
+            const double error = reportOf("r.json")["output"]["position_error_m"];
+            EXPECT_GT(error, 0.0);
+            EXPECT_LT(error, 0.3e-6);
+            testing::CommandOptions options;
+            options.directory = at("");
+            const CommandResult compared = runDroplet(
+                {"compare", "f.glb", "compressed.glb", "--tolerance", std::to_string(1e9 * error + 1.0) + "nm"},
+                options);
+            EXPECT_EQ(compared.exit_code, 0) << compared.output << compared.error;
+        }
+    }
+}
+
 TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
 {
     const auto refused = [&](const std::string& text, const std::string& why) {

@@ -133,6 +133,24 @@ TEST(Three, SeesTheSameLooksInEveryFormat)
                 }
             }
         }
+        for (const char* compression : {"quantize", "meshopt"}) {
+            std::vector<std::string> compress = options;
+            compress.insert(compress.end(), {"--compress", compression});
+            const auto compressed = seen("compressed.glb", compress);
+            ASSERT_THAT(compressed, SizeIs(3)) << compression;
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_EQ(compressed.at(k).at("places"), glb.at(k).at("places"));
+                EXPECT_EQ(compressed.at(k).at("open_edges"), 0);
+                EXPECT_EQ(compressed.at(k).at("name"), glb.at(k).at("name"));
+                EXPECT_EQ(compressed.at(k).at("material").at("name"), glb.at(k).at("material").at("name"));
+                EXPECT_EQ(compressed.at(k).at("material").at("depth_colour"),
+                          glb.at(k).at("material").at("depth_colour"));
+                const double thickness = glb.at(k).at("material").at("thickness");
+                EXPECT_NEAR(compressed.at(k).at("material").at("thickness"), thickness, 1e-6 * thickness);
+                EXPECT_NEAR(compressed.at(k).at("volume"), glb.at(k).at("volume"),
+                            1e-4 * glb.at(k).at("volume").get<double>());
+            }
+        }
     }
     const auto tinted = seen("tinted.usdz", {"--colour-map"});
     ASSERT_THAT(tinted, SizeIs(1));

@@ -21,7 +21,7 @@ struct GltfOptions {
     Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
     std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
-    Compression compression = Compression::None;  ///< only of a GLB without a refill, droplets and texture
+    Compression compression = Compression::None;  ///< only of a GLB without a refill
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -41,8 +41,8 @@ struct GltfOptions {
 /// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
 /// it, as KHR_materials_transmission says.
 ///
-/// A compressed file requires the extensions of its Compression, and its node has a scale and a translation. Meshopt
-/// gives vertices and triangles another order.
+/// A compressed file requires the extensions of its Compression, and its nodes have one scale and one translation, so
+/// that vertices that droplets share stay together. Meshopt gives vertices and triangles another order.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
