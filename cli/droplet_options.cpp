@@ -533,7 +533,7 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     }
     const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
     const bool is_usd = format == droplet::Format::Usda || format == droplet::Format::Usdz;
-    if (settings.colour_map && !is_gltf && format != droplet::Format::Usdz) {
+    if (settings.colour_map && !is_gltf && format != droplet::Format::Usdz && !is_shown) {
         settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
                                     " files have no texture" + (is_usd ? "; usdz files have one" : ""));
     }

@@ -206,7 +206,8 @@ void declareShapes(CommandLine& line)
     declareFootprint(line);
     declareByColour(line);
     declareDroplets(line);
-    line.addFlag("Surface", "--colour-map", "Lay the picture on the liquid, as a tint in glTF");
+    line.addFlag("Surface", "--colour-map",
+                 "Lay the picture on the liquid, as a tint in glTF, USDZ, previews and the page");
     line.exclude({"--by-colour", "--colour-map"});
 }
 

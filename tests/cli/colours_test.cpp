@@ -284,6 +284,22 @@ TEST_F(ColoursTest, PictureTintsTheLiquid)
                 HasSubstr("--colour-map has no effect: usda files have no texture; usdz files have one"));
 }
 
+TEST_F(ColoursTest, PreviewAndPageShowTheMap)
+{
+    const auto preview = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"pie.ppm", "a.stl", "--preview", "a.png", "--preview-size", "64x48"});
+        EXPECT_THAT(made(options).error, ::testing::Not(HasSubstr("warning")));
+        return readFile(at("a.png"));
+    };
+    EXPECT_NE(preview({"--colour-map"}), preview({}));
+    EXPECT_NE(preview({"--colour-map", "--material", "plain"}), preview({"--material", "plain"}));
+    EXPECT_THAT(made({"pie.ppm", "a.stl", "--colour-map", "--html", "a.html"}).error,
+                ::testing::Not(HasSubstr("warning")));
+    // The page holds the GLB with its picture as base64.
+    made({"pie.ppm", "a.stl", "--html", "b.html"});
+    EXPECT_GT(readFile(at("a.html")).size(), readFile(at("b.html")).size() + 100);
+}
+
 TEST_F(ColoursTest, PreviewShowsTheColours)
 {
     made({"pie.ppm", "a.glb", "--by-colour", "--preview", "a.png", "--preview-size", "64x48"});
