@@ -261,7 +261,14 @@ TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
     refused("[[droplet]]\nindex = 1\nior = 0.9\n", "ior must be a number from 1 to 4");
     refused("[[droplet]\n", "m.toml:1:");
     EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "missing.toml"}).error,
-                HasSubstr("--materials: missing.toml cannot be read"));
+                HasSubstr("--materials: missing.toml cannot be read: No such file"));
+    EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "."}).error,
+                HasSubstr("--materials: . cannot be read: Is a directory"));
+    for (const char* nothing : {"", "# nothing\n"}) {
+        writeFile(at("m.toml"), nothing);
+        EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "m.toml"}).error,
+                    HasSubstr("--materials: m.toml has no table [[droplet]]"));
+    }
     writeFile(at("m.toml"), "[[droplet]]\nindex = 7\n");
     EXPECT_THAT(made({"two.pgm", "x.glb", "--materials", "m.toml"}).error,
                 HasSubstr("m.toml names droplet 7, but there are only 2"));
