@@ -537,15 +537,13 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     if (settings.materials && !has_material && !is_shown) {
         warn({settings.materials->path, "--materials"}, "have no material");
     }
-    if (settings.materials && (format == droplet::Format::Usda || format == droplet::Format::Usdz)) {
-        warn({settings.materials->path, "--materials"}, "have one material");
-    }
     const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
-    if (settings.colour_map && !is_gltf) {
+    const bool is_usd = format == droplet::Format::Usda || format == droplet::Format::Usdz;
+    if (settings.colour_map && !is_gltf && format != droplet::Format::Usdz && !is_shown) {
         settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
-                                    " files have no texture");
+                                    " files have no texture" + (is_usd ? "; usdz files have one" : ""));
     }
-    if (settings.nodes == droplet::Nodes::Each && !is_gltf) {
+    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd) {
         warn({"each", "--nodes"}, "have no nodes");
     }
 }

@@ -150,6 +150,9 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     }
     report_.size = high - low;
     report_.output = options_.output;
+    if (options_.preset) {
+        report_.preset = options_.preset->name;
+    }
     report_.start = options_.start;
     report_.parameters = plan_.parameters;
     report_.shape = options_.shape;

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
-#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -41,6 +41,9 @@ public:
                 materials.entries.push_back(entryOf(*table.as_table()));
             }
         }
+        if (materials.entries.empty()) {
+            cli::refuse(fmt::format("--materials: {} has no table [[droplet]]", path_));
+        }
         return materials;
     }
 
@@ -48,13 +51,15 @@ private:
     [[nodiscard]] toml::table parse() const
     {
         std::ifstream file(path_);
-        std::ostringstream text;
-        text << file.rdbuf();
-        if (!file || text.fail()) {
+        std::string text;
+        for (std::string line; std::getline(file, line);) {
+            text += line + "\n";
+        }
+        if (!file.eof()) {
             cli::refuse(fmt::format("--materials: {} cannot be read: {}", path_, std::strerror(errno)));
         }
         try {
-            return toml::parse(text.str());
+            return toml::parse(text);
         } catch (const toml::parse_error& error) {
             cli::refuse(fmt::format("--materials: {}:{}: {}", path_, error.source().begin.line, error.description()));
         }

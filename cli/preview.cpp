@@ -88,6 +88,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     }
     render.look = subject.look;
     render.looks = subject.looks;
+    render.colour_map = subject.colour_map;
     render.extent = subject.extent;
     render.ground = subject.ground;
     render.environment = subject.light;

@@ -41,6 +41,7 @@ struct PreviewSubject {
     const droplet::Surface& surface;
     droplet::Look look;
     std::vector<droplet::Look> looks;            ///< one per droplet; empty: `look` for all
+    std::optional<droplet::Picture> colour_map;  ///< picture on the liquid
     droplet::Vec2 extent;                        ///< extent of its picture [m]
     std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
     std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read

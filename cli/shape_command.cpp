@@ -131,9 +131,17 @@ std::vector<droplet::FileDroplet> fileDroplets(const Droplet& droplet, DropletSe
     return all;
 }
 
+/// What is written beside the surface.
+struct Extras {
+    std::vector<droplet::FileDroplet> droplets;
+    std::optional<PreviewSubject> subject;
+    std::optional<OutputFile> mask;
+    std::string texture;  ///< bytes of a PNG, or empty
+};
+
 /// Writes the page with the droplet as a GLB.
-void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options,
-               const std::vector<droplet::FileDroplet>& droplets, const droplet::Report& report)
+void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options, const Extras& extras,
+               const droplet::Report& report)
 {
     droplet::PageContent page;
     if (report.input.type && report.input.type->text) {
@@ -143,7 +151,10 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
     }
     std::ostringstream glb;
     droplet::writeGltf(surface, glb,
-                       {true, options.settings.material, report.output.topology.closed, droplet::Nodes::One, droplets});
+                       {.material = options.settings.material,
+                        .closed = report.output.topology.closed,
+                        .droplets = extras.droplets,
+                        .texture = extras.texture});
     page.glb = std::move(glb).str();
     std::ostringstream json;
     droplet::writeReport(json, report);
@@ -153,12 +164,12 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 
 /// Subject of the preview.
 PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, std::vector<droplet::Look> looks,
-                         const Surroundings& around)
+                         const std::optional<droplet::Picture>& colour_map, const Surroundings& around)
 {
-    PreviewSubject subject{droplet.surface,  droplet::lookOf(settings.material),
-                           std::move(looks), droplet.domain.extent,
-                           around.below,     around.light,
-                           around.object};
+    PreviewSubject subject{droplet.surface,       droplet::lookOf(settings.material),
+                           std::move(looks),      colour_map,
+                           droplet.domain.extent, around.below,
+                           around.light,          around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
     subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
@@ -166,14 +177,6 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     }
     return subject;
 }
-
-/// What is written beside the surface.
-struct Extras {
-    std::vector<droplet::FileDroplet> droplets;
-    std::optional<PreviewSubject> subject;
-    std::optional<OutputFile> mask;
-    std::string texture;  ///< bytes of a PNG, or empty
-};
 
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
 void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
@@ -208,7 +211,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                              if (refill) {
                                  droplet.surface.refill.swap(refill);
                              }
-                             writeHtml(out, droplet.surface, options, extras.droplets, report);
+                             writeHtml(out, droplet.surface, options, extras, report);
                          }});
     }
     if (extras.subject) {
@@ -248,8 +251,15 @@ struct Source {
     droplet::InputReport input;
     std::vector<droplet::CssColour> colours = {};  ///< one per droplet, or none
     std::optional<OutputFile> mask = {};
-    std::string texture = {};  ///< as in Extras
+    std::optional<droplet::Picture> colour_map = {};
 };
+
+std::string pngOf(const droplet::Picture& picture)
+{
+    std::ostringstream png;
+    droplet::writePng(picture, png);
+    return std::move(png).str();
+}
 
 /// Places a droplet on its object, writes its files, and returns the report.
 droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& source, const Surroundings& around,
@@ -260,7 +270,10 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
-    Extras extras{fileDroplets(droplet, settings, source.colours), {}, source.mask, source.texture};
+    Extras extras{fileDroplets(droplet, settings, source.colours),
+                  {},
+                  source.mask,
+                  source.colour_map ? pngOf(*source.colour_map) : std::string()};
     droplet::Report report = describe(droplet, settings);
     report.fill_range = options.settings.droplet.fill_range;
     report.input = source.input;
@@ -274,17 +287,11 @@ droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& 
     }
     report.onto = onto;
     if (options.preview) {
-        extras.subject.emplace(subjectOf(droplet, settings, droplet::looksOf(extras.droplets), around));
+        extras.subject.emplace(
+            subjectOf(droplet, settings, droplet::looksOf(extras.droplets), source.colour_map, around));
     }
     save(droplet, options, extras, stages.clock, report);
     return report;
-}
-
-std::string pngOf(const droplet::Picture& picture)
-{
-    std::ostringstream png;
-    droplet::writePng(picture, png);
-    return std::move(png).str();
 }
 
 droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
@@ -299,9 +306,9 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
         mask = forInput(options, decode);
         settings = completeSettings(mask, around, options);
     }
-    std::string texture;
+    std::optional<droplet::Picture> colour_map;
     if (settings.colour_map) {
-        texture = forInput(options, [&] { return pngOf(droplet::decodePicture(picture)); });
+        colour_map = forInput(options, [&] { return droplet::decodePicture(picture); });
     }
     picture = {};
     addPageSlider(settings.droplet, options);
@@ -315,7 +322,8 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
         mask_file = {*options.footprint.mask_out,
                      [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
     }
-    return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, texture}, around, options, stages);
+    return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, std::move(colour_map)}, around,
+                  options, stages);
 }
 
 /// Input by colour: a picture, or type.

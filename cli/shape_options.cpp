@@ -176,15 +176,6 @@ void readCompression(const CommandLine& line, ShapeOptions& options)
     if (options.settings.droplet.fill_range) {
         refuse("--compress and --fill-range exclude each other: the changes of a slider are not compressed");
     }
-    const auto clash = [&](bool is_given, const std::string& option) {
-        if (is_given) {
-            refuse("--compress and " + option + " exclude each other: only a file of one look is compressed");
-        }
-    };
-    clash(options.settings.nodes == droplet::Nodes::Each, "--nodes each");
-    clash(options.settings.materials.has_value(), "--materials");
-    clash(options.settings.colour_map, "--colour-map");
-    clash(line.knows("--by-colour") && line.flag("--by-colour"), "--by-colour");
 }
 
 }  // namespace
@@ -197,8 +188,8 @@ void declareDroplets(CommandLine& line)
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--nodes", "one|each",
-             "Nodes in glTF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its figures "
-             "[one]");
+             "Nodes in glTF and USD: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
+             "figures [one]");
     line.add("Surface", "--materials", "FILE",
              "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",
@@ -215,7 +206,8 @@ void declareShapes(CommandLine& line)
     declareFootprint(line);
     declareByColour(line);
     declareDroplets(line);
-    line.addFlag("Surface", "--colour-map", "Lay the picture on the liquid, as a tint in glTF");
+    line.addFlag("Surface", "--colour-map",
+                 "Lay the picture on the liquid, as a tint in glTF, USDZ, previews and the page");
     line.exclude({"--by-colour", "--colour-map"});
 }
 

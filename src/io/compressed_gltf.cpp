@@ -100,6 +100,7 @@ public:
             compressGroup(primitives);
         }
         scaleNodes();
+        copyPictures();
         addExtension("KHR_mesh_quantization");
         json_["buffers"] = {{{"byteLength", out_.size()}}};
         if (meshopt_) {
@@ -309,6 +310,21 @@ private:
                 material.contains(path)) {
                 material[path] = material[path].get<double>() / cube_.side;
             }
+        }
+    }
+
+    void copyPictures()
+    {
+        if (!json_.contains("images")) {
+            return;
+        }
+        for (Json& image : json_["images"]) {
+            Json view = views_[image["bufferView"].get<std::size_t>()];
+            out_.resize(aligned(out_.size()));
+            const std::size_t begin = std::exchange(view["byteOffset"], out_.size()).get<std::size_t>();
+            out_ += buffer_.substr(begin, view["byteLength"]);
+            image["bufferView"] = json_["bufferViews"].size();
+            json_["bufferViews"].push_back(std::move(view));
         }
     }
 

@@ -33,16 +33,6 @@ constexpr std::array<std::pair<Format, const char*>, 7> kFormats = {{
 
 }  // namespace
 
-std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets)
-{
-    std::vector<Look> looks;
-    looks.reserve(droplets.size());
-    for (const FileDroplet& droplet : droplets) {
-        looks.push_back(droplet.look);
-    }
-    return looks;
-}
-
 Format formatNamed(std::string_view name)
 {
     std::string wanted(name.substr(!name.empty() && name.front() == '.' ? 1 : 0));
@@ -86,9 +76,9 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Stl:
             return writeStl(surface, out, options.unit);
         case Format::Usda:
-            return writeUsda(surface, out, options.material);
+            return writeUsda(surface, out, {options.material, options.nodes, options.droplets});
         case Format::Usdz:
-            return writeUsdz(surface, out, options.material);
+            return writeUsdz(surface, out, {options.material, options.nodes, options.droplets, options.texture});
     }
     refuse(format);
 }

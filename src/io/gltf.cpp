@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -25,6 +24,7 @@
 #include "io/compressed_gltf.h"
 #include "io/dry_surface.h"
 #include "io/gltf_model.h"
+#include "io/part_groups.h"
 
 namespace droplet {
 namespace {
@@ -37,7 +37,7 @@ constexpr std::uint64_t kJsonBound = 4096;
 struct Piece {
     const Surface* surface = nullptr;
     Look look;
-    std::optional<FileDroplet> droplet = {};  ///< with Nodes::Each
+    std::optional<FileDroplet> droplet;  ///< with Nodes::Each
 };
 
 /// Pieces of a surface; copies are made only where there are several.
@@ -85,10 +85,6 @@ void checkCompression(const Surface& surface, const GltfOptions& options)
                     std::string("options.compression = ") + name(options.compression) + " needs " +
                         (options.binary ? "a surface without a refill: its changes are floats" : "a GLB"));
     }
-    if (options.compression != Compression::None && (!options.droplets.empty() || !options.texture.empty())) {
-        throw Error(ErrorCode::InvalidArgument, std::string("options.compression = ") + name(options.compression) +
-                                                    " needs a surface of one look, without droplets and texture");
-    }
 }
 
 // Checks the range of floats before the first byte is written. Bounds cover positions; normals are unit vectors.
@@ -125,57 +121,15 @@ tinygltf::Value refillExtras(const Refill& refill)
     return Value(Value::Object{{"targetNames", Value(names)}, {"fills", Value(fills)}, {"fill_range", range}});
 }
 
-/// Indices of the surface's parts by the number of their droplet.
-std::vector<std::size_t> partsInOrder(const Surface& surface, std::size_t droplets)
-{
-    std::vector<std::size_t> order(surface.parts.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return surface.parts[a].droplet < surface.parts[b].droplet; });
-    if (order.empty() || surface.parts[order.back()].droplet >= droplets) {
-        throw Error(ErrorCode::InvalidArgument, "options.droplets has " + std::to_string(droplets) +
-                                                    " entries; the surface must have parts, for these droplets alone");
-    }
-    return order;
-}
-
 Pieces piecesOf(const Surface& surface, const GltfOptions& options)
 {
-    if (options.nodes == Nodes::Each && options.droplets.empty()) {
-        throw Error(ErrorCode::InvalidArgument, "options.droplets is empty; Nodes::Each needs one for every droplet");
-    }
-    if (isDry(surface)) {
-        return {};
-    }
-    if (options.droplets.empty()) {
-        return {{}, {{&surface, lookOf(options.material)}}};
-    }
-    std::vector<std::vector<std::size_t>> groups;
+    const std::vector<PartGroup> groups = groupParts(surface, {options.material, options.nodes, options.droplets});
     Pieces pieces;
-    for (const std::size_t k : partsInOrder(surface, options.droplets.size())) {
-        const FileDroplet& droplet = options.droplets[surface.parts[k].droplet];
-        const auto same = options.nodes == Nodes::Each
-                              ? pieces.all.end()
-                              : std::find_if(pieces.all.begin(), pieces.all.end(),
-                                             [&](const Piece& piece) { return piece.look == droplet.look; });
-        if (same != pieces.all.end()) {
-            groups[static_cast<std::size_t>(same - pieces.all.begin())].push_back(k);
-            continue;
-        }
-        groups.push_back({k});
-        Piece& piece = pieces.all.emplace_back();
-        piece.look = droplet.look;
-        if (options.nodes == Nodes::Each) {
-            piece.droplet = droplet;
-        }
-    }
-    if (groups.size() == 1) {
-        pieces.all.front().surface = &surface;
-        return pieces;
-    }
     pieces.copies.reserve(groups.size());
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        pieces.all[i].surface = &pieces.copies.emplace_back(extract(surface, groups[i]));
+    for (const PartGroup& group : groups) {
+        pieces.all.push_back(
+            {groups.size() == 1 ? &surface : &pieces.copies.emplace_back(extract(surface, group.parts)), group.look,
+             group.droplet});
     }
     return pieces;
 }

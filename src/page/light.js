@@ -17,6 +17,7 @@ uniform float ior;
 uniform bool refracted;
 uniform bool opaque;
 uniform vec2 shift;
+varying vec2 at;
 varying vec2 straight;
 varying vec2 bent;
 varying float facing;
@@ -34,6 +35,7 @@ void main() {
     bent = place.xz + ray.xz * (lift / max(-ray.y, 0.05));
     depth = lift / max(-ray.y, 0.05);
     facing = dot(normal, sun);
+    at = uv;
     vec2 landing = refracted ? bent : straight;
     // The base is skipped, but not the liquid's surface where it leans out over its rim.
     gl_Position = normal.y < -0.95 || (refracted && opaque) ? vec4(2.0, 2.0, 2.0, 1.0) :
@@ -46,6 +48,9 @@ uniform float ior;
 uniform float share;
 uniform vec3 tint;
 uniform float tint_depth;
+uniform bool pictured;
+uniform sampler2D picture;
+varying vec2 at;
 varying vec2 straight;
 varying vec2 bent;
 varying float facing;
@@ -67,6 +72,9 @@ void main() {
     float mirrored = pow((ior - 1.0) / (ior + 1.0), 2.0);
     mirrored += (1.0 - mirrored) * pow(1.0 - facing, 5.0);
     vec3 through = tint_depth > 0.0 ? pow(tint, vec3(depth / tint_depth)) : tint;
+    if (pictured) {
+        through *= texture2D(picture, at).rgb;
+    }
     gl_FragColor = vec4(share * bundle * (1.0 - mirrored) * through, 1.0);
 }`;
 
@@ -120,6 +128,7 @@ export class GroundLight {
                 uniforms: {
                     ...this.uniforms,
                     opaque: { value: false }, ior: { value: 1 }, tint: { value: new Color() }, tint_depth: { value: 0 },
+                    pictured: { value: false }, picture: { value: null },
                 },
                 side: DoubleSide,
                 depthTest: false,
@@ -132,12 +141,14 @@ export class GroundLight {
             }));
         }
         const shader = this.shaders.get(material);
-        const { opaque, ior, tint, tint_depth } = shader.uniforms;
+        const { opaque, ior, tint, tint_depth, pictured, picture } = shader.uniforms;
         const tinted = Number.isFinite(material.attenuationDistance);
         opaque.value = !(material.transmission > 0);
         ior.value = material.ior ?? 1.333;
         tint.value.copy(tinted ? material.attenuationColor : material.color);
         tint_depth.value = tinted ? material.attenuationDistance : 0;  // 0: the same tint everywhere
+        pictured.value = Boolean(material.map);
+        picture.value = material.map;
         return shader;
     }
 

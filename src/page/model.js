@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The droplet in the page: its bytes, its mesh and its fill.
-import { AnimationMixer, Box3, Vector3 } from 'three';
+import { AnimationMixer, Box3, TextureLoader, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 export function decodeBase64(text) {
@@ -16,7 +16,12 @@ export function decodeBase64(text) {
 }
 
 export async function loadDroplet(bytes) {
-    const gltf = await new GLTFLoader().parseAsync(bytes.buffer, '');
+    // Pictures are loaded as elements, because the page's policy forbids to fetch anything, even from its own memory.
+    const byElements = (parser) => {
+        parser.textureLoader = new TextureLoader();
+        return { name: 'pictures by elements' };
+    };
+    const gltf = await new GLTFLoader().register(byElements).parseAsync(bytes.buffer, '');
     return new Droplet(gltf.scene, gltf.animations[0]);
 }
 

@@ -36,7 +36,7 @@ float toDisplay(float light)
     return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1.0F / 2.4F) - 0.055F;
 }
 
-GroundPicture::GroundPicture(const Picture& picture)
+PicturePyramid::PicturePyramid(const Picture& picture)
 {
     Level first{picture.width, picture.height, {}};
     first.texels.reserve(picture.rgb.size() / 3);
@@ -64,7 +64,7 @@ GroundPicture::GroundPicture(const Picture& picture)
     }
 }
 
-Vec3f GroundPicture::at(Vec2 uv, double width) const
+Vec3f PicturePyramid::at(Vec2 uv, double width) const
 {
     const double texels = width * std::max(levels_.front().width, levels_.front().height);
     const auto level = static_cast<std::size_t>(

@@ -13,10 +13,10 @@ namespace droplet {
 float toLinear(float level);
 float toDisplay(float light);
 
-/// Picture on the ground: linear colours in a pyramid of halved sizes, for views from afar.
-class GroundPicture {
+/// Linear colours of a picture in a pyramid of halved sizes, for views from afar.
+class PicturePyramid {
 public:
-    explicit GroundPicture(const Picture& picture);
+    explicit PicturePyramid(const Picture& picture);
 
     /// @param uv     (0,0) is the top left, (1,1) the bottom right; beyond, the picture is mirrored repeatedly
     /// @param width  width of the area to average, in uv

@@ -131,7 +131,11 @@ private:
         };
         follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
         if (there.reflected < 1.0F) {
-            follow({meeting.place, there.transmitted}, onward(1.0F - there.reflected, !way.inside));
+            Way through = onward(1.0F - there.reflected, !way.inside);
+            if (!way.inside && media_.map) {
+                through.light = media_.mapAt(meeting, 0.0) * through.light;
+            }
+            follow({meeting.place, there.transmitted}, through);
         }
     }
 
@@ -211,6 +215,9 @@ Medium mediumOf(const Look& look, double mean_height, double scale)
 Media mediaOf(const Surface& surface, const RenderOptions& options, double scale)
 {
     Media media{mediumOf(options.look, surface.mean_height, scale)};
+    if (options.colour_map) {
+        media.map.emplace(*options.colour_map);
+    }
     if (options.looks.empty()) {
         return media;
     }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "droplet/surface/material.h"
+#include "picture/ground.h"
 #include "picture/optics.h"
 #include "picture/scene.h"
 #include "picture/studio.h"
@@ -29,6 +32,7 @@ struct Media {
     Medium only;                              ///< of all, unless there are several
     std::vector<Medium> several = {};         ///< by droplet
     std::vector<std::uint32_t> droplet = {};  ///< of every vertex of the surface
+    std::optional<PicturePyramid> map = {};   ///< RenderOptions::colour_map
 
     /// Number of the droplet that a ray meets.
     [[nodiscard]] std::uint32_t dropletAt(const Scene& scene, const Meeting& meeting) const
@@ -36,6 +40,13 @@ struct Media {
         return droplet.empty() ? 0 : droplet[scene.triangle(meeting)[0]];
     }
     [[nodiscard]] const Medium& of(std::uint32_t number) const { return several.empty() ? only : several[number]; }
+    /// Colour of the map where a ray meets liquid; beyond the picture, that of its edge.
+    /// @param width  of the area to average, in uv
+    [[nodiscard]] Vec3f mapAt(const Meeting& meeting, double width) const
+    {
+        return map ? map->at({std::clamp(meeting.uv.x, 0.0, 1.0), std::clamp(meeting.uv.y, 0.0, 1.0)}, width)
+                   : grey(1.0F);
+    }
 };
 
 /// Media of a surface, with `looks` or `look` of the options.

@@ -192,10 +192,31 @@ private:
         const Vec3f mirror = mirrored(ray.direction, normal);
         Vec3f light = there.reflected * onward(meeting, mirror, way, there.reflected, way.inside);
         if (there.reflected < 1.0F) {
-            light = light + (1.0F - there.reflected) *
-                                onward(meeting, there.transmitted, way, 1.0F - there.reflected, !way.inside);
+            const Vec3f through =
+                (1.0F - there.reflected) * onward(meeting, there.transmitted, way, 1.0F - there.reflected, !way.inside);
+            light = light + (way.inside ? through : mapAt(ray, meeting, way) * through);
         }
         return light;
+    }
+
+    // Width of a pixel on a surface that a ray meets.
+    [[nodiscard]] float pixelWidth(const RayF& ray, const Meeting& meeting, const Way& way) const
+    {
+        const float distance = way.distance + meeting.distance;
+        const float slant = std::max(0.2F, std::abs(dot(ray.direction, meeting.normal)));
+        return camera_.pixel() * distance / slant;
+    }
+
+    // Width in the picture of the footprint's extent.
+    [[nodiscard]] double inPicture(float width) const
+    {
+        return width * scene_.scale() / std::max(options_.extent.x, options_.extent.y);
+    }
+
+    // Colour of the map where a ray meets liquid.
+    [[nodiscard]] Vec3f mapAt(const RayF& ray, const Meeting& meeting, const Way& way) const
+    {
+        return media_.map ? media_.mapAt(meeting, inPicture(pixelWidth(ray, meeting, way))) : grey(1.0F);
     }
 
     // Droplet that a ray is in beyond a place where it met liquid or, inside, the ground.
@@ -223,7 +244,7 @@ private:
     [[nodiscard]] Vec3f opaque(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
     {
         const Look& look = lookAt(media_.dropletAt(scene_, meeting));
-        const Vec3f colour = toFloats(look.colour);
+        const Vec3f colour = mapAt(ray, meeting, way) * toFloats(look.colour);
         const auto metal = static_cast<float>(look.metallic);
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
         const float grazing = std::pow(1.0F - cosine, 5.0F);
@@ -279,10 +300,7 @@ private:
         if (way.part == Part::Through) {
             return {};
         }
-        const float distance = way.distance + meeting.distance;
-        const float slant = std::max(0.2F, std::abs(dot(ray.direction, meeting.normal)));
-        const float width = camera_.pixel() * distance / slant;
-        const Vec3f matter = albedo(meeting, width);
+        const Vec3f matter = albedo(meeting, pixelWidth(ray, meeting, way));
         const bool wet = way.inside;
         if (studio_.uniform()) {
             return wet ? matter * wetness(matter, 1.0F - returned_[way.droplet], way.droplet) : matter;
@@ -375,7 +393,7 @@ private:
     [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const
     {
         if (picture_) {
-            return picture_->at(meeting.uv, width * scene_.scale() / std::max(options_.extent.x, options_.extent.y));
+            return picture_->at(meeting.uv, inPicture(width));
         }
         if (studio_.uniform()) {
             return grey(1.0F);
@@ -391,7 +409,7 @@ private:
     Studio studio_;
     Media media_;
     Camera camera_;
-    std::optional<GroundPicture> picture_;
+    std::optional<PicturePyramid> picture_;
     std::optional<Table> table_;
     std::optional<LightMap> light_;        // light on the plane
     std::optional<LightMap> key_gain_;     // share of the key light on a stand
@@ -552,6 +570,13 @@ void RenderOptions::validate() const
         if (!stand && !(extent.x > 0.0 && extent.y > 0.0)) {
             refuse("extent = " + numberText(extent.x) + " by " + numberText(extent.y) +
                    " must be above 0 where a picture is the ground");
+        }
+    }
+    if (colour_map) {
+        colour_map->validate();
+        if (!(extent.x > 0.0 && extent.y > 0.0)) {
+            refuse("extent = " + numberText(extent.x) + " by " + numberText(extent.y) +
+                   " must be above 0 where a picture is on the liquid");
         }
     }
     if (stand) {

@@ -236,14 +236,12 @@ Meeting Scene::meet(void* scene, const RayF& ray) const
     meeting.facet =
         unit(cross(part.positions[t[1]] - part.positions[t[0]], part.positions[t[2]] - part.positions[t[0]]));
     meeting.normal = unit(w * part.normals[t[0]] + meeting.u * part.normals[t[1]] + meeting.v * part.normals[t[2]]);
-    if (hit.hit.geomID != kLiquid) {
-        meeting.uv = static_cast<double>(w) * part.uvs[t[0]] + static_cast<double>(meeting.u) * part.uvs[t[1]] +
-                     static_cast<double>(meeting.v) * part.uvs[t[2]];
-        // The base's normal points down, out of the liquid; the ground's normal points up.
-        if (hit.hit.geomID == kBase) {
-            meeting.normal = -1.0F * meeting.normal;
-            meeting.facet = -1.0F * meeting.facet;
-        }
+    meeting.uv = static_cast<double>(w) * part.uvs[t[0]] + static_cast<double>(meeting.u) * part.uvs[t[1]] +
+                 static_cast<double>(meeting.v) * part.uvs[t[2]];
+    // The base's normal points down, out of the liquid; the ground's normal points up.
+    if (hit.hit.geomID == kBase) {
+        meeting.normal = -1.0F * meeting.normal;
+        meeting.facet = -1.0F * meeting.facet;
     }
     return meeting;
 }

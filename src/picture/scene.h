@@ -26,7 +26,7 @@ struct Meeting {
     Vec3f place;
     Vec3f facet;                 ///< unit normal of the triangle, outward
     Vec3f normal;                ///< unit, interpolated, outward
-    Vec2 uv;                     ///< on ground: place in its picture
+    Vec2 uv;                     ///< place in the picture of the ground, or of the liquid
     std::uint32_t triangle = 0;  ///< on liquid: index in the surface
     float u = 0.0F;              ///< weight of its second vertex
     float v = 0.0F;              ///< weight of its third vertex

@@ -295,6 +295,52 @@ TEST_F(ColoursTest, MaterialsComeFromAFile)
                 HasSubstr("--materials m.toml has no effect: ply files have no material"));
 }
 
+TEST_F(ColoursTest, UsdHasNodesAndMaterials)
+{
+    const auto warned = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"two.pgm", "m.usda"});
+        EXPECT_THAT(made(options).error, ::testing::Not(HasSubstr("warning")));
+        return readFile(at("m.usda"));
+    };
+    writeFile(at("m.toml"), "[[droplet]]\nindex = 2\nmaterial = \"plain\"\nior = 1.4\n");
+    EXPECT_THAT(warned({"--materials", "m.toml"}),
+                AllOf(HasSubstr("def GeomSubset \"water\""), HasSubstr("def GeomSubset \"plain_ior_1_4\"")));
+    EXPECT_THAT(warned({"--nodes", "each"}), AllOf(HasSubstr("def Mesh \"droplet_1\""),
+                                                   HasSubstr("def Mesh \"droplet_2\""), HasSubstr("volume_m3 = ")));
+}
+
+// All that reads a GLB reads a compressed one, within the error that the report states.
+TEST_F(ColoursTest, FilesOfSeveralLooksAreCompressed)
+{
+    writeFile(at("m.toml"), "[[droplet]]\nindex = 2\nmaterial = \"honey\"\n");
+    const std::vector<std::vector<std::string>> kinds{{"pie.ppm", "f.glb", "--by-colour"},
+                                                      {"pie.ppm", "f.glb", "--by-colour", "--nodes", "each"},
+                                                      {"two.pgm", "f.glb", "--materials", "m.toml"},
+                                                      {"two.pgm", "f.glb", "--colour-map"}};
+    for (std::vector<std::string> kind : kinds) {
+        SCOPED_TRACE(kind.back());
+        made(kind);
+        for (const char* compression : {"quantize", "meshopt"}) {
+            kind[1] = "compressed.glb";
+            kind.insert(kind.end(), {"--compress", compression, "--json", "r.json"});
+            made(kind);
+            kind.resize(kind.size() - 4);
+            EXPECT_EQ(namesOf(sceneOf("compressed.glb")["nodes"]), namesOf(sceneOf("f.glb")["nodes"]));
+            EXPECT_EQ(namesOf(sceneOf("compressed.glb")["materials"]), namesOf(sceneOf("f.glb")["materials"]));
+            EXPECT_LT(readFile(at("compressed.glb")).size(), readFile(at("f.glb")).size());
+            const double error = reportOf("r.json")["output"]["position_error_m"];
+            EXPECT_GT(error, 0.0);
+            EXPECT_LT(error, 0.3e-6);
+            testing::CommandOptions options;
+            options.directory = at("");
+            const CommandResult compared = runDroplet(
+                {"compare", "f.glb", "compressed.glb", "--tolerance", std::to_string(1e9 * error + 1.0) + "nm"},
+                options);
+            EXPECT_EQ(compared.exit_code, 0) << compared.output << compared.error;
+        }
+    }
+}
+
 TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
 {
     const auto refused = [&](const std::string& text, const std::string& why) {
@@ -313,7 +359,14 @@ TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
     refused("[[droplet]]\nindex = 1\nior = 0.9\n", "ior must be a number from 1 to 4");
     refused("[[droplet]\n", "m.toml:1:");
     EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "missing.toml"}).error,
-                HasSubstr("--materials: missing.toml cannot be read"));
+                HasSubstr("--materials: missing.toml cannot be read: No such file"));
+    EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "."}).error,
+                HasSubstr("--materials: . cannot be read: Is a directory"));
+    for (const char* nothing : {"", "# nothing\n"}) {
+        writeFile(at("m.toml"), nothing);
+        EXPECT_THAT(run({"two.pgm", "x.glb", "--materials", "m.toml"}).error,
+                    HasSubstr("--materials: m.toml has no table [[droplet]]"));
+    }
     writeFile(at("m.toml"), "[[droplet]]\nindex = 7\n");
     EXPECT_THAT(made({"two.pgm", "x.glb", "--materials", "m.toml"}).error,
                 HasSubstr("m.toml names droplet 7, but there are only 2"));
@@ -328,8 +381,28 @@ TEST_F(ColoursTest, PictureTintsTheLiquid)
     const json& view = scene["bufferViews"][scene["images"][0]["bufferView"].get<std::size_t>()];
     const std::string bytes = readFile(at("map.glb"));
     EXPECT_EQ(bytes.substr(bytes.find("BIN") + 4 + view["byteOffset"].get<std::size_t>(), 4), "\x89PNG");
+    made({"pie.ppm", "map.usdz", "--colour-map"});
+    EXPECT_THAT(readFile(at("map.usdz")), AllOf(HasSubstr("picture.png@"), HasSubstr("\x89PNG")));
     EXPECT_THAT(made({"pie.ppm", "map.stl", "--colour-map"}).error,
                 HasSubstr("--colour-map has no effect: stl files have no texture"));
+    EXPECT_THAT(made({"pie.ppm", "map.usda", "--colour-map"}).error,
+                HasSubstr("--colour-map has no effect: usda files have no texture; usdz files have one"));
+}
+
+TEST_F(ColoursTest, PreviewAndPageShowTheMap)
+{
+    const auto preview = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"pie.ppm", "a.stl", "--preview", "a.png", "--preview-size", "64x48"});
+        EXPECT_THAT(made(options).error, ::testing::Not(HasSubstr("warning")));
+        return readFile(at("a.png"));
+    };
+    EXPECT_NE(preview({"--colour-map"}), preview({}));
+    EXPECT_NE(preview({"--colour-map", "--material", "plain"}), preview({"--material", "plain"}));
+    EXPECT_THAT(made({"pie.ppm", "a.stl", "--colour-map", "--html", "a.html"}).error,
+                ::testing::Not(HasSubstr("warning")));
+    // The page holds the GLB with its picture as base64.
+    made({"pie.ppm", "a.stl", "--html", "b.html"});
+    EXPECT_GT(readFile(at("a.html")).size(), readFile(at("b.html")).size() + 100);
 }
 
 TEST_F(ColoursTest, PreviewShowsTheColours)

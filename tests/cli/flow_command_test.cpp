@@ -250,6 +250,7 @@ TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)
                                        path("tear.csv"), "--fps", "10", "--quiet"});
     ASSERT_EQ(tear.exit_code, 0) << tear.error;
     const auto report = nlohmann::json::parse(readFile(path("tear.json")));
+    EXPECT_EQ(report["preset"], "tear");
     EXPECT_EQ(report["input"]["path"], "preset tear");
     EXPECT_EQ(report["model"]["motion"], "paper");
     EXPECT_EQ(report["counts"]["launches"], 1);

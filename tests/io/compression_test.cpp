@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
@@ -178,11 +181,105 @@ TEST_P(CompressedGltf, KeepsTextureCoordinatesBeyondThePicture)
     EXPECT_EQ(range(found), range(surface));
 }
 
+Surface pairOfDroplets()
+{
+    return testing::withContactAngles(testing::pairOfDroplets());
+}
+
+GltfOptions redAndWater(Nodes nodes, Compression compression)
+{
+    Look red = lookOf(Material::Ink);
+    red.name = "red";
+    return {.nodes = nodes,
+            .droplets = {{"red_1", red, 4e-9, 0.5, 2e-3, 70.0},
+                         {"droplet_2", lookOf(Material::Water), 1e-9, 0.25, 1e-3, 40.0}},
+            .texture = "any bytes of a picture",
+            .compression = compression};
+}
+
+// The nodes stay as they are, apart from their scale and place, and all vertices are within the stated error.
+TEST_P(CompressedGltf, KeepsLooksNodesAndThePicture)
+{
+    const Surface surface = pairOfDroplets();
+    for (const Nodes nodes : {Nodes::One, Nodes::Each}) {
+        const std::string glb = written(surface, redAndWater(nodes, GetParam()));
+        const json plain = jsonOf(written(surface, redAndWater(nodes, Compression::None)));
+        const json file = jsonOf(glb);
+        ASSERT_EQ(file["nodes"].size(), nodes == Nodes::Each ? 2U : 1U);
+        for (std::size_t k = 0; k < file["nodes"].size(); ++k) {
+            EXPECT_EQ(file["nodes"][k]["name"], plain["nodes"][k]["name"]);
+            EXPECT_EQ(file["nodes"][k]["mesh"], plain["nodes"][k]["mesh"]);
+            EXPECT_EQ(file["nodes"][k].value("extras", json()), plain["nodes"][k].value("extras", json()));
+            EXPECT_EQ(file["nodes"][k]["scale"], file["nodes"][0]["scale"]);
+            EXPECT_EQ(file["nodes"][k]["translation"], file["nodes"][0]["translation"]);
+            ASSERT_EQ(file["meshes"][k]["primitives"].size(), nodes == Nodes::Each ? 1U : 2U);
+        }
+        ASSERT_EQ(file["materials"].size(), 2U);
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_EQ(file["materials"][k]["name"], plain["materials"][k]["name"]);
+            EXPECT_EQ(file["materials"][k]["pbrMetallicRoughness"], plain["materials"][k]["pbrMetallicRoughness"]);
+            const auto thickness = [&](const json& of) {
+                return of["materials"][k]["extensions"]["KHR_materials_volume"]["thicknessFactor"].get<double>();
+            };
+            EXPECT_DOUBLE_EQ(thickness(file) * file["nodes"][0]["scale"][0].get<double>(), thickness(plain));
+        }
+        const json& view = file["bufferViews"][file["images"][0]["bufferView"].get<std::size_t>()];
+        EXPECT_EQ(view["buffer"], 0);
+        EXPECT_EQ(glb.substr(glb.find("BIN") + 4 + view["byteOffset"].get<std::size_t>(), view["byteLength"]),
+                  "any bytes of a picture");
+        const Surface found = read(glb);
+        EXPECT_EQ(found.triangles.size(), surface.triangles.size());
+        EXPECT_EQ(topology(found).components, 2U);
+        EXPECT_TRUE(isClosed(found));
+        EXPECT_NEAR(enclosedVolume(found), enclosedVolume(surface), 1e-4 * enclosedVolume(surface));
+        const CompressionError error = compressionError(surface, GetParam());
+        double largest = 0.0;
+        for (const Vec3& expected : surface.positions) {
+            double least = 1.0;
+            for (const Vec3& place : found.positions) {
+                least = std::min(least, length(place - expected));
+            }
+            largest = std::max(largest, least);
+        }
+        EXPECT_NEAR(largest, error.position, 1e-3 * error.position);
+    }
+}
+
+// Droplets that touch, as those by colour do, share the places of their vertices.
+TEST_P(CompressedGltf, KeepsSharedVerticesTogether)
+{
+    Surface surface = testing::together(roundDroplet(), roundDroplet({.inner = 4e-3, .outer = 7e-3}));
+    const auto vertices = static_cast<std::size_t>(roundDroplet().positions.size());
+    const std::size_t triangles = roundDroplet().triangles.size();
+    surface.parts = {{0, 0, vertices, 0, triangles, 1e-9, 1e-6},
+                     {1, vertices, surface.positions.size() - vertices, triangles, surface.triangles.size() - triangles,
+                      1e-9, 1e-6}};
+    const auto shared = [](const Surface& of) {
+        std::set<std::array<double, 3>> places;
+        std::set<std::array<double, 3>> rims;
+        for (const Vec3& p : of.positions) {
+            places.insert({p.x, p.y, p.z});
+            if (std::abs(std::hypot(p.x, p.y) - 4e-3) < 1e-6) {
+                rims.insert({p.x, p.y, p.z});
+            }
+        }
+        return std::pair(places.size(), rims.size());
+    };
+    ASSERT_EQ(shared(surface).second, 12U);
+    for (const Nodes nodes : {Nodes::One, Nodes::Each}) {
+        EXPECT_EQ(shared(read(written(surface, redAndWater(nodes, GetParam())))), shared(surface));
+    }
+}
+
 TEST_P(CompressedGltf, IsAnObjectToLayDropletsOn)
 {
     testing::writeFile(scratch_.path() / "cap.glb", written(roundDroplet(), {.compression = GetParam()}));
     const TexturedMesh mesh = readObject(scratch_.path() / "cap.glb");
     EXPECT_EQ(mesh.triangles.size(), roundDroplet().triangles.size());
+    for (const Nodes nodes : {Nodes::One, Nodes::Each}) {
+        testing::writeFile(scratch_.path() / "pair.glb", written(pairOfDroplets(), redAndWater(nodes, GetParam())));
+        EXPECT_EQ(readObject(scratch_.path() / "pair.glb").triangles.size(), pairOfDroplets().triangles.size());
+    }
 }
 
 TEST_P(CompressedGltf, RefusesARefillAndText)

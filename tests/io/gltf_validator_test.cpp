@@ -14,6 +14,7 @@
 #include "droplet/io/animation.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
+#include "droplet/picture/picture.h"
 #include "support/paths.h"
 #include "support/surfaces.h"
 
@@ -112,6 +113,18 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
             files.push_back(stored(
                 std::string(name(compression)) + (wide ? "_wide.glb" : ".glb"),
                 written(testing::withContactAngles(surface), {.material = Material::Ink, .compression = compression})));
+        }
+    }
+    std::ostringstream picture;
+    writePng(Picture{2, 1, {255, 0, 0, 0, 0, 255}}, picture);
+    by_droplet.binary = true;
+    by_droplet.texture = picture.str();
+    for (const Compression compression : {Compression::None, Compression::Quantize, Compression::Meshopt}) {
+        for (const Nodes nodes : {Nodes::One, Nodes::Each}) {
+            by_droplet.compression = compression;
+            by_droplet.nodes = nodes;
+            files.push_back(stored(std::string(nodes == Nodes::One ? "looks_" : "nodes_") + name(compression) + ".glb",
+                                   written(testing::withContactAngles(testing::pairOfDroplets()), by_droplet)));
         }
     }
     const auto animate = [&](const std::string& name, const std::vector<Surface>& frames, std::size_t run,

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,6 +55,17 @@ void makePages(const fs::path& folder)
     make("water.html", {"--material", "ink", "--model", "linear"});
     make("full.html", {"--json", (folder / "full.json").string(), "--model", "linear"}, "80uL");
     make("exact.html", {"--model", "exact"});
+    // A disc on black, red on the left and green on the right.
+    std::string halves = "P6 64 64 255\n";
+    for (int i = 0; i < 64 * 64; ++i) {
+        const bool is_inside = std::hypot(i % 64 - 31.5, i / 64 - 31.5) < 24.0;
+        halves += is_inside ? (i % 64 < 32 ? std::string("\xff\x20\x20") : std::string("\x20\xff\x20")) : "...";
+    }
+    writeFile(folder / "disc.ppm", halves);
+    const auto pictured = runDroplet({(folder / "disc.ppm").string(), (folder / "out.obj").string(), "--html",
+                                      (folder / "pictured.html").string(), "--triangles", "800", "--colour-map",
+                                      "--channel", "luma", "--threshold", "0.25", "-q"});
+    ASSERT_EQ(pictured.exit_code, 0) << pictured.error;
     fs::create_directory(folder / "frames");
     for (const auto& [name, radius] : {std::pair("1.pgm", 24.0), std::pair("2.pgm", 14.0), std::pair("3.pgm", 0.0)}) {
         writeFile(folder / "frames" / name, testing::discPicture(64, radius));
@@ -149,6 +161,9 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
     EXPECT_THAT(film["moments"][2].get<std::string>(), HasSubstr("3 of 3 · no liquid"));
     EXPECT_EQ(film["words"], (nlohmann::json{"Play", "Pause"}));
     EXPECT_EQ(film["moved_in_pause"], 0.0);
+
+    EXPECT_GT(seen["pictured"]["red"], 0.5 * kSeen);
+    EXPECT_GT(seen["pictured"]["green"], 0.5 * kSeen);
 
     const auto& hostile = seen["hostile"];
     EXPECT_FALSE(hostile["executed"]);

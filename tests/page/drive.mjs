@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens pages from disk in a real browser and operates their controls: node drive.mjs CHROMIUM FOLDER FIGURES_JS
-// FOLDER holds full.json, a report, water.html, exact.html, film.html, hostile.html and picture.png. Prints the
+// FOLDER holds full.json, a report, water.html, exact.html, film.html, pictured.html, hostile.html and picture.png. Prints the
 // observations as one JSON object; the test judges them.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -267,6 +267,21 @@ async function film() {
     return seen;
 }
 
+/** How many pixels are clearly red and clearly green. */
+async function pictured() {
+    const page = await open('pictured.html', { viewport: kWide });
+    const pixels = await look(page);
+    const count = (strong, weak) => {
+        let found = 0;
+        for (let i = 0; i < pixels.length; i += 4) {
+            found += pixels[i + strong] > 60 + pixels[i + weak];
+        }
+        return 4 * found / pixels.length;
+    };
+    await page.context().close();
+    return { red: count(0, 1), green: count(1, 0) };
+}
+
 async function hostile() {
     const page = await open('hostile.html', { viewport: kWide });
     const seen = await page.evaluate(() => ({
@@ -291,7 +306,8 @@ async function hostile() {
 }
 
 try {
-    const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json'), film: await film() };
+    const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json'), film: await film(),
+        pictured: await pictured() };
     Object.assign(seen, { complaints: [...complaints], outside });
     complaints.length = 0;
     seen.hostile = await hostile();

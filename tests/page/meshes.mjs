@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loads a GLB, USDA or USDZ file in three.js and prints its meshes as they stand in the world.
+// Loads a GLB, USDA or USDZ file in three.js and prints its meshes as they stand in the world, each material's part of
+// them for itself.
 //
 //   node meshes.mjs THREE_FOLDER FILE
 import { readFileSync } from 'node:fs';
@@ -8,6 +9,8 @@ import { pathToFileURL } from 'node:url';
 const [folder, file] = process.argv.slice(2);
 const module = (path) => import(pathToFileURL(`${folder}/${path}`).href);
 globalThis.self = globalThis;
+// Pictures are not decoded.
+globalThis.document = { createElementNS: () => ({ addEventListener() {}, removeEventListener() {} }) };
 const { Matrix3, Vector3 } = await module('build/three.module.js');
 
 async function load() {
@@ -34,13 +37,10 @@ function openEdges(triangles) {
     return [...edges].filter(([key, count]) => count !== edges.get(key.split('>').reverse().join('>'))).length;
 }
 
-function describe(mesh) {
-    mesh.updateWorldMatrix(true, false);
-    const { geometry, material } = mesh;
-    const { position, normal, uv } = geometry.attributes;
+function describe(mesh, material, corners) {
+    const { position, normal, uv } = mesh.geometry.attributes;
     const turn = new Matrix3().getNormalMatrix(mesh.matrixWorld);
     const at = (i) => new Vector3().fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld);
-    const corners = geometry.index ? [...geometry.index.array] : [...Array(position.count).keys()];
     const places = corners.map(at);
     const names = places.map((place) => place.toArray().join());
     const triangles = [];
@@ -59,6 +59,7 @@ function describe(mesh) {
     const xs = (axis) => places.map((place) => place[axis]);
     const sum = (attribute, k) => corners.reduce((total, i) => total + attribute.getComponent(i, k), 0) / corners.length;
     return {
+        name: mesh.name,
         triangles: triangles.length,
         places: new Set(names).size,
         low: ['x', 'y', 'z'].map((axis) => xs(axis).reduce((a, b) => Math.min(a, b))),
@@ -74,12 +75,23 @@ function describe(mesh) {
             metalness: material.metalness,
             roughness: material.roughness,
             colour: material.color.toArray(),
+            depth_colour: material.attenuationColor?.toArray(),
+            has_picture: Boolean(material.map),
             // of the volume's thickness, as the shader scales it
             thickness: material.thickness * new Vector3().setFromMatrixScale(mesh.matrixWorld).x,
         },
     };
 }
 
+function parts(mesh) {
+    mesh.updateWorldMatrix(true, false);
+    const { geometry, material } = mesh;
+    const corners = geometry.index ? [...geometry.index.array] : [...Array(geometry.attributes.position.count).keys()];
+    return Array.isArray(material)
+        ? geometry.groups.map(({ start, count, materialIndex }) => describe(mesh, material[materialIndex], corners.slice(start, start + count)))
+        : [describe(mesh, material, corners)];
+}
+
 const meshes = [];
-(await load()).traverse((object) => object.isMesh && meshes.push(describe(object)));
+(await load()).traverse((object) => object.isMesh && meshes.push(...parts(object)));
 process.stdout.write(JSON.stringify(meshes));

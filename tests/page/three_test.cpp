@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/colour_pictures.h"
 #include "support/command.h"
 #include "support/paths.h"
 
@@ -96,6 +97,65 @@ TEST(Three, SeesTheSameDropletInEveryFormat)
         EXPECT_LT(usd.at("material").at("opacity"), 1.0);
         EXPECT_EQ(usd.at("material").at("colour"), nlohmann::json({0.9, 0.5, 0.1})) << name;
     }
+}
+
+// Every look is on its own droplets.
+TEST(Three, SeesTheSameLooksInEveryFormat)
+{
+    testing::ScratchDirectory scratch;
+    const std::string picture = (scratch.path() / "pie.ppm").string();
+    writeFile(picture, testing::pie(120, 50.0));
+    const auto seen = [&](const std::string& name, const std::vector<std::string>& options) {
+        const std::string file = (scratch.path() / name).string();
+        std::vector<std::string> arguments{picture, file, "--triangles", "2000", "-q"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto made = runDroplet(arguments);
+        EXPECT_EQ(made.exit_code, 0) << made.error;
+        const auto run = runProgram({"node", testing::kMeshReader, testing::kThree, file});
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return nlohmann::json::parse(run.output, nullptr, false);
+    };
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--by-colour"}, {"--by-colour", "--nodes", "each"}}) {
+        const auto glb = seen("looks.glb", options);
+        ASSERT_THAT(glb, SizeIs(3));
+        for (const char* name : {"looks.usda", "looks.usdz"}) {
+            const auto usd = seen(name, options);
+            ASSERT_THAT(usd, SizeIs(3)) << name;
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (const char* key : {"triangles", "places", "low", "high"}) {
+                    EXPECT_EQ(usd.at(k).at(key), glb.at(k).at(key)) << key;
+                }
+                EXPECT_EQ(usd.at(k).at("open_edges"), 0);
+                for (std::size_t channel = 0; channel < 3; ++channel) {
+                    EXPECT_NEAR(usd.at(k).at("material").at("colour").at(channel),
+                                glb.at(k).at("material").at("depth_colour").at(channel), 1e-6);
+                }
+            }
+        }
+        for (const char* compression : {"quantize", "meshopt"}) {
+            std::vector<std::string> compress = options;
+            compress.insert(compress.end(), {"--compress", compression});
+            const auto compressed = seen("compressed.glb", compress);
+            ASSERT_THAT(compressed, SizeIs(3)) << compression;
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_EQ(compressed.at(k).at("places"), glb.at(k).at("places"));
+                EXPECT_EQ(compressed.at(k).at("open_edges"), 0);
+                EXPECT_EQ(compressed.at(k).at("name"), glb.at(k).at("name"));
+                EXPECT_EQ(compressed.at(k).at("material").at("name"), glb.at(k).at("material").at("name"));
+                EXPECT_EQ(compressed.at(k).at("material").at("depth_colour"),
+                          glb.at(k).at("material").at("depth_colour"));
+                const double thickness = glb.at(k).at("material").at("thickness");
+                EXPECT_NEAR(compressed.at(k).at("material").at("thickness"), thickness, 1e-6 * thickness);
+                EXPECT_NEAR(compressed.at(k).at("volume"), glb.at(k).at("volume"),
+                            1e-4 * glb.at(k).at("volume").get<double>());
+            }
+        }
+    }
+    const auto tinted = seen("tinted.usdz", {"--colour-map"});
+    ASSERT_THAT(tinted, SizeIs(1));
+    EXPECT_EQ(tinted.at(0).at("material").at("has_picture"), true);
+    EXPECT_EQ(tinted.at(0).at("material").at("colour"), nlohmann::json({1, 1, 1}));
 }
 
 // At every time one mesh is shown; its weights select the frame and add up to 1, or to 0 at a run's first frame.

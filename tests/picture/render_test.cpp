@@ -492,7 +492,9 @@ TEST(Render, RefusesInvalidOptions)
     refused([](RenderOptions& o) { o.look.ior = kNoNumber; }, "options.look.ior");
     refused([](RenderOptions& o) { o.extent.x = -1.0; }, "options.extent");
     refused([](RenderOptions& o) { o.ground = slopes(), o.extent = {}; }, "options.extent");
+    refused([](RenderOptions& o) { o.colour_map = slopes(), o.extent = {}; }, "options.extent");
     refused([](RenderOptions& o) { o.ground = Picture{}; }, "picture");
+    refused([](RenderOptions& o) { o.colour_map = Picture{}; }, "picture");
     refused([](RenderOptions& o) { o.stand = TexturedMesh{}; }, "");
     refused([](RenderOptions& o) { o.paint = Paint{}; }, "paint.values");
     EXPECT_THROW(render(Surface{}, small()), Error);
@@ -509,6 +511,65 @@ TEST(GroundMesh, EndsWhereTheGroundDoes)
     for (const Vec3& p : mesh.positions) {
         EXPECT_NEAR(length(p - Vec3{0.0, 0.0, -4e-3}), 4e-3, 1e-9);
     }
+}
+
+// Through a film that bends no light, white ground has the colours of the map.
+TEST(Render, ColourMapTintsTheLightThatPasses)
+{
+    const Surface surface = film(1e-3, 9e-3);
+    const Scene scene(surface, small());
+    for (const View view : {View::Top, View::ThreeQuarter}) {
+        RenderOptions options = small(view);
+        options.look = ofIndex(1.0);
+        options.colour_map = slopes();
+        const Picture picture = render(surface, options);
+        const Camera camera(scene.shown(), options);
+        int compared = 0;
+        for (int y = 0; y < options.height; ++y) {
+            for (int x = 0; x < options.width; ++x) {
+                const Meeting meeting =
+                    scene.fromAir(camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F));
+                const auto edge = static_cast<float>(8.5e-3 / scene.scale());
+                if (meeting.what == Meeting::What::Liquid &&
+                    std::max(std::abs(meeting.place.x), std::abs(meeting.place.y)) < edge) {
+                    ASSERT_NEAR(pixelAt(picture, x, y)[0], levelAt(meeting.uv.x), 1.6) << x << ' ' << y;
+                    ASSERT_NEAR(pixelAt(picture, x, y)[1], levelAt(meeting.uv.y), 1.6) << x << ' ' << y;
+                    ASSERT_EQ(pixelAt(picture, x, y)[2], 128);
+                    ++compared;
+                }
+            }
+        }
+        EXPECT_GT(compared, 500);
+    }
+}
+
+TEST(Render, WhiteColourMapChangesNothing)
+{
+    for (const Material material : {Material::Water, Material::Ink, Material::Plain, Material::Mercury}) {
+        RenderOptions options = small();
+        options.lighting = Lighting::Studio;
+        options.look = lookOf(material);
+        const Picture without = render(roundDroplet(), options);
+        options.colour_map = Picture{1, 1, {255, 255, 255}};
+        EXPECT_EQ(render(roundDroplet(), options), without);
+        options.colour_map = Picture{1, 1, {255, 0, 0}};
+        EXPECT_NE(render(roundDroplet(), options), without);
+    }
+}
+
+// The lamps' light is tinted, too: on white ground the shadow of a clear droplet takes the colour.
+TEST(Render, ColourMapTintsTheShadow)
+{
+    RenderOptions options = small();
+    options.lighting = Lighting::Studio;
+    options.ground = Picture{1, 1, {255, 255, 255}};
+    options.colour_map = Picture{1, 1, {255, 0, 0}};
+    const Layer layer = renderCutOut(roundDroplet({.height = 3e-3, .rings = 8, .segments = 32}), options);
+    std::size_t red = 0;
+    for (std::size_t i = 0; i < layer.rgba.size(); i += 4) {
+        red += layer.rgba[i + 3] > 20 && layer.rgba[i] > layer.rgba[i + 1] + 100 ? 1 : 0;
+    }
+    EXPECT_GT(red, 50U);
 }
 
 TEST(Render, EveryDropletHasItsLook)

@@ -201,6 +201,7 @@ class Flow(InFolder):
 
     def test_a_preset_has_its_own_object(self):
         report = ds.flow(None, self.folder / "wet.glb", preset="leaf", time="0.1s")
+        self.assertEqual(report.preset, "leaf")
         self.assertEqual(report.input.path, "preset leaf")
 
     def test_a_droplet_is_an_object_too(self):

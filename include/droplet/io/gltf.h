@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "droplet/io/compression.h"
+#include "droplet/io/file_droplet.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
-
-/// Name, look and figures of a droplet in a file.
-struct FileDroplet {
-    std::string name;            ///< of its node in glTF
-    Look look;                   ///< of its liquid; droplets with the same look share a material
-    double volume = 0.0;         ///< [m³]
-    double contact_angle = 0.0;  ///< mean along the rim [rad]
-    double height_max = 0.0;     ///< [m]
-    double pressure = 0.0;       ///< at height 0 [Pa]
-};
-
-/// Nodes of a glTF file.
-enum class Nodes {
-    One,  ///< all droplets are one mesh
-    Each  ///< every droplet has a mesh and a node
-};
 
 /// Options of a glTF file.
 struct GltfOptions {
@@ -37,7 +21,7 @@ struct GltfOptions {
     Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
     std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
-    Compression compression = Compression::None;  ///< only of a GLB without a refill, droplets and texture
+    Compression compression = Compression::None;  ///< only of a GLB without a refill
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -57,8 +41,8 @@ struct GltfOptions {
 /// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
 /// it, as KHR_materials_transmission says.
 ///
-/// A compressed file requires the extensions of its Compression, and its node has a scale and a translation. Meshopt
-/// gives vertices and triangles another order.
+/// A compressed file requires the extensions of its Compression, and its nodes have one scale and one translation, so
+/// that vertices that droplets share stay together. Meshopt gives vertices and triangles another order.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream

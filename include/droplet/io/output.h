@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "droplet/io/compression.h"
-#include "droplet/io/gltf.h"
+#include "droplet/io/file_droplet.h"
 #include "droplet/io/mesh_files.h"
 #include "droplet/surface/surface.h"
 
@@ -33,14 +33,11 @@ struct WriteOptions {
     std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
     LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
-    Nodes nodes = Nodes::One;                       ///< glTF
-    std::vector<FileDroplet> droplets = {};         ///< glTF as in GltfOptions; OBJ takes their looks
-    std::string texture = {};                       ///< glTF
+    Nodes nodes = Nodes::One;                       ///< glTF and USD
+    std::vector<FileDroplet> droplets = {};         ///< glTF and USD as in their options; OBJ takes their looks
+    std::string texture = {};                       ///< glTF and USDZ
     Compression compression = Compression::None;    ///< GLB
 };
-
-/// Looks of droplets, in their order.
-std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets);
 
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file
 /// without triangles.

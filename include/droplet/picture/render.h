@@ -56,6 +56,8 @@ struct RenderOptions {
     int samples = 16;                        ///< rays per pixel with detail; a quarter of it elsewhere. 4 … 256
     Look look;                               ///< of the liquid: lookOf(material)
     std::vector<Look> looks = {};            ///< by SurfacePart::droplet, instead of `look`; empty: all are alike
+    std::optional<Picture> colour_map = {};  ///< picture over the surface's uv: its colours multiply the light that
+                                             ///< enters the liquid, or the colour of opaque matter
     Lighting lighting = Lighting::Studio;    ///< Uniform ignores `environment`
     std::optional<Environment> environment = {};  ///< light instead of the studio's, fixed relative to the camera and
                                                   ///< scaled to the same brightness of level ground
