@@ -147,7 +147,7 @@ public:
                     report_.frames.size() == 1 ? "it" : fmt::format("any of {} frames", report_.frames.size())));
         }
         warnOfDisagreement();
-        progress_(Stage::Write);
+        progress_(Stage::Write, 0.0);
         save();
         return std::move(report_);
     }
@@ -159,7 +159,7 @@ private:
         const auto count = frames_.count();
         display_.restart(count ? fmt::format("frame {} of {}", std::min(number, *count), *count)
                                : fmt::format("frame {}", number));
-        progress_(Stage::Read);
+        progress_(Stage::Read, 0.0);
     }
 
     void add(const FramePicture& picture)
@@ -170,7 +170,7 @@ private:
         if (picture.disagrees) {
             disagreeing_.push_back(picture.number);
         }
-        progress_(Stage::Trace);
+        progress_(Stage::Trace, 0.0);
         droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
         if (!outline.loops.empty()) {
             refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
@@ -183,7 +183,7 @@ private:
             warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.severe_warnings);
         }
         if (options_.files) {
-            progress_(Stage::Write);
+            progress_(Stage::Write, 0.0);
             report.output = options_.files->at(picture.number);
             writeFrame(*report.output, report.closed);
         }
@@ -412,7 +412,7 @@ private:
     const AnimateOptions& options_;
     Frames& frames_;
     ProgressDisplay& display_;
-    const droplet::Progress progress_ = [this](Stage stage) { display_.begin(stage); };
+    const droplet::Progress progress_ = [this](Stage stage, double share) { display_.begin(stage, share); };
     StageClock clock_;
     Surroundings around_;
     droplet::SequenceOptions sequence_;

@@ -76,7 +76,7 @@ ColourShape makeOfColours(const droplet::ColourRegions& regions, const DropletSe
     const droplet::Mask mask = maskOf(regions);
     const double area = coveredArea(mask, settings.droplet.trace);
     refuseTooShortEdge(area, settings.droplet);
-    progress(droplet::Stage::Trace);
+    progress(droplet::Stage::Trace, 0.0);
     droplet::ColourDomain traced = droplet::traceColours(
         regions, {settings.droplet.trace, by_colour.gap, triangleEdge(area, settings.droplet.mesh)});
     ColourShape made;

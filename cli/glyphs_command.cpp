@@ -191,7 +191,7 @@ int makeText(const Font& font, GlyphsOptions options)
     checkShape(options.shape, "--font");
     requireColourLayers(font, options);
     makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
-        progress(droplet::Stage::Read);
+        progress(droplet::Stage::Read, 0.0);
         const Surroundings around =
             readSurroundings(options.shape.settings, groundPicture(options.shape), environmentPicture(options.shape));
         if (around.object && !options.sized) {
@@ -270,7 +270,7 @@ std::string settingsFingerprint(const GlyphsOptions& options)
 droplet::Report makeGlyph(const Font& font, const GlyphRequest& request, const GlyphsOptions& options,
                           ShapeOptions shape, const Surroundings& around)
 {
-    const auto ignore = [](droplet::Stage) {};
+    const auto ignore = [](droplet::Stage, double) {};
     droplet::TypeReport type = describeGlyph(font, request, options);
     if (shape.footprint.by_colour && droplet::hasColourLayers(font, request.glyph)) {
         droplet::ColourLayout colours = droplet::glyphColours(font, request.glyph, options.type.glyph);

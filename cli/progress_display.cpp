@@ -41,14 +41,22 @@ ProgressDisplay::~ProgressDisplay()
     stop();
 }
 
-void ProgressDisplay::begin(droplet::Stage stage)
+void ProgressDisplay::begin(droplet::Stage stage, double share)
 {
     const std::lock_guard lock(mutex_);
+    if (share > 0.0) {
+        share_ = share;
+        if (mode_ == ProgressMode::Json && item_.empty()) {
+            writeShare();
+        }
+        return;
+    }
     // Stages may alternate, droplet by droplet; the display only moves forward.
     if (stage_ && stage <= *stage_) {
         return;
     }
     stage_ = stage;
+    share_ = 0.0;
     if (mode_ == ProgressMode::Json) {
         writeLine(stage, false);
     }
@@ -58,6 +66,7 @@ void ProgressDisplay::restart(std::string item)
 {
     const std::lock_guard lock(mutex_);
     stage_.reset();
+    share_ = 0.0;
     item_ = std::move(item);
 }
 
@@ -100,8 +109,11 @@ std::string ProgressDisplay::bar() const
         full = kCells * done_ / count_;
         what = fmt::format("{}: {} of {}", counted_ == "drawn" ? "pictures" : "frames", done_, count_);
     } else {
-        full = kCellsPerStage * static_cast<std::size_t>(*stage_);
+        full = kCellsPerStage * static_cast<std::size_t>(*stage_) + static_cast<std::size_t>(share_ * kCellsPerStage);
         what = item_.empty() ? name(*stage_) : item_ + ": " + name(*stage_);
+        if (share_ > 0.0) {
+            what += fmt::format(": {:.0f} % of the liquid", 100.0 * share_);
+        }
     }
     return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + what + " " + rounded(elapsed(), 1) +
            " s";
@@ -111,6 +123,13 @@ void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
 {
     std::cerr << R"({"stage":")" << name(stage) << R"(","done":)" << (done ? "true" : "false") << R"(,"elapsed_s":)"
               << rounded(elapsed(), 3) << "}" << std::endl;
+}
+
+void ProgressDisplay::writeShare() const
+{
+    std::cerr << fmt::format(R"({{"stage":"{}","done":false,"share":{},"elapsed_s":{}}})", name(*stage_),
+                             rounded(share_, 2), rounded(elapsed(), 3))
+              << std::endl;
 }
 
 void ProgressDisplay::drawUntilStopped()

@@ -24,8 +24,9 @@ public:
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-    /// Shows a stage, unless it comes before the current one.
-    void begin(droplet::Stage stage);
+    /// Shows a stage, unless it comes before the current one, and how far it is.
+    /// @param share  as of droplet::Progress
+    void begin(droplet::Stage stage, double share = 0.0);
 
     /// Starts again with the first stage, for another item.
     /// @param item  name in the bar, such as "frame 3 of 12"
@@ -45,6 +46,7 @@ private:
     [[nodiscard]] std::string bar() const;
     void report(const char* what, std::size_t done, std::size_t count);
     void writeLine(droplet::Stage stage, bool done) const;
+    void writeShare() const;
     void drawUntilStopped();
     void stop();
 
@@ -53,6 +55,7 @@ private:
     std::mutex mutex_;
     std::condition_variable stopping_;
     std::optional<droplet::Stage> stage_;
+    double share_ = 0.0;  ///< of the stage
     std::string item_;
     std::string counted_;    ///< what is counted instead of stages
     std::size_t done_ = 0;   ///< number of these

@@ -239,10 +239,11 @@ struct Stages {
     StageClock clock;
     droplet::Progress progress;
 
-    void begin(Stage stage)
+    /// @param share  as of droplet::Progress
+    void begin(Stage stage, double share = 0.0)
     {
-        clock.begin(stage);
-        progress(stage);
+        clock.begin(stage, share);
+        progress(stage, share);
     }
 };
 
@@ -312,7 +313,7 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
     }
     picture = {};
     addPageSlider(settings.droplet, options);
-    const auto begin = [&](Stage stage) { stages.begin(stage); };
+    const auto begin = [&](Stage stage, double share) { stages.begin(stage, share); };
     MaskShape made = forInput(options, [&] { return makeOfMask(mask, settings, options, begin); });
     if (auto warning = maskWarning(mask, "look at it with --mask-out")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
@@ -352,7 +353,7 @@ droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& ar
         speck_size = std::max(speck_size, *source.speck_size / (pixel * pixel));
     }
     addPageSlider(settings.droplet, options);
-    const auto begin = [&](Stage stage) { stages.begin(stage); };
+    const auto begin = [&](Stage stage, double share) { stages.begin(stage, share); };
     ColourShape made = forInput(options, [&] { return makeOfColours(regions, settings, options, begin); });
     made.input.type = source.type;
     settings.warnings.insert(settings.warnings.begin(), made.warnings.begin(), made.warnings.end());
@@ -433,7 +434,7 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture)
 {
-    Stages stages{{}, [](Stage) {}};
+    Stages stages{{}, [](Stage, double) {}};
     stages.begin(Stage::Read);
     return make(options, around, std::move(picture), stages);
 }
@@ -457,8 +458,8 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     refuseTooShortEdge(coveredArea(footprint.outline), settings.droplet);
     addPageSlider(settings.droplet, options);
     footprint.input.specks_dropped = footprint.outline.specks_dropped;
-    Droplet droplet =
-        droplet::makeDroplet(std::move(footprint.outline), settings.droplet, [&](Stage stage) { stages.begin(stage); });
+    Droplet droplet = droplet::makeDroplet(std::move(footprint.outline), settings.droplet,
+                                           [&](Stage stage, double share) { stages.begin(stage, share); });
     return finish(std::move(droplet), settings, {footprint.input}, around, options, stages);
 }
 
@@ -526,7 +527,7 @@ void makeAndReport(const RunOptions& run, const std::function<droplet::Report(co
     }
     ProgressDisplay progress(
         run.verbosity == Verbosity::Quiet && run.progress == ProgressMode::Auto ? ProgressMode::None : run.progress);
-    const droplet::Report report = make([&](Stage stage) { progress.begin(stage); });
+    const droplet::Report report = make([&](Stage stage, double share) { progress.begin(stage, share); });
     progress.finish();
     printSummary(report, run);
 }

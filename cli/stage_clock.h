@@ -14,8 +14,12 @@ namespace cli {
 /// Clock that adds up the time of each stage.
 class StageClock {
 public:
-    void begin(droplet::Stage stage)
+    /// @param share  as of droplet::Progress
+    void begin(droplet::Stage stage, double share = 0.0)
     {
+        if (share > 0.0) {
+            return;
+        }
         close();
         current_ = stage;
     }

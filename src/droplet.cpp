@@ -361,7 +361,7 @@ Droplet makeDroplet(const Mask& mask, const DropletOptions& options, const Progr
     options.trace.validate();
     validateStages(options);
     if (progress) {
-        progress(Stage::Trace);
+        progress(Stage::Trace, 0.0);
     }
     return makeDroplet(trace(mask, options.trace), options, progress);
 }
@@ -407,7 +407,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;
     if (progress) {
-        progress(Stage::Loft);
+        progress(Stage::Loft, 0.0);
     }
     droplet.figures = figuresOf(droplet.meshes, shapes, solved);
     droplet.total = combine(droplet.figures);
@@ -453,7 +453,7 @@ Droplet makeDroplet(Domain domain, const DropletOptions& options, const Progress
     Droplet droplet;
     droplet.domain = std::move(domain);
     if (progress) {
-        progress(Stage::Triangulate);
+        progress(Stage::Triangulate, 0.0);
     }
     droplet.meshes = meshesOf(droplet.domain, options).meshes;
     finish(droplet, options, {}, progress);

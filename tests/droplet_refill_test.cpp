@@ -117,7 +117,7 @@ TEST(DropletRefill, IsRefusedBeforeAnythingIsSolved)
         change(wrong);
         std::vector<Stage> stages;
         try {
-            makeDroplet(sceneMask(), wrong, [&](Stage stage) { stages.push_back(stage); });
+            makeDroplet(sceneMask(), wrong, [&](Stage stage, double /*share*/) { stages.push_back(stage); });
         } catch (const Error& error) {
             EXPECT_TRUE(stages.empty());
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);

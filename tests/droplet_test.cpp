@@ -153,8 +153,8 @@ TEST(Droplet, OutlineGivesTheSameDropletAsItsMask)
     std::ostringstream from_outline;
     writeSurface(makeDroplet(mask, plain()).surface, from_mask, Format::Glb);
     std::vector<Stage> stages;
-    const Droplet drop =
-        makeDroplet(trace(mask, plain().trace), plain(), [&](Stage stage) { stages.push_back(stage); });
+    const Droplet drop = makeDroplet(trace(mask, plain().trace), plain(),
+                                     [&](Stage stage, double /*share*/) { stages.push_back(stage); });
     writeSurface(drop.surface, from_outline, Format::Glb);
     EXPECT_TRUE(from_mask.str() == from_outline.str());
     EXPECT_THAT(stages, ElementsAre(Stage::Triangulate, Stage::Assemble, Stage::Solve, Stage::Loft));
@@ -855,8 +855,33 @@ TEST(Droplet, WarnsOfATriangleCountOutOfReach)
 TEST(Droplet, ReportsEveryStageInOrder)
 {
     std::vector<Stage> stages;
-    makeDroplet(sceneMask(), plain(), [&](Stage stage) { stages.push_back(stage); });
+    makeDroplet(sceneMask(), plain(), [&](Stage stage, double /*share*/) { stages.push_back(stage); });
     EXPECT_THAT(stages, ElementsAre(Stage::Trace, Stage::Triangulate, Stage::Assemble, Stage::Solve, Stage::Loft));
+}
+
+// Two discs whose liquid hangs over: their shares rise together, and the shape is that of a run without a callback.
+TEST(Droplet, ReportsHowMuchOfTheLiquidIsThere)
+{
+    const Inside one = disc({30.0, 32.0}, 20.0);
+    const Inside other = disc({96.0, 32.0}, 20.0);
+    const Mask mask = smoothMask(128, 64, [&](Vec2 p) { return one(p) || other(p); });
+    DropletOptions options = plain();
+    options.mesh.triangles = 1'000;
+    options.solve.model = Model::Exact;
+    options.solve.fill.amount = 110.0 * kDegree;
+    std::vector<double> shares;
+    const Droplet droplet = makeDroplet(mask, options, [&](Stage stage, double share) {
+        if (share > 0.0) {
+            EXPECT_EQ(stage, Stage::Solve);
+            shares.push_back(share);
+        }
+    });
+    EXPECT_GE(shares.size(), 3U);
+    for (std::size_t k = 1; k < shares.size(); ++k) {
+        EXPECT_GT(shares[k], shares[k - 1]);
+    }
+    EXPECT_EQ(shares.back(), 1.0);
+    EXPECT_EQ(makeDroplet(mask, options).surface.positions, droplet.surface.positions);
 }
 
 TEST(Droplet, RefusesBadOptionsBeforeAnyWork)
@@ -864,7 +889,7 @@ TEST(Droplet, RefusesBadOptionsBeforeAnyWork)
     const auto refused = [](const DropletOptions& options) {
         bool began = false;
         try {
-            makeDroplet(sceneMask(), options, [&](Stage) { began = true; });
+            makeDroplet(sceneMask(), options, [&](Stage, double) { began = true; });
         } catch (const Error& error) {
             return !began && error.code() == ErrorCode::InvalidArgument;
         }

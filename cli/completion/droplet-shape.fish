@@ -74,7 +74,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liqui
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from studio' -l threads -s j -x -d 'Maximum number of threads'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l quiet -s q -d 'Print only errors, and warnings of results that cannot be right'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l verbose -s v -d 'Print more: every droplet, times, memory'
-complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l progress -x -a 'auto none json' -d 'auto shows a bar on a terminal; json writes a line of JSON for each stage instead of the summary'
+complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l progress -x -a 'auto none json' -d 'auto shows a bar on a terminal; json writes a line of JSON for each stage, and for each percent of a long solve, instead of the summary'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l config -r -F -d 'Read options from a TOML file with lines such as width = "8cm"; the command line takes precedence'
 complete -c droplet-shape -l help -s h -d 'Print this help'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from studio' -l version -d 'Print the version'

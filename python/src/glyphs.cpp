@@ -84,7 +84,7 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     cli::refuseTooShortEdge(cli::coveredArea(layout.outline), settings.droplet);
     droplet::InputReport input = inputOf(font, options, text, layout);
     droplet::Droplet made = droplet::makeDroplet(std::move(layout.outline), settings.droplet,
-                                                 [&](droplet::Stage stage) { clock.begin(stage); });
+                                                 [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
         onto = cli::placeOnObject(made, *around.object, *settings.onto);

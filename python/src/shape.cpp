@@ -39,7 +39,7 @@ std::shared_ptr<Droplet> makeFrom(Mask from, const Arguments& arguments)
     }
     const cli::Surroundings around = cli::readSurroundings(options.settings);
     cli::DropletSettings settings = cli::completeSettings(mask, around, options);
-    cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage) { clock.begin(stage); });
+    cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
     if (auto warning = cli::maskWarning(mask, "look at the array of the mask")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }

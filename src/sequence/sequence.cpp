@@ -503,7 +503,7 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
     frame.droplet.outline = std::move(outline);
     frame.droplet.domain = split(frame.droplet.outline);
     if (progress) {
-        progress(Stage::Triangulate);
+        progress(Stage::Triangulate, 0.0);
     }
     FrameLineage lineage = triangulateAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
     finish(frame.droplet, options.droplet, lineage.bases, progress);
@@ -542,7 +542,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     }
     std::vector<Group> groups = groupsOf(count, domain.droplets.size(), links);
     if (progress) {
-        progress(Stage::Triangulate);
+        progress(Stage::Triangulate, 0.0);
     }
     const bool one_to_one = restoreOrder(count, groups, domain);
     if (one_to_one) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -249,9 +251,10 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
 }
 
 /// Shape of droplets at one pressure, which may hang over their rims.
-/// @param fields  height fields, if they were found before
+/// @param fields   height fields, if they were found before
+/// @param reached  as of solveSheet()
 Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, std::vector<HeightField> fields,
-                 SheetEffort effort)
+                 SheetEffort effort, const std::function<void(double)>& reached)
 {
     Shape shape{std::move(fields), {}, {}};
     if (shape.fields.empty() && !mustHang(options)) {
@@ -265,7 +268,7 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     }
     // Where nobody asked for an amount, a height field that is upright in a few places may stand.
     const bool has_stand_in = !shape.fields.empty() && effort == SheetEffort::Modest;
-    shape.sheet = solveSheet(meshes, options, has_stand_in ? SheetEffort::Slight : effort);
+    shape.sheet = solveSheet(meshes, options, has_stand_in ? SheetEffort::Slight : effort, reached);
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {
@@ -457,6 +460,34 @@ std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& optio
     return shapes;
 }
 
+/// Share of the wanted amounts that is reached, of several droplets that are solved at the same time.
+class ReachedShare {
+public:
+    ReachedShare(const Progress& progress, std::size_t count) : progress_(&progress), shares_(count, 0.0) {}
+
+    /// Reports the mean if it rose by enough.
+    void reach(std::size_t droplet, double share)
+    {
+        constexpr double kStep = 0.01;
+        if (!*progress_) {
+            return;
+        }
+        const std::lock_guard lock(mutex_);
+        shares_[droplet] = std::max(shares_[droplet], share);
+        const double mean = std::accumulate(shares_.begin(), shares_.end(), 0.0) / static_cast<double>(shares_.size());
+        if (mean >= reported_ + kStep || (mean >= 1.0 && reported_ < 1.0)) {
+            reported_ = mean;
+            (*progress_)(Stage::Solve, std::min(mean, 1.0));
+        }
+    }
+
+private:
+    const Progress* progress_;
+    std::mutex mutex_;
+    std::vector<double> shares_;
+    double reported_ = 0.0;
+};
+
 /// Solves every droplet, whether or not neighbours touch.
 /// @param followed  as of solveShapes()
 LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less,
@@ -496,12 +527,13 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             return shapes;
         }
     } else if (progress) {
-        progress(Stage::Solve);
+        progress(Stage::Solve, 0.0);
     }
     const std::vector<std::vector<std::size_t>> groups = groupsOf(count, options);
     const bool has_fields = solution.report.usable();
     const bool has_linear = hasLinear(options);
     std::vector<Shape> found(groups.size());
+    ReachedShare reached(progress, groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
         if (followed[g]) {
             found[g].sheet = std::move(followed[g]);
@@ -518,7 +550,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         found[g] = solveShape(own, ownOptions(options, g), std::move(fields),
                               has_linear   ? SheetEffort::Slight
                               : allow_less ? SheetEffort::Modest
-                                           : SheetEffort::Full);
+                                           : SheetEffort::Full,
+                              [&](double share) { reached.reach(g, share); });
+        reached.reach(g, 1.0);
     });
     solution.droplets.assign(count, {});
     shapes.sheets.resize(count);

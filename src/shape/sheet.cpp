@@ -175,7 +175,7 @@ double edgeOf(const PlanarMesh& footprint)
 
 /// @param share  of the triangles' edges over those of the footprints
 SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double share,
-                      SheetEffort effort)
+                      SheetEffort effort, const std::function<void(double)>& reached)
 {
     std::vector<PlanarMesh> rounded;
     double covered = 0.0;
@@ -200,6 +200,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
                                                          : (effort == SheetEffort::Modest ? kModestWork : kSlightWork) *
                                                                std::max(kLeastWork, work);
     sheet_options.ground = options.ground;
+    sheet_options.reached = reached;
     take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
     return result;
 }
@@ -211,7 +212,8 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
     return solveSheet(std::vector<PlanarMesh>{footprint}, options, effort);
 }
 
-SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, SheetEffort effort)
+SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, SheetEffort effort,
+                       const std::function<void(double)>& reached)
 {
     options.liquid.validate();
     options.fill.validate();
@@ -220,10 +222,10 @@ SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOpt
         options.ground.requireAt({footprint.vertices.data(), footprint.rimVertexCount()});
         triangles += footprint.triangles.size();
     }
-    SheetResult result = solveWith(footprints, options, 1.0, effort);
+    SheetResult result = solveWith(footprints, options, 1.0, effort, reached);
     const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
     if (is_open && effort == SheetEffort::Full && triangles <= kConfirmed) {
-        SheetResult finer = solveWith(footprints, options, 0.5, effort);
+        SheetResult finer = solveWith(footprints, options, 0.5, effort, reached);
         if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
             return finer;
         }

@@ -233,9 +233,11 @@ private:
                 continue;
             }
             if (target_.by == FillBy::Volume) {
+                report(now_.volume);
                 continue;
             }
             const double amount = amountOf(now_.sheet, now_.pressure);
+            report(amount);
             largest = std::max(largest, amount);
             const bool is_angle = target_.by == FillBy::ContactAngle;
             if (amount < (is_angle ? largest - kFallen : kLower * largest)) {
@@ -246,6 +248,13 @@ private:
             }
         }
         return hasWork() ? SheetEnd::Unstable : SheetEnd::OutOfWork;
+    }
+
+    void report(double amount) const
+    {
+        if (options_.reached) {
+            options_.reached(std::clamp(amount / target_.amount, 0.0, 1.0));
+        }
     }
 
     /// Height or mean contact angle, whichever is the target.

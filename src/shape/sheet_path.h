@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct SheetOptions {
     bool is_end_confirmed = true;  ///< on triangles of the final size
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds
     BaseSurface ground = {};       ///< under the footprint, and around it
+    std::function<void(double)> reached = {};  ///< called with the share of the target after steps of the volume
 };
 
 /// Angles between liquid and ground along the rim.

@@ -242,7 +242,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     }
     requireGround(meshes, options.ground);
     if (progress) {
-        progress(Stage::Assemble);
+        progress(Stage::Assemble, 0.0);
     }
     const Physics physics = physicsOf(options);
     std::vector<std::unique_ptr<Energy>> energies(meshes.size());
@@ -261,7 +261,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     }
 
     if (progress) {
-        progress(Stage::Solve);
+        progress(Stage::Solve, 0.0);
     }
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
         groups[g].outcome = findEquilibrium(groups[g].members, ownOptions(options, g));

@@ -912,6 +912,25 @@ TEST_F(ShapeCommandTest, ProgressAsJsonIsOneObjectPerLine)
     EXPECT_THAT(warnings, SizeIs(1));
 }
 
+TEST_F(ShapeCommandTest, ProgressSaysHowMuchOfTheLiquidIsThere)
+{
+    const auto result =
+        run({"disc.pgm", "a.stl", "--triangles", "2k", "--progress", "json", "--contact-angle", "120deg"});
+    EXPECT_EQ(result.exit_code, 0);
+    std::vector<double> shares;
+    for (const std::string& line : result.errorLines()) {
+        const json event = json::parse(line);
+        if (event.contains("share")) {
+            EXPECT_EQ(event["stage"], "solve");
+            EXPECT_EQ(event["done"], false);
+            shares.push_back(event["share"]);
+        }
+    }
+    EXPECT_GE(shares.size(), 3U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1.0);
+}
+
 TEST_F(ShapeCommandTest, ProgressOfAFailedRunIsNotDone)
 {
     const auto result = run({"missing.pgm", "a.glb", "--progress", "json"});

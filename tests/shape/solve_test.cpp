@@ -419,7 +419,7 @@ TEST(Solve, ReportsItsMethodAndFigures)
         }
     }
     std::vector<Stage> stages;
-    (void)solve(meshes, {}, [&](Stage stage) { stages.push_back(stage); });
+    (void)solve(meshes, {}, [&](Stage stage, double /*share*/) { stages.push_back(stage); });
     EXPECT_EQ(stages, (std::vector<Stage>{Stage::Assemble, Stage::Solve}));
 }
 

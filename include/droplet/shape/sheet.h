@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -62,8 +63,8 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number. An end is confirmed on the final triangles,
-/// that of a footprint of up to 10 000 triangles on edges half as long.
+/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number. An end is
+/// confirmed on the final triangles, that of a footprint of up to 10 000 triangles on edges half as long.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
 /// input gives the same bits.
@@ -79,9 +80,10 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
 /// @param footprints  at least one
 /// @param options     as of one footprint; a volume is that of all together
 /// @param effort      as of one footprint
+/// @param reached     called with the share of the amount that is reached, on the calling thread; may be empty
 /// @return            the sheet holds all of them; separate() gives each its own
 SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options,
-                       SheetEffort effort = SheetEffort::Full);
+                       SheetEffort effort = SheetEffort::Full, const std::function<void(double)>& reached = {});
 
 /// Footprints as one mesh: all rims first. Its loops are those of the footprints, one after another.
 /// @param footprints  at least one
