@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -28,6 +27,7 @@
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
+#include "file_droplets.h"
 #include "files.h"
 #include "mask_shape.h"
 #include "picture_watch.h"
@@ -99,36 +99,6 @@ void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options
     if (hasSliderInPageOnly(options)) {
         droplet.fill_range = droplet::FillRange{.may_shrink = true};
     }
-}
-
-/// Names, looks and figures of the droplets in files. Empty if all are alike and need no names.
-/// @param settings  receives warnings about the file of materials
-/// @param colours   one per droplet, or none
-std::vector<droplet::FileDroplet> fileDroplets(const Droplet& droplet, DropletSettings& settings,
-                                               const std::vector<droplet::CssColour>& colours)
-{
-    std::vector<droplet::FileDroplet> all;
-    if (settings.nodes == droplet::Nodes::One && !settings.materials && colours.empty()) {
-        return all;
-    }
-    std::vector<droplet::Look> looks(droplet.figures.size(), droplet::lookOf(settings.material));
-    for (std::size_t k = 0; k < colours.size(); ++k) {
-        looks[k] = inColour(std::move(looks[k]), colours[k]);
-        looks[k].name = droplet::fileName(colours[k]);
-    }
-    if (settings.materials) {
-        for (std::string& warning : applyMaterials(*settings.materials, looks)) {
-            settings.warnings.push_back(std::move(warning));
-        }
-    }
-    std::map<std::string, std::size_t> counts;
-    for (std::size_t k = 0; k < looks.size(); ++k) {
-        const droplet::ShapeFigures& figures = droplet.figures[k];
-        const std::string kind = colours.empty() ? "droplet" : droplet::fileName(colours[k]);
-        all.push_back({fmt::format("{}_{}", kind, ++counts[kind]), looks[k], figures.volume, figures.contact_angle.mean,
-                       figures.height_max, droplet.solution.droplets[k].pressure});
-    }
-    return all;
 }
 
 /// What is written beside the surface.
@@ -263,24 +233,25 @@ std::string pngOf(const droplet::Picture& picture)
 }
 
 /// Places a droplet on its object, writes its files, and returns the report.
-droplet::Report finish(Droplet droplet, DropletSettings settings, const Source& source, const Surroundings& around,
-                       const ShapeOptions& options, Stages& stages)
+droplet::Report finish(Droplet droplet, const DropletSettings& settings, const Source& source,
+                       const Surroundings& around, const ShapeOptions& options, Stages& stages)
 {
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
-    Extras extras{fileDroplets(droplet, settings, source.colours),
-                  {},
-                  source.mask,
-                  source.colour_map ? pngOf(*source.colour_map) : std::string()};
     droplet::Report report = describe(droplet, settings);
     report.fill_range = options.settings.droplet.fill_range;
     report.input = source.input;
     for (std::size_t k = 0; k < source.colours.size(); ++k) {
         report.droplets[k].colour = source.colours[k];
     }
+    Extras extras{
+        fileDroplets(report.droplets, {settings.material, settings.nodes, settings.materials}, report.warnings),
+        {},
+        source.mask,
+        source.colour_map ? pngOf(*source.colour_map) : std::string()};
     report.output = describeOutput(droplet.surface, options.output, options.format);
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {

@@ -129,6 +129,7 @@ KIND_OF_VALUE = {
     "V|artistic|wedge": "viscosity",
     "V|every": "volume",
     "N": "count",
+    "K|auto": "count",
     "F": "number",
     "C": "number",
     "NUMBER": "number",
@@ -231,7 +232,7 @@ path: file of the picture.
 Makes the droplets of liquid that have a mask as their footprints.
 
 mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose largest value is liquid; or float from 0 to
-1. Or the result of read_mask().
+1. Or the result of read_mask(). With by_colour, an array of rows, columns, and red, green, blue and maybe alpha, of uint8.
 
 >>> import numpy
 >>> y, x = numpy.mgrid[-1:1:200j, -1:1:200j]
@@ -240,11 +241,15 @@ mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose l
 30.0
 >>> drop.vertices.shape[1], drop.triangles.dtype
 (3, dtype('uint32'))
+>>> flag = numpy.zeros((60, 90, 3), numpy.uint8)
+>>> flag[:, :45], flag[:, 45:] = (0, 0, 255), (255, 215, 0)
+>>> [droplet.colour for droplet in make_droplet(flag, by_colour=True, triangles=1000).report.droplets]
+['#0000ff', '#ffd700']
 """,
         "_core.make_droplet(mask_of(mask), {tokens})",
         leave_out={
-            "channel", "segment", "colour", "mask_out", "unit", "format", "material",
-            "by_colour", "colours", "gap", "colour_map", "nodes", "materials", "compress",
+            "segment", "colour", "mask_out", "unit", "format", "material",
+            "colour_map", "nodes", "materials", "compress",
         },
     ),
     Function(

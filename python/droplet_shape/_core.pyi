@@ -40,6 +40,17 @@ class Surface:
 class Droplet(Surface):
     @property
     def report(self) -> Report: ...
+    def save(
+        self,
+        path: _Path,
+        *,
+        material: Optional[str] = None,
+        unit: str = "mm",
+        compress: str = "none",
+        nodes: str = "one",
+        materials: Optional[_Path] = None,
+        no_clobber: bool = False,
+    ) -> None: ...
 
 class Animation:
     @property

@@ -81,12 +81,16 @@ def read_mask(
 _MAKE_DROPLET = {
     "width": "m",
     "pixel_size": "m",
+    "channel": "text",
     "threshold": "number",
     "invert": "flag",
     "smooth": "m",
     "fill_holes": "m2",
     "keep": "number",
     "speck_size": "number",
+    "by_colour": "flag",
+    "colours": "number",
+    "gap": "m",
     "contact_angle": "rad",
     "on": "text",
     "volume": "m3",
@@ -120,12 +124,16 @@ def make_droplet(
     *,
     width: str | float | None = None,
     pixel_size: str | float | None = None,
+    channel: str | None = None,
     threshold: float | None = None,
     invert: bool = False,
     smooth: str | float | None = None,
     fill_holes: str | float | None = None,
     keep: str | int | None = None,
     speck_size: float | None = None,
+    by_colour: bool = False,
+    colours: str | int | None = None,
+    gap: str | float | None = None,
     contact_angle: str | float | None = None,
     on: str | None = None,
     volume: str | float | None = None,
@@ -156,7 +164,8 @@ def make_droplet(
 
     mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose largest value is liquid; or float
     from 0 to
-    1. Or the result of read_mask().
+    1. Or the result of read_mask(). With by_colour, an array of rows, columns, and red, green, blue and maybe alpha,
+    of uint8.
 
     >>> import numpy
     >>> y, x = numpy.mgrid[-1:1:200j, -1:1:200j]
@@ -165,16 +174,27 @@ def make_droplet(
     30.0
     >>> drop.vertices.shape[1], drop.triangles.dtype
     (3, dtype('uint32'))
+    >>> flag = numpy.zeros((60, 90, 3), numpy.uint8)
+    >>> flag[:, :45], flag[:, 45:] = (0, 0, 255), (255, 215, 0)
+    >>> [droplet.colour for droplet in make_droplet(flag, by_colour=True, triangles=1000).report.droplets]
+    ['#0000ff', '#ffd700']
 
     Footprint:
       width [m]: Width of the picture; an SVG may state its own (default: 20mm)
       pixel_size [m]: Size of one pixel, instead of width
+      channel: auto, alpha, luma: Channel that shows the liquid: auto takes alpha if the picture has transparent
+        parts, else what differs from the brightness of its border (default: auto)
       threshold: Coverage at which liquid begins, between 0 and 1 (default: 0.5)
       invert: Exchange liquid and dry
       smooth [m]: Remove spots, and bends of the rim, that are narrower than this
       fill_holes [m²]: Fill holes smaller than this, such as glints: 1mm2
       keep: Keep only the N largest droplets
       speck_size: Drop spots and holes smaller than F square pixels (default: 3)
+      by_colour: Make one droplet for each region of one colour, in that colour; neighbours share their boundary. Dry
+        is what is transparent, else the border's colour if 95 % of the border has it; channel alpha: only what is
+        transparent; channel luma: the border's most common colour
+      colours: Number of colours for by_colour, 1 to 64 (default: auto)
+      gap [m]: Dry width between neighbours for by_colour (default: none)
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of

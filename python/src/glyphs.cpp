@@ -89,7 +89,7 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     if (around.object) {
         onto = cli::placeOnObject(made, *around.object, *settings.onto);
     }
-    return Droplet::make(std::move(made), settings, std::move(input), std::move(onto), clock);
+    return Droplet::make(std::move(made), settings, {std::move(input), std::move(onto)}, clock);
 }
 
 }  // namespace

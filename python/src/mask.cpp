@@ -11,11 +11,15 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "arguments.h"
 #include "droplet/error.h"
+#include "droplet/picture/picture.h"
 #include "shape_options.h"
 #include "work.h"
 
@@ -60,7 +64,7 @@ droplet::Mask fromArray(const py::array& array)
     if (array.ndim() != 2) {
         throw Error(ErrorCode::InvalidArgument,
                     fmt::format("mask: an array of {} dimensions must have 2; of a picture with colours take one "
-                                "channel",
+                                "channel, or give by_colour",
                                 array.ndim()));
     }
     constexpr py::ssize_t kMaxSide = std::numeric_limits<std::int32_t>::max();
@@ -116,6 +120,37 @@ Mask maskOf(const py::handle& from)
         return from.cast<const Mask&>();
     }
     return {fromArray(from.cast<py::array>()), "array", {}};
+}
+
+std::string pngOf(const py::handle& from)
+{
+    const auto array = py::isinstance<Mask>(from) ? py::array() : from.cast<py::array>();
+    const bool has_colours = array.ndim() == 3 && (array.shape(2) == 3 || array.shape(2) == 4);
+    if (!has_colours || array.size() == 0 || !py::isinstance<py::array_t<std::uint8_t>>(array)) {
+        throw Error(
+            ErrorCode::InvalidArgument,
+            "mask: for by_colour it must be an array of rows, columns, and red, green, blue and maybe alpha, of "
+            "uint8");
+    }
+    const auto height = static_cast<int>(array.shape(0));
+    const auto width = static_cast<int>(array.shape(1));
+    const auto items = array.unchecked<std::uint8_t, 3>();
+    std::vector<std::uint8_t> levels;
+    levels.reserve(static_cast<std::size_t>(array.size()));
+    for (py::ssize_t y = 0; y < items.shape(0); ++y) {
+        for (py::ssize_t x = 0; x < items.shape(1); ++x) {
+            for (py::ssize_t c = 0; c < items.shape(2); ++c) {
+                levels.push_back(items(y, x, c));
+            }
+        }
+    }
+    std::ostringstream png;
+    if (array.shape(2) == 3) {
+        writePng(droplet::Picture{width, height, std::move(levels)}, png, droplet::PngEffort::Fast);
+    } else {
+        writePng(droplet::Layer{width, height, std::move(levels)}, png, droplet::PngEffort::Fast);
+    }
+    return std::move(png).str();
 }
 
 void bindMask(py::module_& module)

@@ -23,6 +23,11 @@ struct Mask {
 /// @throws droplet::Error  InvalidArgument: other shape or type, an empty array, numbers out of range
 Mask maskOf(const pybind11::handle& from);
 
+/// A PNG with the pixels of an array of three dimensions: rows from the top, columns, and red, green, blue, and maybe
+/// alpha, of uint8.
+/// @throws droplet::Error  InvalidArgument: other shape or type, an empty array
+std::string pngOf(const pybind11::handle& from);
+
 /// Adds masks to the module.
 void bindMask(pybind11::module_& module);
 

@@ -52,24 +52,34 @@ auto view(std::vector<Item> droplet::Surface::*member)
     };
 }
 
-void save(const Surface& self, const std::filesystem::path& path, const std::optional<std::string>& material,
-          const std::string& unit, const std::string& compress, bool no_clobber)
+}  // namespace
+
+droplet::Material materialOf(const Surface& surface, const SaveOptions& options)
+{
+    return options.material ? cli::forOption("material", [&] { return droplet::materialNamed(*options.material); })
+                            : surface.material();
+}
+
+void saveSurface(const Surface& surface, const SaveOptions& options, droplet::Nodes nodes,
+                 const std::vector<droplet::FileDroplet>& droplets)
 {
     const py::gil_scoped_release release;
     using droplet::LengthUnit;
-    const std::string extension = path.extension().string();
-    cli::SurfaceTarget target{path.string(), droplet::Format::Glb, {}};
-    target.format = cli::forOption("path: '" + path.string() + "'", [&] { return droplet::formatNamed(extension); });
-    target.options.material =
-        material ? cli::forOption("material", [&] { return droplet::materialNamed(*material); }) : self.material();
+    const std::string path = options.path.string();
+    cli::SurfaceTarget target{path, droplet::Format::Glb, {}};
+    target.format =
+        cli::forOption("path: '" + path + "'", [&] { return droplet::formatNamed(options.path.extension().string()); });
+    target.options.material = materialOf(surface, options);
     target.options.unit = cli::choice<LengthUnit>(
-        {unit, "unit"}, {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
-    target.options.compression = cli::forOption("compress", [&] { return droplet::compressionNamed(compress); });
+        {options.unit, "unit"},
+        {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
+    target.options.nodes = nodes;
+    target.options.droplets = droplets;
+    target.options.compression =
+        cli::forOption("compress", [&] { return droplet::compressionNamed(options.compress); });
     std::uint64_t bytes = 0;
-    cli::writeTogether(cli::surfaceFiles(self.surface(), target, bytes), {no_clobber});
+    cli::writeTogether(cli::surfaceFiles(surface.surface(), target, bytes), {options.no_clobber});
 }
-
-}  // namespace
 
 py::object reportOf(const char* name, const std::string& json)
 {
@@ -111,9 +121,16 @@ after the surface is deleted.)")
         .def_property_readonly(
             "warnings", [](const Surface& self) { return warningsOf(self.warnings()); },
             "Warnings, one line each, the grave ones first.")
-        .def("save", &save, py::arg("path"), py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
-             py::arg("compress") = "none", py::arg("no_clobber") = false,
-             R"(Writes the surface to a file, completely or not at all.
+        .def(
+            "save",
+            [](const Surface& self, std::filesystem::path path, std::optional<std::string> material, std::string unit,
+               std::string compress, bool no_clobber) {
+                saveSurface(self,
+                            {std::move(path), std::move(material), std::move(unit), std::move(compress), no_clobber});
+            },
+            py::arg("path"), py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
+            py::arg("compress") = "none", py::arg("no_clobber") = false,
+            R"(Writes the surface to a file, completely or not at all.
 
 path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or .usdz
 material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD

@@ -3,11 +3,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "droplet/io/file_droplet.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
@@ -34,6 +36,25 @@ private:
     droplet::Material material_;
     std::vector<std::string> warnings_;
 };
+
+/// Arguments of save() in Python.
+struct SaveOptions {
+    std::filesystem::path path;
+    std::optional<std::string> material;  ///< empty: the surface's own
+    std::string unit = "mm";
+    std::string compress = "none";
+    bool no_clobber = false;
+};
+
+/// Material of a file.
+/// @throws droplet::Error InvalidArgument
+droplet::Material materialOf(const Surface& surface, const SaveOptions& options);
+
+/// Writes a surface to a file, completely or not at all. Other threads of Python run meanwhile.
+/// @param droplets        as in WriteOptions
+/// @throws droplet::Error InvalidArgument, OutputFailed
+void saveSurface(const Surface& surface, const SaveOptions& options, droplet::Nodes nodes = droplet::Nodes::One,
+                 const std::vector<droplet::FileDroplet>& droplets = {});
 
 /// Object of the package's reports from JSON text.
 /// @param name  class of droplet_shape._reports

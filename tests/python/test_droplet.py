@@ -2,6 +2,7 @@
 """make_droplet: masks, arrays, options, reports, errors, threads."""
 import dataclasses
 import gc
+import json
 import math
 import tempfile
 import threading
@@ -268,6 +269,93 @@ class Errors(unittest.TestCase):
             ds.make_droplet(disc(), width="50mm", tilt="90deg", contact_angle="60deg", model="exact", triangles=500)
         self.assertEqual(caught.exception.code, "NoSuchDroplet")
         self.assertNotIn("--", str(caught.exception))
+
+
+def flag(channels=3):
+    """Picture of two stripes on white, or on transparent ground."""
+    picture = np.full((80, 120, channels), 255, np.uint8)
+    if channels == 4:
+        picture[..., 3] = 0
+    picture[10:70, 10:60, :] = (0, 0, 139, 255)[:channels]
+    picture[10:70, 60:110, :] = (255, 215, 0, 255)[:channels]
+    return picture
+
+
+class ByColour(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def gltf(self, path):
+        data = path.read_bytes()
+        return json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+
+    def test_every_region_is_a_droplet(self):
+        for channels in (3, 4):
+            report = ds.make_droplet(flag(channels), by_colour=True, **SMALL).report
+            self.assertEqual([droplet.colour for droplet in report.droplets], ["#00008b", "#ffd700"])
+            self.assertEqual([entry.colour for entry in report.input.palette], ["#00008b", "#ffd700"])
+            self.assertEqual(report.input.background, "#ffffff" if channels == 3 else None)
+            self.assertEqual(report.input.path, "array")
+
+    def test_the_order_in_memory_does_not_matter(self):
+        a = ds.make_droplet(flag(), by_colour=True, **SMALL)
+        b = ds.make_droplet(np.asfortranarray(flag()), by_colour=True, **SMALL)
+        np.testing.assert_array_equal(a.vertices, b.vertices)
+
+    def test_number_gap_and_channel(self):
+        areas = [
+            ds.make_droplet(flag(), by_colour=True, gap=gap, **SMALL).report.mesh.footprint_area_m2
+            for gap in (None, "1mm", 1e-3)
+        ]
+        self.assertAlmostEqual(areas[0] - areas[1], 10e-3 * 1e-3, delta=2e-6)
+        self.assertEqual(areas[1], areas[2])
+        one = ds.make_droplet(flag(), by_colour=True, colours=1, **SMALL)
+        self.assertEqual(len(one.report.input.palette), 1)
+        opaque = ds.make_droplet(flag(), by_colour=True, channel="alpha", **SMALL)
+        self.assertEqual(len(opaque.report.droplets), 3)
+
+    def test_files_have_the_colours(self):
+        drop = ds.make_droplet(flag(), by_colour=True, **SMALL)
+        drop.save(self.folder / "one.glb")
+        one = self.gltf(self.folder / "one.glb")
+        self.assertEqual([material["name"] for material in one["materials"]], ["darkblue", "gold"])
+        self.assertEqual(len(one["nodes"]), 1)
+        for compress in ("none", "meshopt"):
+            drop.save(self.folder / "each.glb", nodes="each", compress=compress)
+            each = self.gltf(self.folder / "each.glb")
+            self.assertEqual([node["name"] for node in each["nodes"]], ["darkblue_1", "gold_1"])
+            for node, droplet in zip(each["nodes"], drop.report.droplets):
+                self.assertEqual(node["extras"]["volume_m3"], droplet.volume_m3)
+        drop.save(self.folder / "drop.usda", nodes="each")
+        self.assertIn('def Mesh "gold_1"', (self.folder / "drop.usda").read_text())
+        drop.save(self.folder / "drop.obj")
+        self.assertIn("newmtl gold\n", (self.folder / "drop.mtl").read_text())
+
+    def test_materials_come_from_a_file(self):
+        drop = ds.make_droplet(flag(), by_colour=True, **SMALL)
+        materials = self.folder / "m.toml"
+        materials.write_text('[[droplet]]\nindex = 2\nmaterial = "mercury"\n')
+        drop.save(self.folder / "drop.glb", materials=materials)
+        names = [material["name"] for material in self.gltf(self.folder / "drop.glb")["materials"]]
+        self.assertEqual(names, ["darkblue", "mercury"])
+        materials.write_text('[[droplet]]\nindex = 3\nmaterial = "mercury"\n')
+        with self.assertWarnsRegex(UserWarning, "names droplet 3, but there are only 2"):
+            drop.save(self.folder / "drop.glb", materials=materials)
+        with self.assertRaisesRegex(ds.InvalidArgument, "^materials: .*cannot be read"):
+            drop.save(self.folder / "drop.glb", materials="missing.toml")
+        with self.assertRaisesRegex(ds.InvalidArgument, "^nodes"):
+            drop.save(self.folder / "drop.glb", nodes="some")
+
+    def test_other_arrays_are_refused(self):
+        for array in (disc(), flag()[..., :2], flag().astype(float), np.zeros((0, 4, 3), np.uint8)):
+            with self.assertRaisesRegex(ds.InvalidArgument, "^mask: for by_colour it must be an array of rows"):
+                ds.make_droplet(array, by_colour=True)
+        with self.assertRaisesRegex(ds.InvalidArgument, "by_colour and invert exclude"):
+            ds.make_droplet(flag(), by_colour=True, invert=True)
+        with self.assertRaisesRegex(ds.InvalidArgument, "^channel needs by_colour"):
+            ds.make_droplet(disc(), channel="alpha")
 
 
 class Files(unittest.TestCase):
