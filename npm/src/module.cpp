@@ -117,7 +117,8 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     const cli::ShapeOptions options = parse(arguments);
     const droplet::Mask mask = maskOf(given, options.footprint.mask);
     cli::DropletSettings settings = cli::completeSettings(mask, {}, options);
-    cli::MaskShape made = cli::makeOfMask(mask, settings, options, [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
+    cli::MaskShape made = cli::makeOfMask(mask, settings, options,
+                                          [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
     if (auto warning = cli::maskWarning(mask, "look at it")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }

@@ -83,8 +83,9 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     settings.droplet.solve.ground = groundOf(settings, around, layout.outline.extent);
     cli::refuseTooShortEdge(cli::coveredArea(layout.outline), settings.droplet);
     droplet::InputReport input = inputOf(font, options, text, layout);
-    droplet::Droplet made = droplet::makeDroplet(std::move(layout.outline), settings.droplet,
-                                                 [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
+    droplet::Droplet made =
+        droplet::makeDroplet(std::move(layout.outline), settings.droplet,
+                             [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
         onto = cli::placeOnObject(made, *around.object, *settings.onto);

@@ -23,9 +23,9 @@ struct TriangulateOptions {
     void validate() const;
 };
 
-/// Grading that a footprint is triangulated with: options.grading if set. Otherwise 64 if a layer is given, its area over
-/// the length of its rim is more than twice the layer, and six of the edges that the number of triangles allows without
-/// grading are longer than the layer; 1 if not.
+/// Grading that a footprint is triangulated with: options.grading if set. Otherwise 64 if a layer is given, its area
+/// over the length of its rim is more than twice the layer, and six of the edges that the number of triangles allows
+/// without grading are longer than the layer; 1 if not.
 int gradingOf(const Domain& domain, const TriangulateOptions& options);
 
 /// Triangulates every droplet's footprint: equilateral triangles inside, a Delaunay band along the rim.
