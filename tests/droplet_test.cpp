@@ -810,6 +810,22 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
     }
 }
 
+TEST(Droplet, DiscsHoldCapsUpToTheUprightOne)
+{
+    constexpr double kRadius = 50.0;  // [px]
+    DropletOptions options = plain();
+    options.solve.model = Model::Exact;
+    for (const double degrees : {85.0, 89.2, 90.0, 95.0}) {
+        options.solve.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
+        const Droplet droplet = makeDroplet(smoothMask(128, 128, disc({64.0, 64.0}, kRadius)), options);
+        const double radius = kRadius * *options.trace.pixel_size;
+        const double height = radius * std::tan(0.5 * degrees * kDegree);
+        expectRelative(droplet.total.volume, kPi * height * (3.0 * radius * radius + height * height) / 6.0, 1e-2,
+                       "volume");
+        expectRelative(droplet.total.height_max, height, 5e-3, "height");
+    }
+}
+
 // Refusals say what does not hold the liquid any more, and how much it does hold.
 TEST(Droplet, RefusalsNameReasonAndLimit)
 {
