@@ -552,7 +552,10 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                               : allow_less ? SheetEffort::Modest
                                            : SheetEffort::Full,
                               [&](double share) { reached.reach(g, share); });
-        reached.reach(g, 1.0);
+        const Shape& shape = found[g];
+        if (shape.fields.empty() ? shape.sheet && shape.sheet->end == SheetEnd::Reached : !shape.lesser) {
+            reached.reach(g, 1.0);
+        }
     });
     solution.droplets.assign(count, {});
     shapes.sheets.resize(count);
