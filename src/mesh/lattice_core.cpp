@@ -36,6 +36,24 @@ void appendPoints(std::vector<Vec2>& points, const LatticeRegion& region, double
     }
 }
 
+/// Lattice points clear of the rim, with edges that double inward until they are `longest` times as long.
+/// @param inside_of  the part of a region, with edges of a length, in which edges may be twice as long
+template <typename InsideOf>
+std::vector<Vec2> coarserInward(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest,
+                                const InsideOf& inside_of)
+{
+    std::vector<Vec2> points;
+    LatticeRegion region = pointsInside(polygons, edge, kClearance * edge);
+    for (; longest > 1; longest /= 2) {
+        const LatticeRegion inside = inside_of(region, edge);
+        appendPoints(points, without(region, inside), edge);
+        region = everySecond(inside);
+        edge *= 2.0;
+    }
+    appendPoints(points, region, edge);
+    return points;
+}
+
 }  // namespace
 
 LatticeCore::LatticeCore(const std::vector<std::vector<Vec2>>& polygons, double edge)
@@ -119,36 +137,23 @@ std::size_t countClearPoints(const std::vector<std::vector<Vec2>>& polygons, dou
 
 std::vector<Vec2> gradedPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest)
 {
-    std::vector<Vec2> points;
-    LatticeRegion region = pointsInside(polygons, edge, kClearance * edge);
-    for (; longest > 1; longest /= 2) {
+    return coarserInward(polygons, edge, longest, [](const LatticeRegion& region, double /*edge*/) {
         LatticeRegion inside = region;
         for (int layer = 0; layer < kLayersPerLevel; ++layer) {
             inside = eroded(inside);
         }
-        appendPoints(points, without(region, inside), edge);
-        region = everySecond(inside);
-        edge *= 2.0;
-    }
-    appendPoints(points, region, edge);
-    return points;
+        return inside;
+    });
 }
 
 std::vector<Vec2> layeredPoints(const std::vector<std::vector<Vec2>>& polygons, double edge, int longest, double layer)
 {
-    std::vector<Vec2> points;
     double distance = kClearance * edge;
-    LatticeRegion region = pointsInside(polygons, edge, distance);
-    for (; longest > 1; longest /= 2) {
-        const double row = 0.5 * std::numbers::sqrt3 * edge;
+    return coarserInward(polygons, edge, longest, [&](const LatticeRegion& /*region*/, double here) {
+        const double row = 0.5 * std::numbers::sqrt3 * here;
         distance += std::max(kDoubling * layer, row);
-        const LatticeRegion inside = pointsInside(polygons, edge, distance);
-        appendPoints(points, without(region, inside), edge);
-        region = everySecond(inside);
-        edge *= 2.0;
-    }
-    appendPoints(points, region, edge);
-    return points;
+        return pointsInside(polygons, here, distance);
+    });
 }
 
 }  // namespace droplet

@@ -50,7 +50,7 @@ constexpr double kWide = 2.0;
 /// Growth of the edges, from the rim inward.
 struct Growth {
     int longest = 1;     ///< times the edges along the rim
-    double layer = 0.0;  ///< see gradedPoints()
+    double layer = 0.0;  ///< as of layeredPoints(); 0: none
 };
 
 /// Length of the edges of equilateral triangles.
