@@ -159,11 +159,12 @@ Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     }
 }
 
-/// Height fields of the linear model, or none where no volume gives the amount.
-Solution linearFields(const std::vector<PlanarMesh>& meshes, SolveOptions options)
+/// Shapes of the linear model in place of exact ones, if there are any.
+std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes, SolveOptions options)
 {
     options.model = Model::Linear;
-    return findFields(meshes, options, {});
+    LiquidShapes shapes{.solution = findFields(meshes, options, {}), .is_stand_in = true};
+    return shapes.solution.report.usable() ? std::optional(std::move(shapes)) : std::nullopt;
 }
 
 /// Why there is no sheet, and what to change.
@@ -239,14 +240,11 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
     if (lesser.fields.empty()) {
         return shape;
     }
-    double turned = 0.0;
-    double rim_length = 0.0;
+    std::vector<ShapeFigures> figures;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const ShapeFigures figures = measure(meshes[k], lesser.fields[k], options);
-        turned += figures.contact_angle.mean * figures.rim_length;
-        rim_length += figures.rim_length;
+        figures.push_back(measure(meshes[k], lesser.fields[k], options));
     }
-    lesser.lesser = turned / rim_length;
+    lesser.lesser = combine(figures).contact_angle.mean;
     return lesser;
 }
 
@@ -503,9 +501,8 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         const bool is_proven = end == Termination::NoHeightField || end == Termination::Unstable;
         if (!solution.report.usable() && options.model == Model::Auto &&
             (allow_less || (!is_proven && hasLinear(options)))) {
-            if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
-                solution = std::move(flat);
-                shapes.is_stand_in = true;
+            if (auto stand_in = linearStandIn(meshes, options)) {
+                return *std::move(stand_in);
             }
         }
         if (!solution.report.usable()) {
@@ -586,20 +583,17 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, refused));
         } else {
             if (shape.sheet->end != SheetEnd::Reached) {
-                if (has_linear && (allow_less || !isProven(shape.sheet->end, options))) {
-                    if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
-                        return {.solution = std::move(flat), .is_stand_in = true};
+                const bool is_too_little = allow_less && options.model == Model::Auto &&
+                                           options.fill.by == FillBy::ContactAngle &&
+                                           shape.sheet->contact_angle < kLeastShare * options.fill.amount;
+                if (is_too_little || (has_linear && (allow_less || !isProven(shape.sheet->end, options)))) {
+                    if (auto stand_in = linearStandIn(meshes, options)) {
+                        return *std::move(stand_in);
                     }
                 }
                 if (!allow_less) {
                     throw Error(ErrorCode::NoSuchDroplet, reachesFurther(shape) ? refusal(shape.report, refused)
                                                                                 : refusal(*shape.sheet, refused));
-                }
-                if (options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
-                    shape.sheet->contact_angle < kLeastShare * options.fill.amount) {
-                    if (Solution flat = linearFields(meshes, options); flat.report.usable()) {
-                        return {.solution = std::move(flat), .is_stand_in = true};
-                    }
                 }
                 shapes.with_less += groups[g].size();
                 shapes.least_angle = std::min(shapes.least_angle, shape.sheet->contact_angle);
