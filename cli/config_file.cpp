@@ -8,11 +8,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "droplet/error.h"
+#include "text_lines.h"
 
 namespace cli {
 namespace {
@@ -22,14 +20,8 @@ class Lines {
 public:
     explicit Lines(const std::string& path) : path_(path)
     {
-        std::ifstream file(path);
-        for (std::string line; std::getline(file, line);) {
+        for (const std::string& line : readLines("--config", path)) {
             lines_.push_back(line.substr(0, line.find_last_not_of(" \t\r") + 1));
-        }
-        // A directory opens and fails at the first read; a missing file fails at once.
-        if (!file.eof()) {
-            throw droplet::Error(droplet::ErrorCode::InvalidArgument,
-                                 "--config: " + path + " cannot be read: " + std::strerror(errno));
         }
     }
 

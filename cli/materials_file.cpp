@@ -5,9 +5,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -15,6 +12,7 @@
 
 #include "droplet/error.h"
 #include "option_values.h"
+#include "text_lines.h"
 
 namespace cli {
 namespace {
@@ -50,13 +48,9 @@ public:
 private:
     [[nodiscard]] toml::table parse() const
     {
-        std::ifstream file(path_);
         std::string text;
-        for (std::string line; std::getline(file, line);) {
+        for (const std::string& line : readLines("--materials", path_)) {
             text += line + "\n";
-        }
-        if (!file.eof()) {
-            cli::refuse(fmt::format("--materials: {} cannot be read: {}", path_, std::strerror(errno)));
         }
         try {
             return toml::parse(text);
