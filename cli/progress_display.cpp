@@ -47,7 +47,7 @@ void ProgressDisplay::begin(droplet::Stage stage, double share)
     if (share > 0.0) {
         share_ = share;
         if (mode_ == ProgressMode::Json && item_.empty()) {
-            writeShare();
+            writeLine(*stage_, false);
         }
         return;
     }
@@ -121,14 +121,9 @@ std::string ProgressDisplay::bar() const
 
 void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
 {
-    std::cerr << R"({"stage":")" << name(stage) << R"(","done":)" << (done ? "true" : "false") << R"(,"elapsed_s":)"
-              << rounded(elapsed(), 3) << "}" << std::endl;
-}
-
-void ProgressDisplay::writeShare() const
-{
-    std::cerr << fmt::format(R"({{"stage":"{}","done":false,"share":{},"elapsed_s":{}}})", name(*stage_),
-                             rounded(share_, 2), rounded(elapsed(), 3))
+    const std::string share = share_ > 0.0 && !done ? "\"share\":" + rounded(share_, 2) + "," : "";
+    std::cerr << fmt::format(R"({{"stage":"{}","done":{},{}"elapsed_s":{}}})", name(stage), done, share,
+                             rounded(elapsed(), 3))
               << std::endl;
 }
 

@@ -46,7 +46,6 @@ private:
     [[nodiscard]] std::string bar() const;
     void report(const char* what, std::size_t done, std::size_t count);
     void writeLine(droplet::Stage stage, bool done) const;
-    void writeShare() const;
     void drawUntilStopped();
     void stop();
 
