@@ -69,7 +69,7 @@ export interface Options {
     /** Edge length of the triangles, instead of triangles; a number is in m */
     edge?: string | number;
     /** Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles where gravity flattens all but the rim [auto] */
-    grading?: string;
+    grading?: 'auto' | 1 | 2 | 4 | 8 | 16 | 32 | 64;
     /** Leave out the base */
     open?: boolean;
     /** Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own] */

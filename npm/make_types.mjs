@@ -19,10 +19,9 @@ function typeOf({ value, unit }) {
         return 'number';
     }
     const words = value.split('|');
-    if (words.every((word) => /^\d+$/.test(word))) {
-        return words.join(' | ');
-    }
-    return words.every((word) => /^[a-z]+$/.test(word)) ? words.map((word) => `'${word}'`).join(' | ') : 'string';
+    return words.every((word) => /^([a-z]+|\d+)$/.test(word))
+        ? words.map((word) => /^\d/.test(word) ? word : `'${word}'`).join(' | ')
+        : 'string';
 }
 const lines = options.map((option) => {
     // With superscripts, as in texts.
