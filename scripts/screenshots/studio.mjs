@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG PHONE_PNG
 import { pathToFileURL } from 'node:url';
+import { choose, setValue, settle } from '../../tests/studio/controls.mjs';
 
 const [executablePath, playwright, studio, desktop, phone] = process.argv.slice(2);
 const { chromium } = await import(pathToFileURL(`${playwright}/index.mjs`));
@@ -35,18 +36,9 @@ async function stroke(page, points) {
     await touch('touchEnd');
 }
 
-const choose = (page, tool) => page.locator(`#tools [value=${tool}]`).check({ force: true });
-
-const set = (page, id, value) => page.locator(`#${id}`).evaluate((control, to) => {
-    control.value = to;
-    control.dispatchEvent(new Event('input', { bubbles: true }));
-    control.dispatchEvent(new Event('change', { bubbles: true }));
-}, String(value));
-
 /** Takes the picture when the whole meshes are shown and nothing moves. */
 async function take(page, path) {
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    await page.waitForFunction(() => document.documentElement.dataset.droplets === 'ready' && document.documentElement.dataset.state === 'resting');
+    await settle(page);
     await page.screenshot({ path });
     await page.close();
 }
@@ -54,7 +46,7 @@ async function take(page, path) {
 // A flower: petals of ink around a drop of honey.
 const flower = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light', hasTouch: true });
 await flower.locator('#name').fill('Flower');
-await set(flower, 'liquid-material', 'ink');
+await setValue(flower, 'liquid-material', 'ink');
 await choose(flower, 'lasso');
 await stroke(flower, curve(240, (t) => {
     const angle = 2 * Math.PI * t;
@@ -66,14 +58,14 @@ await flower.locator('#subtract').check();
 await stroke(flower, [[0.36, 0.36], [0.64, 0.64]]);
 await flower.locator('#subtract').uncheck();
 await flower.locator('#layer-add').click();
-await set(flower, 'liquid-liquid', 'honey');
+await setValue(flower, 'liquid-liquid', 'honey');
 await stroke(flower, [[0.385, 0.385], [0.615, 0.615]]);
 await choose(flower, 'brush');
 await take(flower, desktop);
 
 // Handwriting in water.
 const loops = await opened({ viewport: { width: 390, height: 760 }, deviceScaleFactor: 1.5, colorScheme: 'dark', hasTouch: true, isMobile: true });
-await set(loops, 'size', 78);
+await setValue(loops, 'size', 78);
 await stroke(loops, curve(160, (t) => {
     const angle = 2 * Math.PI * 2.5 * t;
     return [0.19 + 0.62 * t - 0.12 * Math.sin(angle), 0.5 + 0.26 * Math.cos(angle)];

@@ -10,6 +10,7 @@ import { join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
+import { choose, setValue, settle } from './controls.mjs';
 
 const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 const kStudio = pathToFileURL(resolve(STUDIO)).href;
@@ -70,20 +71,8 @@ function studio(name, options, run, url = kStudio) {
     });
 }
 
-/** Waits until all whole meshes are shown and nothing moves. */
-async function settle(page) {
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    await page.waitForFunction(() => document.documentElement.dataset.droplets === 'ready' && document.documentElement.dataset.state === 'resting');
-}
-
 const said = (page) => page.locator('#said').textContent();
 const result = (page) => page.locator('#result').textContent();
-const choose = (page, tool) => page.locator(`#tools [value=${tool}]`).check({ force: true });
-const setValue = (page, id, value) => page.locator(`#${id}`).evaluate((control, to) => {
-    control.value = to;
-    control.dispatchEvent(new Event('input', { bubbles: true }));
-    control.dispatchEvent(new Event('change', { bubbles: true }));
-}, String(value));
 
 /** Draws through points, as parts of the sheet's width and height. */
 async function stroke(page, ...points) {
