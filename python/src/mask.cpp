@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "droplet/error.h"
 #include "droplet/picture/picture.h"
 #include "shape_options.h"
+#include "state.h"
 #include "work.h"
 
 namespace binding {
@@ -153,6 +155,33 @@ std::string pngOf(const py::handle& from)
     return std::move(png).str();
 }
 
+template <>
+struct Members<droplet::MaskLevels> {
+    static constexpr std::tuple list{&droplet::MaskLevels::channel, &droplet::MaskLevels::dry,
+                                     &droplet::MaskLevels::liquid};
+};
+
+template <>
+struct Members<droplet::Mask> {
+    static constexpr std::tuple list{&droplet::Mask::width,
+                                     &droplet::Mask::height,
+                                     &droplet::Mask::coverage,
+                                     &droplet::Mask::channel,
+                                     &droplet::Mask::inverted,
+                                     &droplet::Mask::segment,
+                                     &droplet::Mask::segment_confidence,
+                                     &droplet::Mask::level_dry,
+                                     &droplet::Mask::level_liquid,
+                                     &droplet::Mask::found,
+                                     &droplet::Mask::raster_scale,
+                                     &droplet::Mask::physical_width};
+};
+
+template <>
+struct Members<Mask> {
+    static constexpr std::tuple list{&Mask::mask, &Mask::path, &Mask::threshold};
+};
+
 void bindMask(py::module_& module)
 {
     py::class_<Mask, std::shared_ptr<Mask>>(module, "Mask", py::buffer_protocol(),
@@ -184,6 +213,24 @@ shares its memory: 0 is dry, 65535 is liquid.)")
         .def_property_readonly(
             "physical_width", [](const Mask& self) { return self.mask.physical_width; },
             "Width that an SVG states [m], or None.")
+        .def(
+            "_repr_png_",
+            [](const Mask& self) {
+                std::ostringstream png;
+                {
+                    const py::gil_scoped_release release;
+                    droplet::writePng(droplet::DeepPicture{self.mask.width, self.mask.height, 1, self.mask.coverage},
+                                      png, droplet::PngEffort::Fast);
+                }
+                return py::bytes(png.str());
+            },
+            "Picture for notebooks, as PNG: white is liquid.")
+        .def(py::pickle([](const Mask& self) { return pickled(stateOf(self)); },
+                        [](const py::tuple& pickle) {
+                            auto mask = std::make_shared<Mask>(valueOf<Mask>(unpickled(pickle)));
+                            mask->mask.validate();
+                            return mask;
+                        }))
         .def("__repr__", [](const Mask& self) {
             return fmt::format("<Mask of {} x {} pixels>", self.mask.width, self.mask.height);
         });
