@@ -32,6 +32,12 @@ class InputNotFound(InvalidInput, FileNotFoundError):
     errno = errno.ENOENT
 
 
+class _OptionNotFound(InvalidArgument, FileNotFoundError):
+    """A file that an option names does not exist."""
+
+    errno = errno.ENOENT
+
+
 class OutputFailed(Error, OSError):
     """A file cannot be written completely."""
 
@@ -46,6 +52,8 @@ class NoSuchDroplet(Error, ValueError):
 
 _CLASSES = {kind.code: kind for kind in (InvalidArgument, InvalidInput, OutputFailed, NoSuchDroplet)}
 
+_NOT_FOUND = {"InvalidInput": InputNotFound, "InvalidArgument": _OptionNotFound}
+
 
 def in_python(message: str) -> str:
     """A message with the names that options have in Python: contact_angle for --contact-angle."""
@@ -58,8 +66,8 @@ _TOO_LARGE_ANGLE = re.compile(r"'(-?[\d.e+-]+)rad' must be ")
 def made(code: str, message: str) -> Error:
     """The exception for an error of the library."""
     message = in_python(message)
-    if code != "OutputFailed" and message.endswith(os.strerror(errno.ENOENT)):
-        return InputNotFound(message)
+    if code in _NOT_FOUND and message.endswith(os.strerror(errno.ENOENT)):
+        return _NOT_FOUND[code](message)
     angle = _TOO_LARGE_ANGLE.search(message)
     if angle:
         message += f"; a number is in radians: write '{float(angle.group(1)):g}deg'"

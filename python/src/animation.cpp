@@ -207,7 +207,7 @@ void save(const Animation& self, const py::object& file, const std::optional<std
         file.attr("write")(bytesOf(self, material));
         return;
     }
-    const auto path = file.cast<std::filesystem::path>();
+    const auto path = pathOf(file);
     const py::gil_scoped_release release;
     if (path.extension() != ".glb" && path.extension() != ".GLB") {
         throw Error(ErrorCode::InvalidArgument,

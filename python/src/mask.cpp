@@ -13,7 +13,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -101,13 +100,7 @@ Mask readMask(const std::filesystem::path& path, const Arguments& arguments)
     Arguments all = arguments;
     all.insert(all.end(), {"INPUT", "droplet.glb"});
     const auto options = parsed(cli::parseShape, all);
-    Mask read{{}, path.string(), {}};
-    try {
-        read.mask = droplet::readMask(path, options.footprint.mask);
-    } catch (const Error& error) {
-        const bool is_named = std::string_view(error.what()).starts_with(read.path);
-        throw Error(error.code(), is_named ? error.what() : read.path + ": " + error.what());
-    }
+    Mask read{droplet::readMask(path, options.footprint.mask), path.string(), {}};
     if (options.footprint.mask.accept_any) {
         read.threshold = options.footprint.trace.threshold;
     }

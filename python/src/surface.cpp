@@ -12,10 +12,9 @@
 #include <utility>
 
 #include "droplet/io/output.h"
-#include "droplet/picture/picture.h"
-#include "droplet/picture/render.h"
 #include "files.h"
 #include "option_values.h"
+#include "preview.h"
 #include "state.h"
 #include "surface_files.h"
 
@@ -91,16 +90,15 @@ py::object pictureOf(const Surface& self)
     std::ostringstream png;
     {
         const py::gil_scoped_release release;
-        droplet::RenderOptions options;
+        cli::PreviewOptions options;
         options.width = kWidth;
         options.height = kHeight;
-        options.look = droplet::lookOf(self.material());
-        options.looks = self.looks();
+        cli::PreviewSubject subject{self.surface(), droplet::lookOf(self.material()), self.looks(), {}, {}, {}, {}, {}};
         if (const auto& stand = self.parts().stand) {
-            options.stand = stand->mesh;
-            options.shows_whole_stand = stand->is_object;
+            subject.stand = stand->mesh;
+            subject.on_object = stand->is_object;
         }
-        droplet::writePng(droplet::render(self.surface(), options), png);
+        cli::previewFiles(options, subject).front().write(png);
     }
     return py::bytes(png.str());
 }
@@ -183,6 +181,11 @@ bool isFileObject(const py::object& file)
     return py::hasattr(file, "write");
 }
 
+std::filesystem::path pathOf(const py::object& file)
+{
+    return py::module_::import("os").attr("fspath")(file).cast<std::filesystem::path>();
+}
+
 py::bytes bytesOf(const Surface& surface, const SaveOptions& options)
 {
     std::ostringstream out;
@@ -199,7 +202,7 @@ void saveSurface(const Surface& surface, const py::object& file, const SaveOptio
         file.attr("write")(bytesOf(surface, options));
         return;
     }
-    const auto path = file.cast<std::filesystem::path>();
+    const auto path = pathOf(file);
     const py::gil_scoped_release release;
     const std::string name = path.string();
     const auto format = options.format ? formatOf(options) : cli::forOption("path: '" + name + "'", [&] {

@@ -77,6 +77,9 @@ pybind11::bytes bytesOf(const Surface& surface, const SaveOptions& options);
 /// Whether an object takes bytes, as a file that is open does.
 bool isFileObject(const pybind11::object& file);
 
+/// Path of a file; TypeError in Python for an object that is none.
+std::filesystem::path pathOf(const pybind11::object& file);
+
 /// State of parts for pickle, without their stand.
 pybind11::object stateOf(const SurfaceParts& parts);
 

@@ -42,21 +42,19 @@ class Pickles(unittest.TestCase):
         for name in ARRAYS:
             np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
         self.assertEqual(ours.warnings, theirs.warnings)
-        self.assertEqual(ours._repr_png_(), theirs._repr_png_())
         for extension in ("glb", "obj", "usda"):
             self.assertEqual(ours.to_bytes(extension), theirs.to_bytes(extension))
 
     def copies(self, value):
-        yield copy.copy(value)
         yield copy.deepcopy(value)
-        for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        for protocol in (2, pickle.HIGHEST_PROTOCOL):
             yield pickle.loads(pickle.dumps(value, protocol))
 
     def test_droplets(self):
         for drop in (
             ds.make_droplet(disc(), liquid="mercury", fill_range=(0, 2), **SMALL),
             ds.make_droplet(disc(), surface="sphere:R=30mm", **SMALL),
-            ds.make_droplet(disc(), onto=DATA / "can.glb", width="10mm", **SMALL),
+            ds.make_droplet(ds.read_mask(DATA / "dew.png"), onto=DATA / "can.glb", **SMALL),
             ds.glyphs(FONT, "o", advancing="60deg", receding="20deg", tilt="10deg", **SMALL),
             flag(),
         ):
@@ -65,6 +63,7 @@ class Pickles(unittest.TestCase):
                 self.assertEqual(other.report, drop.report)
                 self.assertEqual(other.to_bytes(nodes="each"), drop.to_bytes(nodes="each"))
                 self.assertFalse(np.shares_memory(other.vertices, drop.vertices))
+            self.assertEqual(other._repr_png_(), drop._repr_png_())
 
     def test_attributes_stay(self):
         drop = ds.make_droplet(disc(), **SMALL)
@@ -210,7 +209,7 @@ class MissingFiles(unittest.TestCase):
             lambda path: drop.to_bytes(materials=path),
         )
         for call in calls:
-            for path in ("nowhere.glb", Path("no folder", "nowhere.png")):
+            for path in ("nowhere.glb", Path("no folder", "nowhere.glb")):
                 with self.assertRaises(FileNotFoundError) as caught:
                     call(path)
                 self.assertIsInstance(caught.exception, ds.Error)
