@@ -97,9 +97,10 @@ public:
         for (std::size_t i = 0; i < droplet.warnings.size(); ++i) {
             warn(name, droplet.warnings[i], i < droplet.severe_warnings);
         }
-        made_->frames.push_back({std::make_shared<Surface>(SurfaceParts{droplet.surface, options_.settings.material,
-                                                                        droplet.warnings, stand_}),
-                                 frame.continues, frame.closed});
+        made_->frames.push_back(
+            {std::make_shared<Surface>(SurfaceParts{droplet.surface, options_.settings.material, droplet.warnings},
+                                       stand_),
+             frame.continues, frame.closed});
         report_.frames.push_back(std::move(frame));
     }
 
@@ -223,7 +224,7 @@ py::object stateOf(const Animation& self)
     for (const Frame& frame : self.frames) {
         frames.append(py::make_tuple(binding::stateOf(frame.surface->parts()), frame.continues, frame.closed));
     }
-    return py::make_tuple(frames, binding::stateOf(self.frames.front().surface->parts().stand), self.frames_per_second,
+    return py::make_tuple(frames, binding::stateOf(self.frames.front().surface->stand()), self.frames_per_second,
                           binding::stateOf(self.warnings), self.json);
 }
 
@@ -235,7 +236,7 @@ std::shared_ptr<Animation> animationOf(const py::handle& state)
     auto animation = std::make_shared<Animation>();
     for (const py::handle& frame : frames) {
         const auto [parts, continues, closed] = frame.cast<std::tuple<py::object, bool, bool>>();
-        animation->frames.push_back({std::make_shared<Surface>(partsOf(parts, stand)), continues, closed});
+        animation->frames.push_back({std::make_shared<Surface>(partsOf(parts), stand), continues, closed});
     }
     animation->frames_per_second = frames_per_second;
     animation->warnings = valueOf<std::vector<std::string>>(warnings);

@@ -146,9 +146,9 @@ std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::Drop
     std::vector<droplet::DropletReport> droplets = report.droplets;
     std::vector<std::string> warnings = report.warnings;
     return std::shared_ptr<Droplet>(
-        new Droplet({std::move(droplet.surface), settings.material, std::move(warnings),
-                     standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent)},
-                    std::move(report), std::move(droplets)));
+        new Droplet({std::move(droplet.surface), settings.material, std::move(warnings)},
+                    standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent), std::move(report),
+                    std::move(droplets)));
 }
 
 std::shared_ptr<Droplet> Droplet::ofState(const py::handle& state)
@@ -165,7 +165,7 @@ std::shared_ptr<Droplet> Droplet::ofState(const py::handle& state)
         report.colour = each.colour;
         droplets.push_back(std::move(report));
     }
-    return std::shared_ptr<Droplet>(new Droplet(partsOf(parts, binding::standOf(stand)), json, std::move(droplets)));
+    return std::shared_ptr<Droplet>(new Droplet(partsOf(parts), binding::standOf(stand), json, std::move(droplets)));
 }
 
 py::object Droplet::state() const
@@ -175,7 +175,7 @@ py::object Droplet::state() const
         figures.push_back({each.figures.volume, each.figures.contact_angle.mean, each.figures.height_max, each.pressure,
                            each.colour});
     }
-    return py::make_tuple(stateOf(parts()), stateOf(parts().stand), json(), stateOf(figures));
+    return py::make_tuple(stateOf(parts()), stateOf(stand()), json(), stateOf(figures));
 }
 
 std::vector<droplet::FileDroplet> Droplet::inFile(droplet::Material material, droplet::Nodes nodes,

@@ -69,8 +69,9 @@ public:
 private:
     using Reports = std::vector<droplet::DropletReport>;
 
-    Droplet(SurfaceParts parts, std::variant<droplet::Report, std::string> report, Reports droplets)
-        : Surface(std::move(parts)), report_(std::move(report)), droplets_(std::move(droplets))
+    Droplet(SurfaceParts parts, std::shared_ptr<const Stand> stand, std::variant<droplet::Report, std::string> report,
+            Reports droplets)
+        : Surface(std::move(parts), std::move(stand)), report_(std::move(report)), droplets_(std::move(droplets))
     {
     }
 

@@ -23,6 +23,23 @@ namespace binding {
 template <typename Struct>
 struct Members;
 
+/// Value of any member.
+struct Anything {
+    template <typename Value>
+    operator Value() const;
+};
+
+/// Number of members of a struct.
+template <typename Struct, typename... Found>
+constexpr std::size_t memberCount()
+{
+    if constexpr (requires { Struct{Found{}..., Anything{}}; }) {
+        return memberCount<Struct, Found..., Anything>();
+    } else {
+        return sizeof...(Found);
+    }
+}
+
 template <typename Value>
 concept Structured = requires
 {
@@ -64,6 +81,8 @@ pybind11::object stateOf(const Value& value)
             return items;
         }
     } else {
+        static_assert(memberCount<Value>() == std::tuple_size_v<decltype(Members<Value>::list)>,
+                      "Members<Value> lacks a member");
         return std::apply([&](auto... members) -> py::object { return py::make_tuple(stateOf(value.*members)...); },
                           Members<Value>::list);
     }

@@ -94,7 +94,7 @@ py::object pictureOf(const Surface& self)
         options.width = kWidth;
         options.height = kHeight;
         cli::PreviewSubject subject{self.surface(), droplet::lookOf(self.material()), self.looks(), {}, {}, {}, {}, {}};
-        if (const auto& stand = self.parts().stand) {
+        if (const auto& stand = self.stand()) {
             subject.stand = stand->mesh;
             subject.on_object = stand->is_object;
         }
@@ -151,14 +151,13 @@ py::object stateOf(const std::shared_ptr<const Stand>& stand)
     return stand ? stateOf(*stand) : py::none();
 }
 
-SurfaceParts partsOf(const py::handle& parts, std::shared_ptr<const Stand> stand)
+SurfaceParts partsOf(const py::handle& state)
 {
-    auto value = valueOf<SurfaceParts>(parts);
-    if (!value.surface.triangles.empty()) {
-        value.surface.validate();
+    auto parts = valueOf<SurfaceParts>(state);
+    if (!parts.surface.triangles.empty()) {
+        parts.surface.validate();
     }
-    value.stand = std::move(stand);
-    return value;
+    return parts;
 }
 
 std::shared_ptr<const Stand> standOf(const py::handle& state)
@@ -289,12 +288,10 @@ file cannot be written.)")
 Raises InvalidArgument for another format.)")
         .def("_repr_png_", &pictureOf, "Picture for notebooks, 640 x 480 pixels, as PNG.")
         .def(py::pickle(
-            [](const Surface& self) {
-                return pickled(py::make_tuple(stateOf(self.parts()), stateOf(self.parts().stand)));
-            },
+            [](const Surface& self) { return pickled(py::make_tuple(stateOf(self.parts()), stateOf(self.stand()))); },
             [](const py::tuple& pickle) {
                 const py::tuple states = unpickled(pickle);
-                return std::make_shared<Surface>(partsOf(states[0], standOf(states[1])));
+                return std::make_shared<Surface>(partsOf(states[0]), standOf(states[1]));
             }))
         .def("__repr__", [](const py::object& self) {
             const auto& surface = self.cast<const Surface&>().surface();

@@ -27,19 +27,22 @@ struct SurfaceParts {
     droplet::Surface surface;
     droplet::Material material = droplet::Material::Water;
     std::vector<std::string> warnings = {};
-    std::shared_ptr<const Stand> stand = {};  ///< nothing if the ground is flat; frames share it
 };
 
 /// Surface that Python holds, with what its files and its picture need. It does not change after it was made, because
 /// arrays in Python share its memory.
 class Surface {
 public:
-    explicit Surface(SurfaceParts parts) : parts_(std::move(parts)) {}
+    /// @param stand  nothing if the ground is flat; frames share it
+    Surface(SurfaceParts parts, std::shared_ptr<const Stand> stand) : parts_(std::move(parts)), stand_(std::move(stand))
+    {
+    }
     virtual ~Surface() = default;
     Surface(const Surface&) = delete;
     Surface& operator=(const Surface&) = delete;
 
     [[nodiscard]] const SurfaceParts& parts() const { return parts_; }
+    [[nodiscard]] const std::shared_ptr<const Stand>& stand() const { return stand_; }
     [[nodiscard]] const droplet::Surface& surface() const { return parts_.surface; }
     [[nodiscard]] droplet::Material material() const { return parts_.material; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return parts_.warnings; }
@@ -49,6 +52,7 @@ public:
 
 private:
     SurfaceParts parts_;
+    std::shared_ptr<const Stand> stand_;
 };
 
 /// What save() and to_bytes() in Python have in common.
@@ -80,15 +84,15 @@ bool isFileObject(const pybind11::object& file);
 /// Path of a file; TypeError in Python for an object that is none.
 std::filesystem::path pathOf(const pybind11::object& file);
 
-/// State of parts for pickle, without their stand.
+/// State of parts for pickle.
 pybind11::object stateOf(const SurfaceParts& parts);
 
 /// State of a stand for pickle; None for nothing.
 pybind11::object stateOf(const std::shared_ptr<const Stand>& stand);
 
-/// Parts of two states.
-/// @throws droplet::Error InvalidArgument: the surface or the stand is not valid
-SurfaceParts partsOf(const pybind11::handle& parts, std::shared_ptr<const Stand> stand);
+/// Parts of a state.
+/// @throws droplet::Error InvalidArgument: the surface is not valid
+SurfaceParts partsOf(const pybind11::handle& state);
 
 /// Stand of a state.
 /// @throws droplet::Error InvalidArgument: it is not valid
